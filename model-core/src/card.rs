@@ -1,0 +1,168 @@
+//! # Card: an effect's page as data
+//!
+//! What a person reads on an effect's page and what the tools need to know about it are the same facts, so they are
+//! written once, as a constant beside the law. `omni-gap explain` prints a card, `robot.toml` takes its keys from it,
+//! the ranking takes its bounds and look-alikes from it, and the tests hold every card to what it says.
+
+/// The most parameters that one effect may have.
+pub const MAX_PARAMS: usize = 4;
+
+/// Where on the signal path an effect acts, in signal order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Seam {
+    /// Battery: bus current → bus voltage.
+    Supply,
+    /// Bridge: commanded voltage → terminal voltage.
+    Drive,
+    /// Winding: terminal voltage → current → shaft torque.
+    Winding,
+    /// Gear: motor torque → wheel torque, with the friction and inertia that sit on the wheel shaft.
+    Gear,
+    /// Contact: wheel torque → force on the floor.
+    Contact,
+    /// Body: forces → acceleration.
+    Body,
+    /// Sensors: truth → reading.
+    Sense,
+}
+
+impl Seam {
+    /// All seams in signal order.
+    pub const ALL: [Seam; 7] =
+        [Seam::Supply, Seam::Drive, Seam::Winding, Seam::Gear, Seam::Contact, Seam::Body, Seam::Sense];
+
+    /// The stage that a report names for this seam.
+    pub const fn stage(self) -> Stage {
+        match self {
+            Seam::Supply | Seam::Drive | Seam::Winding => Stage::Electrical,
+            Seam::Gear => Stage::Drivetrain,
+            Seam::Contact => Stage::Contact,
+            Seam::Body => Stage::Body,
+            Seam::Sense => Stage::Sensing,
+        }
+    }
+}
+
+/// The five stages of the robot that a report speaks of, in signal order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Stage {
+    /// Voltage to current.
+    Electrical,
+    /// Current to torque at the wheel.
+    Drivetrain,
+    /// Wheel to floor.
+    Contact,
+    /// Force to motion.
+    Body,
+    /// Motion to reading.
+    Sensing,
+}
+
+impl Stage {
+    /// All stages in signal order.
+    pub const ALL: [Stage; 5] =
+        [Stage::Electrical, Stage::Drivetrain, Stage::Contact, Stage::Body, Stage::Sensing];
+
+    /// The name that files use.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Stage::Electrical => "electrical",
+            Stage::Drivetrain => "drivetrain",
+            Stage::Contact => "contact",
+            Stage::Body => "body",
+            Stage::Sensing => "sensing",
+        }
+    }
+}
+
+/// Where an effect sits on the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// On the robot as a whole.
+    Robot,
+    /// On every wheel alike, or on one wheel alone.
+    Wheels,
+    /// On one wheel alone: on all of them it would be a nominal parameter.
+    OneWheel,
+}
+
+/// One parameter of an effect.
+#[derive(Clone, Copy, Debug)]
+pub struct Param {
+    /// Its key in `robot.toml`, in snake case, with the unit as suffix where it has one.
+    pub key: &'static str,
+    /// Its symbol in the equation.
+    pub symbol: &'static str,
+    /// Its SI unit, "1" where it has none.
+    pub unit: &'static str,
+    /// The value at which the effect does nothing, whatever the other parameters are; for a parameter that only shapes
+    /// the effect, its default.
+    pub absent: f64,
+    /// A value often met on a small omni robot.
+    pub typical: f64,
+    /// The lowest and the highest value that make physical sense.
+    pub within: (f64, f64),
+    /// What the diagnosis does with it.
+    pub role: Role,
+}
+
+/// What a parameter does in its effect, and so what a fit does with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// It sizes the effect: at `absent` there is none. Fitted; must stand in `robot.toml`.
+    Size,
+    /// It shapes the effect. Fitted from `typical`; `typical` where `robot.toml` leaves it out.
+    Shape,
+    /// It shapes the effect too weakly to be found in a recording. Held at `typical`, which is also its default.
+    Fixed,
+}
+
+/// An effect that can be mistaken for another.
+#[derive(Clone, Copy, Debug)]
+pub struct LookAlike {
+    /// The id of the other effect, or of a nominal parameter.
+    pub with: &'static str,
+    /// The measurement that tells the two apart, as an instruction to a person.
+    pub settled_by: &'static str,
+}
+
+/// An effect's page as data.
+#[derive(Clone, Copy, Debug)]
+pub struct Card {
+    /// Its name in files: that of its source file.
+    pub id: &'static str,
+    /// Its name for people.
+    pub title: &'static str,
+    /// One sentence in plain words: what happens on the robot.
+    pub summary: &'static str,
+    /// The law.
+    pub equation: &'static str,
+    /// Where the law and the sizes come from.
+    pub source: &'static str,
+    /// The seams that it touches, in signal order; the first is its home.
+    pub seams: &'static [Seam],
+    /// Where it sits.
+    pub place: Place,
+    /// Its parameters, in the order in which the hooks receive them; at most [`MAX_PARAMS`].
+    pub params: &'static [Param],
+    /// Numbers of memory that one instance keeps; on an effect of wheels, for every wheel.
+    pub memory: usize,
+    /// True if its drive hook looks at the current, which then has to be solved for.
+    pub needs_current: bool,
+    /// Where it shows in a recording.
+    pub signature: &'static str,
+    /// What it can be mistaken for.
+    pub look_alikes: &'static [LookAlike],
+}
+
+impl Card {
+    /// The stage where a report places the effect.
+    pub const fn stage(&self) -> Stage {
+        self.seams[0].stage()
+    }
+
+    /// The index of a parameter by its key.
+    pub fn param(&self, key: &str) -> Option<usize> {
+        self.params.iter().position(|p| p.key == key)
+    }
+}
