@@ -1,0 +1,4 @@
+//! Effects between the wheel and the floor.
+
+pub mod creep;
+pub mod wheel_slip;

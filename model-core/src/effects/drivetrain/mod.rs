@@ -1,0 +1,5 @@
+//! Effects between the shaft torque and the wheel.
+
+pub mod gear_efficiency;
+pub mod rotor_inertia;
+pub mod stribeck;

@@ -1,0 +1,116 @@
+//! # Dead time: around zero current the bridge loses voltage
+//!
+//! ```text
+//! Δu = V_d · sat(i / i₀)        sat(x) = x held within ±1
+//! ```
+//!
+//! Between switching one transistor of a leg off and the other on, the current runs through a diode, and the sign of
+//! the current decides to which rail. Averaged over the PWM period the motor loses V_d = t_d·f_pwm·u_bus plus the
+//! drops of switches and diodes, against the current's sign. While the ripple carries the current through zero, part
+//! of the losses cancel: with a triangular ripple of amplitude i₀ the average of the sign is exactly sat(i/i₀).
+//!
+//! symbol  code                 unit  meaning
+//! ------  -------------------  ----  ---------------------------------------------
+//! V_d     `voltage_loss`       V     voltage lost at currents well above the ripple
+//! i₀      `smoothing_current`  A     amplitude of the current ripple
+//!
+//! Fails when: the current is discontinuous (low inductance, light load).
+//! How to measure it: locked wheel, slow ramp of voltage: the current stays near zero up to V_d, then rises with 1/R.
+//! Source: size from catalogue note E2 (0.05–0.6 V); the paper sees it as part of R (section 5.4).
+
+use crate::card::{Card, LookAlike, Param, Place, Role, Seam};
+use crate::effects::Effect;
+use crate::scalar::Real;
+use crate::seams::{At, Drive};
+
+/// The effect's page as data.
+pub const CARD: Card = Card {
+    id: "dead_time",
+    title: "Dead time of the bridge",
+    summary: "The bridge loses a fixed voltage against the sign of the current, so that small commands do nothing.",
+    equation: "Δu = V_d · sat(i / i₀)",
+    source: "average of the sign of a current with triangular ripple; sizes: catalogue E2",
+    seams: &[Seam::Drive],
+    place: Place::Wheels,
+    params: &[
+        Param {
+            key: "voltage_loss_V",
+            symbol: "V_d",
+            unit: "V",
+            absent: 0.0,
+            typical: 0.3,
+            within: (0.0, 1.5),
+            role: Role::Size,
+        },
+        Param {
+            key: "smoothing_current_A",
+            symbol: "i₀",
+            unit: "A",
+            absent: 0.05,
+            typical: 0.05,
+            within: (0.01, 0.5),
+            role: Role::Fixed,
+        },
+    ],
+    memory: 0,
+    needs_current: true,
+    signature: "current short of (u − K_v·ω)/R by V_d/R, against its own sign, at all speeds; wheels do not start at small voltages",
+    look_alikes: &[
+        LookAlike { with: "resistance", settled_by: "lock a wheel and ramp its voltage slowly: dead time leaves a flat spot, resistance does not" },
+        LookAlike { with: "coulomb_friction", settled_by: "compare current with voltage at standstill: friction leaves u = R·i, dead time does not" },
+    ],
+};
+
+/// Voltage lost [V].
+#[inline]
+pub fn loss<T: Real>(voltage_loss: T, smoothing_current: T, current: T) -> T {
+    // Δu = V_d · sat(i / i₀)
+    voltage_loss * (current / smoothing_current).clamp(-T::one(), T::one())
+}
+
+/// Dead time of the bridge.
+#[derive(Debug)]
+pub struct DeadTime;
+
+impl<T: Real> Effect<T> for DeadTime {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn drive(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Drive<T>) {
+        let &[voltage_loss, smoothing_current] = p else { return };
+        let lost = loss(voltage_loss, smoothing_current, x.current);
+        x.voltage -= lost;
+        x.sampled -= lost;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn well_above_the_ripple_the_whole_loss_stands_against_the_current() {
+        assert_eq!(loss(0.3, 0.05, 1.0_f64), 0.3);
+        assert_eq!(loss(0.3, 0.05, -1.0_f64), -0.3);
+    }
+
+    #[test]
+    fn it_is_the_mean_sign_of_a_current_with_triangular_ripple() {
+        let (mean, amplitude, n) = (0.02_f64, 0.05_f64, 100_000);
+        let mut sum = 0.0;
+        for k in 0..n {
+            let ripple = amplitude * (2.0 * (f64::from(k) + 0.5) / f64::from(n) - 1.0);
+            sum += Real::sign(mean + ripple);
+        }
+        assert!((sum / f64::from(n) - loss(1.0, amplitude, mean)).abs() < 1e-4);
+    }
+
+    #[test]
+    fn it_never_feeds_power() {
+        for k in -100..=100 {
+            let i = f64::from(k) * 0.01;
+            assert!(loss(0.3, 0.05, i) * i >= 0.0);
+        }
+    }
+}
