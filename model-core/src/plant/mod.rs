@@ -1,0 +1,490 @@
+//! # Plant: the signal path, one step of Δt
+//!
+//! ```text
+//! command ─ bridge ─ winding ─ gear ─ contact ─ body ─ pose
+//!             │         └ current           └ wheel speed   └ sensors → reading
+//!           battery
+//! ```
+//!
+//! The plant is a chain of seams in signal order. At each seam it describes the element as the robot's parameters say,
+//! lets the effects that act there change the description ([`seams`](crate::seams)), and then solves what is described:
+//!
+//! 1. contact: rows, radii and loads, and whether a wheel rolls rigidly;
+//! 2. battery and bridge: voltages, solved together with the currents that they depend on (`electric.rs`);
+//! 3. winding and gear: current, torque, and the dry friction that each shaft can hold;
+//! 4. traction: a wheel that creeps or slips turns faster than the floor passes by (`traction.rs`);
+//! 5. body: all forces, one linearly implicit step, dry friction spent once ([`body`](crate::body));
+//! 6. pose (eq. 1), reading, and the memory of effects.
+//!
+//! The command is held over the step. Error: second order in Δt while no effect switches; at a reversal, where friction
+//! changes its sign within a step, first order for that step alone. `host-tests/tests/integration.rs` holds it to
+//! figures against steps a hundred times smaller.
+
+mod electric;
+mod speed_driven;
+mod traction;
+
+use crate::active::Effects;
+use crate::body::{Mobility, spend};
+use crate::card::{Place, Seam};
+use crate::frames::{BodyTwist, Pose};
+use crate::robot::Robot;
+use crate::scalar::Real;
+use crate::seams::{At, Body, Contact, Gear, STANDARD_GRAVITY, Sense, Turn};
+use crate::small::{add_outer, dot};
+
+/// What drives the robot during a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Input<const N: usize, T> {
+    /// Mean voltage commanded to each motor [V]
+    Voltage([T; N]),
+    /// Current in each motor [A]; all zero is the bridge open
+    Current([T; N]),
+    /// Speed of each wheel at its shaft [rad/s], imposed by a drive that follows it exactly
+    Speed([T; N]),
+}
+
+/// Where the robot is in its motion.
+#[derive(Clone, Copy, Debug)]
+pub struct State<const N: usize, T> {
+    /// Time since the start of the run [s]
+    pub time: T,
+    /// Pose in the world frame
+    pub pose: Pose<T>,
+    /// Velocity in the body frame
+    pub twist: BodyTwist<T>,
+    /// Speed of each wheel at its shaft at the end of the last step [rad/s]
+    pub wheel_speed: [T; N],
+    /// Angle that each wheel has turned through [rad]; kept up only while the model has effects
+    pub wheel_angle: [T; N],
+    /// Current in each motor at the end of the last step [A]
+    pub current: [T; N],
+    /// Bus voltage of the last step [V]
+    pub bus: T,
+}
+
+/// What the sensors say at the beginning of a step, just after its input has been applied.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading<const N: usize, T> {
+    /// Motor currents [A]
+    pub current: [T; N],
+    /// Wheel speeds at the wheel shafts [rad/s]
+    pub wheel_speed: [T; N],
+    /// Pose in the world frame
+    pub pose: Pose<T>,
+    /// Yaw rate [rad/s]
+    pub gyro: T,
+}
+
+/// A model ready to run: a robot and the effects that it carries.
+#[derive(Clone, Copy, Debug)]
+pub struct Plant<const N: usize, T: Real> {
+    robot: Robot<N, T>,
+    effects: Effects<N, T>,
+    /// The contacts as the robot's parameters describe them.
+    contact: [Contact<T>; N],
+    /// Each wheel's share of the body's Coulomb friction, as a torque at its shaft [N·m]
+    coulomb_share: [T; N],
+    /// Damping of the plain model in body axes: back-EMF and viscous friction
+    plain_rate: [[T; 3]; 3],
+}
+
+/// What the wheels do to the body in a step.
+struct Push<T> {
+    /// Force in body axes [N, N, N·m]
+    force: [T; 3],
+    /// −∂force/∂twist
+    rate: [[T; 3]; 3],
+    /// Mass matrix of what turns with the wheels, in body axes
+    mass: [[T; 3]; 3],
+    /// True if any shaft has a dry-friction budget
+    holds: bool,
+}
+
+impl<const N: usize, T: Real> Plant<N, T> {
+    /// A model of this robot with these effects.
+    pub fn new(robot: Robot<N, T>, effects: Effects<N, T>) -> Self {
+        let rows = robot.wheels.rows();
+        let radius = robot.wheels.radii();
+        let zero = T::zero();
+        let load = robot.mass * T::lit(STANDARD_GRAVITY) / T::lit(N as f64);
+        let mut contact = [Contact {
+            row: [zero; 3],
+            radius: zero,
+            load,
+            creep: zero,
+            grip: zero,
+            stiffness: zero,
+            shape: T::one(),
+        }; N];
+        // the Coulomb force that each wheel would have to give for the body's (C_v, C_vn) to come from the wheels:
+        // F_c = (C_v + C_vn) / Σ_j (|cos α_j| + |sin α_j|)
+        let mut reach = zero;
+        for row in &rows {
+            reach += row[0].abs() + row[1].abs();
+        }
+        let coulomb = (robot.friction.coulomb[0] + robot.friction.coulomb[1]) / reach;
+        let mut coulomb_share = [zero; N];
+        let mut plain_rate = [[zero; 3]; 3];
+        let electric = robot.motor.damping();
+        for j in 0..N {
+            contact[j].row = rows[j];
+            contact[j].radius = radius[j];
+            coulomb_share[j] = coulomb * radius[j];
+            // k = (l²·K_t·K_v/R)/r²
+            add_outer(&mut plain_rate, electric / (radius[j] * radius[j]), &rows[j]);
+        }
+        Self { robot, effects, contact, coulomb_share, plain_rate }
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &Robot<N, T> {
+        &self.robot
+    }
+
+    /// The effects.
+    pub fn effects(&self) -> &Effects<N, T> {
+        &self.effects
+    }
+
+    /// How many numbers of memory a run needs: zero without effects that remember. They start at zero.
+    pub fn memory_len(&self) -> usize {
+        self.effects.memory_len()
+    }
+
+    /// A state with this pose and velocity, the wheels rolling without slip and the motors without current.
+    pub fn start(&self, time: T, pose: Pose<T>, twist: BodyTwist<T>) -> State<N, T> {
+        State {
+            time,
+            pose,
+            twist,
+            wheel_speed: self.robot.wheels.wheel_speeds(twist),
+            wheel_angle: [T::zero(); N],
+            current: [T::zero(); N],
+            bus: self.robot.supply,
+        }
+    }
+
+    /// Tells the effects with memory that the motion goes on from this state.
+    pub fn restart(&self, state: &State<N, T>, memory: &mut [T]) {
+        let at = self.at(state, T::zero());
+        for active in self.effects.with_memory() {
+            active.effect.restart(active.params(), &mut memory[active.memory(0)], &at);
+        }
+    }
+
+    /// Takes one step of `dt` [s] with the input held, and returns the reading at its beginning.
+    ///
+    /// `memory` is [`Plant::memory_len`] long.
+    #[inline]
+    pub fn step(&self, state: &mut State<N, T>, memory: &mut [T], input: &Input<N, T>, dt: T) -> Reading<N, T> {
+        match input {
+            Input::Voltage(command) => self.step_forces(state, memory, Source::Voltage(command), dt),
+            Input::Current(current) => self.step_forces(state, memory, Source::Current(current), dt),
+            Input::Speed(speed) => self.step_speed_driven(state, memory, speed, dt),
+        }
+    }
+
+    #[inline]
+    fn step_forces(&self, state: &mut State<N, T>, memory: &mut [T], source: Source<'_, N, T>, dt: T) -> Reading<N, T> {
+        let x = state.twist.to_array();
+        let mut at = self.at(state, dt);
+        let contact = self.contacts(&mut at, state, memory);
+        let rim: [T; N] = core::array::from_fn(|j| dot(&contact[j].row, &x));
+        let bus = self.bus(&at, state, memory, &source, &contact, &rim);
+        let gain = bus / self.robot.supply;
+
+        let mut truth = Reading {
+            current: [T::zero(); N],
+            wheel_speed: [T::zero(); N],
+            pose: state.pose,
+            gyro: state.twist.w,
+        };
+        let mut push = Push { force: [T::zero(); 3], rate: [[T::zero(); 3]; 3], mass: [[T::zero(); 3]; 3], holds: false };
+        let mut held = [([T::zero(); 3], T::zero()); N];
+        let plain = self.effects.none_at(Seam::Drive)
+            && self.effects.none_at(Seam::Winding)
+            && self.effects.none_at(Seam::Gear)
+            && self.effects.none_at(Seam::Contact)
+            && matches!(source, Source::Voltage(_));
+        for j in 0..N {
+            let c = &contact[j];
+            at.wheel = j;
+            at.rim_speed = rim[j];
+            at.wheel_angle = state.wheel_angle[j];
+            at.wheel_speed = rim[j] / c.radius;
+            let mut electric = self.electric(&at, state, memory, &source, j, gain);
+            let mut speed = at.wheel_speed;
+            let mut gear = self.gear(&at, memory, electric.torque);
+            let rigid = c.grip <= T::zero() && c.creep <= T::zero();
+            let (force, rate) = if rigid {
+                // f = τ/r,  k = −∂f/∂v_j = (−∂τ/∂ω)/r²
+                let force = (gear.torque - gear.damping * speed) / c.radius;
+                (force, (electric.slope + gear.damping) / (c.radius * c.radius))
+            } else {
+                let grip = self.grip(&mut at, state, memory, &source, c, gain, &mut electric, &mut gear);
+                speed = grip.wheel_speed;
+                (grip.force, grip.rate)
+            };
+            truth.current[j] = electric.sampled;
+            truth.wheel_speed[j] = speed;
+            state.current[j] = electric.after;
+            for axis in 0..3 {
+                push.force[axis] += c.row[axis] * force;
+            }
+            if !plain {
+                add_outer(&mut push.rate, rate, &c.row);
+                if rigid && gear.inertia > T::zero() {
+                    add_outer(&mut push.mass, gear.inertia / (c.radius * c.radius), &c.row);
+                }
+                if gear.budget > T::zero() {
+                    push.holds = true;
+                    held[j] = (c.row, gear.budget / c.radius);
+                }
+            }
+        }
+        if plain {
+            push.rate = self.plain_rate;
+        }
+        let next = self.move_body(&at, state, memory, &push, &held, dt);
+        self.finish(state, memory, truth, next, &contact, &source, bus, dt)
+    }
+
+    /// Everything that acts on the body, and the twist at the end of the step.
+    #[inline]
+    fn move_body(
+        &self,
+        at: &At<T>,
+        state: &State<N, T>,
+        memory: &[T],
+        push: &Push<T>,
+        held: &[([T; 3], T); N],
+        dt: T,
+    ) -> [T; 3] {
+        let x = state.twist.to_array();
+        let viscous = self.robot.friction.viscous;
+        let zero = T::zero();
+        let mut body = Body {
+            mass: self.robot.mass,
+            inertia: self.robot.inertia,
+            // −B·x
+            force: [-(viscous[0] * x[0]), -(viscous[1] * x[1]), -(viscous[2] * x[2])],
+            rate: [[viscous[0], zero, zero], [zero, viscous[1], zero], [zero, zero, viscous[2]]],
+            budget: self.robot.friction.coulomb,
+        };
+        if !self.effects.none_at(Seam::Body) {
+            let mut at = *at;
+            // a force that depends on the heading is taken in the middle of the step
+            at.pose.theta += T::lit(0.5) * x[2] * dt;
+            for active in self.effects.at(Seam::Body) {
+                active.effect.body(active.params(), &memory[active.memory(0)], &at, &mut body);
+            }
+        }
+        // H = M + ½·Δt·A
+        let half = T::lit(0.5) * dt;
+        let mut h = push.mass;
+        for a in 0..3 {
+            for b in 0..3 {
+                h[a][b] += half * (push.rate[a][b] + body.rate[a][b]);
+            }
+        }
+        h[0][0] += body.mass;
+        h[1][1] += body.mass;
+        h[2][2] += body.inertia;
+        let mobility = Mobility::new(&h);
+        // x_free = x + H⁻¹·Δt·F
+        let force = [
+            dt * (push.force[0] + body.force[0]),
+            dt * (push.force[1] + body.force[1]),
+            dt * (push.force[2] + body.force[2]),
+        ];
+        let change = mobility.of(force);
+        let free = [x[0] + change[0], x[1] + change[1], x[2] + change[2]];
+        spend(free, &mobility, &body.budget, push.holds.then_some(held), dt)
+    }
+
+    /// Moves the pose, takes the reading and lets the effects remember.
+    #[inline]
+    #[allow(clippy::too_many_arguments)]
+    fn finish(
+        &self,
+        state: &mut State<N, T>,
+        memory: &mut [T],
+        truth: Reading<N, T>,
+        next: [T; 3],
+        contact: &[Contact<T>; N],
+        source: &Source<'_, N, T>,
+        bus: T,
+        dt: T,
+    ) -> Reading<N, T> {
+        let reading = self.read(&self.at(state, dt), memory, truth);
+        let next = BodyTwist::from_array(next);
+        let mean = state.twist.mean(next);
+        if !self.effects.is_empty() {
+            self.remember(state, memory, &truth, source, bus, dt);
+            for j in 0..N {
+                state.wheel_angle[j] += dt * dot(&contact[j].row, &mean.to_array()) / contact[j].radius;
+            }
+        }
+        state.pose = state.pose.moved(mean, dt);
+        state.twist = next;
+        state.time += dt;
+        state.bus = bus;
+        for j in 0..N {
+            let rigid = contact[j].grip <= T::zero() && contact[j].creep <= T::zero();
+            state.wheel_speed[j] = if rigid {
+                dot(&contact[j].row, &next.to_array()) / contact[j].radius
+            } else {
+                truth.wheel_speed[j]
+            };
+        }
+        reading
+    }
+
+    /// What the sensors make of the truth.
+    #[inline]
+    fn read(&self, at: &At<T>, memory: &[T], truth: Reading<N, T>) -> Reading<N, T> {
+        if self.effects.none_at(Seam::Sense) {
+            return truth;
+        }
+        let mut reading = truth;
+        for active in self.effects.at(Seam::Sense) {
+            if active.effect.card().place == Place::Robot {
+                let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
+                active.effect.sense(active.params(), &memory[active.memory(0)], at, &mut x);
+                (reading.pose, reading.gyro) = (x.pose, x.gyro);
+                continue;
+            }
+            for j in (0..N).filter(|j| active.on(*j)) {
+                let at = At { wheel: j, wheel_speed: truth.wheel_speed[j], ..*at };
+                let mut x =
+                    Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
+                active.effect.sense(active.params(), &memory[active.memory(j)], &at, &mut x);
+                (reading.current[j], reading.wheel_speed[j]) = (x.current, x.wheel_speed);
+            }
+        }
+        reading
+    }
+
+    /// The truth behind a smoothed reading: the way back through the sensing effects, last one first.
+    pub fn unread(&self, time: T, twist: BodyTwist<T>, mut reading: Reading<N, T>) -> Reading<N, T> {
+        let at = At { time, pose: reading.pose, twist, nominal_supply: self.robot.supply, ..At::default() };
+        for active in self.effects.at(Seam::Sense) {
+            if active.effect.card().place == Place::Robot {
+                let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
+                active.effect.unsense(active.params(), &at, &mut x);
+                (reading.pose, reading.gyro) = (x.pose, x.gyro);
+                continue;
+            }
+            for j in (0..N).filter(|j| active.on(*j)) {
+                let at = At { wheel: j, ..at };
+                let mut x =
+                    Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
+                active.effect.unsense(active.params(), &at, &mut x);
+                (reading.current[j], reading.wheel_speed[j]) = (x.current, x.wheel_speed);
+            }
+        }
+        reading
+    }
+
+    fn remember(
+        &self,
+        state: &State<N, T>,
+        memory: &mut [T],
+        truth: &Reading<N, T>,
+        source: &Source<'_, N, T>,
+        bus: T,
+        dt: T,
+    ) {
+        let at = self.at(state, dt);
+        for active in self.effects.with_memory() {
+            if active.effect.card().place == Place::Robot {
+                let mut drawn = T::zero();
+                for j in 0..N {
+                    drawn += source.command(j) / self.robot.supply * truth.current[j];
+                }
+                let done = Turn { bus, bus_current: drawn, ..Turn::default() };
+                active.effect.advance(active.params(), &mut memory[active.memory(0)], &at, &done);
+                continue;
+            }
+            for j in (0..N).filter(|j| active.on(*j)) {
+                let at = At {
+                    wheel: j,
+                    wheel_speed: truth.wheel_speed[j],
+                    wheel_angle: state.wheel_angle[j],
+                    ..at
+                };
+                let done = Turn {
+                    command: source.command(j),
+                    current: truth.current[j],
+                    wheel_speed: truth.wheel_speed[j],
+                    bus,
+                    ..Turn::default()
+                };
+                active.effect.advance(active.params(), &mut memory[active.memory(j)], &at, &done);
+            }
+        }
+    }
+
+    #[inline]
+    fn at(&self, state: &State<N, T>, dt: T) -> At<T> {
+        At {
+            time: state.time,
+            dt,
+            pose: state.pose,
+            twist: state.twist,
+            nominal_supply: self.robot.supply,
+            ..At::default()
+        }
+    }
+
+    #[inline]
+    fn contacts(&self, at: &mut At<T>, state: &State<N, T>, memory: &[T]) -> [Contact<T>; N] {
+        let mut contact = self.contact;
+        if !self.effects.none_at(Seam::Contact) {
+            for active in self.effects.at(Seam::Contact) {
+                for j in (0..N).filter(|j| active.on(*j)) {
+                    at.wheel = j;
+                    at.wheel_angle = state.wheel_angle[j];
+                    at.wheel_speed = state.wheel_speed[j];
+                    active.effect.contact(active.params(), &memory[active.memory(j)], at, &mut contact[j]);
+                }
+            }
+        }
+        contact
+    }
+
+    #[inline]
+    fn gear(&self, at: &At<T>, memory: &[T], torque: T) -> Gear<T> {
+        let zero = T::zero();
+        let mut gear = Gear {
+            motor_torque: torque,
+            coulomb_share: self.coulomb_share[at.wheel],
+            torque,
+            budget: zero,
+            damping: zero,
+            inertia: zero,
+        };
+        for active in self.effects.at(Seam::Gear).filter(|a| a.on(at.wheel)) {
+            active.effect.gear(active.params(), &memory[active.memory(at.wheel)], at, &mut gear);
+        }
+        gear
+    }
+}
+
+/// The input of a step in which forces move the body.
+#[derive(Clone, Copy)]
+enum Source<'a, const N: usize, T> {
+    Voltage(&'a [T; N]),
+    Current(&'a [T; N]),
+    Speed,
+}
+
+impl<const N: usize, T: Real> Source<'_, N, T> {
+    fn command(&self, wheel: usize) -> T {
+        match self {
+            Self::Voltage(u) => u[wheel],
+            Self::Current(_) | Self::Speed => T::zero(),
+        }
+    }
+}

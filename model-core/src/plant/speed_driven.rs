@@ -1,0 +1,50 @@
+//! Speed-driven: the wheel speeds are imposed, as by a drive that follows its set speed exactly.
+//!
+//! A body on rigid wheels has no choice: its twist is the least-squares twist of the rim speeds. Where contacts creep
+//! or slip, the floor's force follows from the slip, and the body moves by its dynamics.
+
+use super::traction::floor_force;
+use super::{Plant, Push, Reading, Source, State};
+use crate::frames::BodyTwist;
+use crate::scalar::Real;
+use crate::small::{add_outer, dot};
+
+impl<const N: usize, T: Real> Plant<N, T> {
+    pub(super) fn step_speed_driven(
+        &self,
+        state: &mut State<N, T>,
+        memory: &mut [T],
+        speed: &[T; N],
+        dt: T,
+    ) -> Reading<N, T> {
+        let mut at = self.at(state, dt);
+        let contact = self.contacts(&mut at, state, memory);
+        let zero = T::zero();
+        let rolling = self.robot.wheels.twist_of_wheel_speeds(*speed);
+        let yields = contact.iter().all(|c| c.grip > zero || c.creep > zero);
+        if !yields {
+            state.twist = rolling;
+        }
+        let truth = Reading { current: [zero; N], wheel_speed: *speed, pose: state.pose, gyro: state.twist.w };
+        let next = if yields {
+            let x = state.twist.to_array();
+            let mut push = Push { force: [zero; 3], rate: [[zero; 3]; 3], mass: [[zero; 3]; 3], holds: false };
+            for (c, speed) in contact.iter().zip(speed) {
+                let (force, slope) = floor_force(c, *speed * c.radius - dot(&c.row, &x));
+                for axis in 0..3 {
+                    push.force[axis] += c.row[axis] * force;
+                }
+                // twice the slope: the floor's force is stiff, and this makes the step implicit in it
+                add_outer(&mut push.rate, T::lit(2.0) * slope, &c.row);
+            }
+            self.move_body(&at, state, memory, &push, &[([zero; 3], zero); N], dt)
+        } else {
+            rolling.to_array()
+        };
+        let reading = self.finish(state, memory, truth, next, &contact, &Source::Speed, self.robot.supply, dt);
+        if !yields {
+            state.twist = BodyTwist::from_array(next);
+        }
+        reading
+    }
+}

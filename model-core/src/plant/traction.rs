@@ -1,0 +1,135 @@
+//! Traction: a wheel that creeps or slips turns faster than the floor passes by.
+//!
+//! ```text
+//! τ(ω) − J·(ω − ω₀)/Δt = r·f(r·ω − v_j)
+//! ```
+//!
+//! On the left the torque that the motor can give at the wheel speed ω, which falls with ω; on the right what the floor
+//! takes at the slip speed s = r·ω − v_j, which rises. They cross once. Without inertia on the shaft (J = 0, the plain
+//! model) the wheel is always at that crossing; with it, the crossing is the end of an implicit step.
+//! The shaft's own dry friction is spent with the body's, as if it passed through a rigid contact.
+
+use super::electric::Electric;
+use super::{Plant, Source, State};
+use crate::effects::contact::wheel_slip::traction;
+use crate::scalar::Real;
+use crate::seams::{At, Contact, Gear};
+
+/// A wheel whose contact gives way.
+pub(super) struct Grip<T> {
+    /// Force on the floor along the wheel's rolling direction [N]
+    pub force: T,
+    /// −∂force/∂(rim speed) [N/(m/s)]
+    pub rate: T,
+    /// Wheel speed [rad/s]
+    pub wheel_speed: T,
+}
+
+/// The force that the floor takes at a slip speed, and its slope [N, N/(m/s)].
+#[inline]
+pub(super) fn floor_force<T: Real>(c: &Contact<T>, slip: T) -> (T, T) {
+    let limit = c.grip * c.load;
+    if limit <= T::zero() {
+        // creep alone: s = c·f
+        return (slip / c.creep, T::one() / c.creep);
+    }
+    // creep in series with the slip curve: 1/k = 1/k₀ + c,  k₀ = μN·B·C
+    let stiffness = c.stiffness / (T::one() + c.creep * limit * c.stiffness * c.shape);
+    traction(limit, stiffness, c.shape, slip)
+}
+
+impl<const N: usize, T: Real> Plant<N, T> {
+    /// Solves a wheel whose contact gives way; leaves the motor and gear as they are at the solution.
+    #[allow(clippy::too_many_arguments)]
+    pub(super) fn grip(
+        &self,
+        at: &mut At<T>,
+        state: &State<N, T>,
+        memory: &[T],
+        source: &Source<'_, N, T>,
+        c: &Contact<T>,
+        gain: T,
+        electric: &mut Electric<T>,
+        gear: &mut Gear<T>,
+    ) -> Grip<T> {
+        let j = at.wheel;
+        let before = state.wheel_speed[j];
+        let rounds = if self.effects.needs_current() { 3 } else { 1 };
+        let mut solved = Grip { force: T::zero(), rate: T::zero(), wheel_speed: before };
+        for _ in 0..rounds {
+            // the motor as a straight line through the last look: τ(ω) = τ₁ − a·(ω − ω₁)
+            let inertia = gear.inertia / at.dt;
+            let line = Line {
+                torque: gear.torque - gear.damping * at.wheel_speed,
+                speed: at.wheel_speed,
+                fall: electric.slope + gear.damping,
+                inertia,
+                before,
+            };
+            solved = cross(&line, c, at.rim_speed);
+            at.wheel_speed = solved.wheel_speed;
+            *electric = self.electric(at, state, memory, source, j, gain);
+            *gear = self.gear(at, memory, electric.torque);
+        }
+        if gear.inertia > T::zero() {
+            // with inertia the wheel has not moved yet when the reading is taken
+            electric.sampled += electric.current_slope * (solved.wheel_speed - before);
+        }
+        solved
+    }
+}
+
+struct Line<T> {
+    torque: T,
+    speed: T,
+    fall: T,
+    inertia: T,
+    before: T,
+}
+
+/// Where the motor's line crosses the floor's curve.
+fn cross<T: Real>(line: &Line<T>, c: &Contact<T>, rim_speed: T) -> Grip<T> {
+    let zero = T::zero();
+    let r = c.radius;
+    // G(ω) = τ₁ − a·(ω − ω₁) − (J/Δt)·(ω − ω₀) − r·f(r·ω − v)
+    let balance = |speed: T| {
+        let (force, slope) = floor_force(c, r * speed - rim_speed);
+        let g = line.torque
+            - line.fall * (speed - line.speed)
+            - line.inertia * (speed - line.before)
+            - r * force;
+        (g, line.fall + line.inertia + r * r * slope, force, slope)
+    };
+    let rolling = (rim_speed / r).value();
+    let mut speed = line.speed.value();
+    let (mut lo, mut hi): (Option<T>, Option<T>) = (None, None);
+    if balance(rolling).0 > zero {
+        lo = Some(rolling);
+    } else {
+        hi = Some(rolling);
+    }
+    for _ in 0..16 {
+        let (g, fall, ..) = balance(speed);
+        if g > zero {
+            lo = Some(speed);
+        } else {
+            hi = Some(speed);
+        }
+        let mut next = (speed - g / fall).value();
+        if (next - speed).abs() <= T::lit(1e-7) * (speed.abs() + T::one()) {
+            break;
+        }
+        if let (Some(lo), Some(hi)) = (lo, hi)
+            && (next <= lo || next >= hi)
+        {
+            next = T::lit(0.5) * (lo + hi).value();
+        }
+        speed = next;
+    }
+    let (g, fall, ..) = balance(speed);
+    let speed = speed - g / fall.value();
+    let (force, slope) = floor_force(c, r * speed - rim_speed);
+    // ∂f/∂v = −f′·a/(a + r²f′)
+    let a = line.fall + line.inertia;
+    Grip { force, rate: slope * a / (a + r * r * slope), wheel_speed: speed }
+}

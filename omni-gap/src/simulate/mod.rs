@@ -1,0 +1,20 @@
+//! # Simulate: what a model says happens
+//!
+//! Pure: the same model, input and seed give the same run, bit for bit. A [`Model`] is what files describe; a
+//! [`Recorded`] run is a recording laid out row by row for the plant; [`predict`] lets the one run freely beside the
+//! other, restarted every horizon from a [`Start`] that no model had a part in; [`record`] makes a recording of a robot
+//! that is not there, and [`excite`] tells it what to do.
+
+mod excite;
+mod model;
+mod predict;
+mod record;
+mod recorded;
+mod start;
+
+pub use excite::{Excitation, excite};
+pub use model::{Carried, Model, Slot, robot_of};
+pub use predict::{Prediction, predict, restart_rows};
+pub use record::{Recording, record};
+pub use recorded::{Channels, Chain, MAX_CHANNELS, Recorded, Row};
+pub use start::{Start, start_at};

@@ -1,0 +1,165 @@
+//! A model: the robot of a file, factors on its nominal values, and the effects that it carries.
+
+use model_core::active::{Effects, Refused};
+use model_core::card::Card;
+use model_core::effects;
+use model_core::kinematics::{Wheel, Wheels};
+use model_core::motor::Motor;
+use model_core::plant::Plant;
+use model_core::robot::{Friction, Nominal, Robot};
+use model_core::scalar::Real;
+
+use crate::log::RobotFile;
+
+/// An effect in a model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Carried {
+    /// Its page.
+    pub id: &'static str,
+    /// The wheel that it sits on alone; `None`: on all, or on the robot.
+    pub wheel: Option<usize>,
+    /// Its parameters in the order of its card, in SI units.
+    pub params: Vec<f64>,
+}
+
+impl Carried {
+    /// The effect at its typical size.
+    pub fn typical(card: &'static Card, wheel: Option<usize>) -> Self {
+        Self { id: card.id, wheel, params: card.params.iter().map(|p| p.typical).collect() }
+    }
+
+    /// Its page.
+    pub fn card(&self) -> &'static Card {
+        effects::find::<f64>(self.id).expect("the id of a carried effect is one of the catalogue").card()
+    }
+}
+
+/// A number of a model that a fit may free.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    /// The factor on a nominal value.
+    Nominal(Nominal),
+    /// A parameter of a carried effect: (place in [`Model::effects`], place in its card).
+    Param(usize, usize),
+}
+
+/// What files describe: a robot with `N` wheels, factors on its nominal values, and effects.
+#[derive(Clone, Debug)]
+pub struct Model<const N: usize> {
+    robot: Robot<N, f64>,
+    /// Factors on the nominal values, in the order of [`Nominal::ALL`].
+    pub factor: [f64; Nominal::COUNT],
+    /// The effects, in the order of the catalogue.
+    pub effects: Vec<Carried>,
+}
+
+/// The plain robot of a file, in any number type.
+///
+/// `supply` is the voltage to assume where the file states none [V].
+pub fn robot_of<const N: usize, T: Real>(file: &RobotFile, supply: f64) -> Robot<N, T> {
+    let wheels = std::array::from_fn(|j| {
+        let wheel = &file.wheel[j];
+        Wheel::from_degrees(wheel.drive_angle_deg, T::lit(wheel.distance_m), T::lit(wheel.radius_m))
+    });
+    let friction = &file.friction;
+    Robot {
+        wheels: Wheels::new(wheels),
+        motor: Motor {
+            gear_ratio: T::lit(file.motor.gear_ratio),
+            resistance: T::lit(file.motor.resistance_ohm),
+            emf_constant: T::lit(file.motor.emf_constant_v_s),
+            torque_constant: T::lit(file.motor.torque_constant_nm_per_a),
+        },
+        mass: T::lit(file.body.mass_kg),
+        inertia: T::lit(file.body.inertia_kg_m2),
+        friction: Friction {
+            viscous: [friction.viscous_v_n_s_per_m, friction.viscous_vn_n_s_per_m, friction.viscous_w_nm_s].map(T::lit),
+            coulomb: [friction.coulomb_v_n, friction.coulomb_vn_n, friction.coulomb_w_nm].map(T::lit),
+        },
+        supply: T::lit(file.supply.map_or(supply, |s| s.voltage_v)),
+    }
+}
+
+impl<const N: usize> Model<N> {
+    /// The nominal model of a robot file: factors of one and the effects that the file names.
+    pub fn nominal(file: &RobotFile, supply: f64) -> Self {
+        let mut model = Self { robot: robot_of(file, supply), factor: [1.0; Nominal::COUNT], effects: Vec::new() };
+        for entry in &file.effects {
+            let Some(effect) = effects::find::<f64>(&entry.id) else { continue };
+            let card = effect.card();
+            let params =
+                card.params.iter().map(|p| entry.params.get(p.key).copied().unwrap_or(p.typical)).collect();
+            model.carry(Carried { id: card.id, wheel: entry.wheel, params });
+        }
+        model
+    }
+
+    /// The robot, factors not applied.
+    pub fn robot(&self) -> &Robot<N, f64> {
+        &self.robot
+    }
+
+    /// Adds an effect at its place in the order of the catalogue, and returns that place.
+    pub fn carry(&mut self, effect: Carried) -> usize {
+        let order = |id: &str| effects::catalogue::<f64>().iter().position(|e| e.card().id == id);
+        let at = self.effects.partition_point(|e| order(e.id) <= order(effect.id));
+        self.effects.insert(at, effect);
+        at
+    }
+
+    /// The number in a slot.
+    pub fn get(&self, slot: Slot) -> f64 {
+        match slot {
+            Slot::Nominal(p) => self.factor[p as usize],
+            Slot::Param(effect, param) => self.effects[effect].params[param],
+        }
+    }
+
+    /// Puts a number into a slot.
+    pub fn set(&mut self, slot: Slot, value: f64) {
+        match slot {
+            Slot::Nominal(p) => self.factor[p as usize] = value,
+            Slot::Param(effect, param) => self.effects[effect].params[param] = value,
+        }
+    }
+
+    /// The plant, in plain numbers.
+    pub fn plant(&self) -> Plant<N, f64> {
+        self.plant_with(|_, x| x)
+    }
+
+    /// The plant in any number type; `lift` makes such a number of each slot's value.
+    pub fn plant_with<T: Real>(&self, lift: impl Fn(Slot, f64) -> T) -> Plant<N, T> {
+        let factor = std::array::from_fn(|k| lift(Slot::Nominal(Nominal::ALL[k]), self.factor[k]));
+        let robot = self.lifted::<T>().scaled(&factor);
+        let mut carried = Effects::default();
+        for (at, effect) in self.effects.iter().enumerate() {
+            let params: Vec<T> =
+                effect.params.iter().enumerate().map(|(p, x)| lift(Slot::Param(at, p), *x)).collect();
+            let hooks = effects::find::<T>(effect.id).expect("the id of a carried effect is one of the catalogue");
+            match carried.add(hooks, effect.wheel, &params) {
+                Ok(()) => {}
+                Err(Refused::Full) => break,
+                Err(why) => unreachable!("{} was checked when its file was read: {why:?}", effect.id),
+            }
+        }
+        Plant::new(robot, carried)
+    }
+
+    fn lifted<T: Real>(&self) -> Robot<N, T> {
+        let r = &self.robot;
+        Robot {
+            wheels: r.wheels.lifted(),
+            motor: Motor {
+                gear_ratio: T::lit(r.motor.gear_ratio),
+                resistance: T::lit(r.motor.resistance),
+                emf_constant: T::lit(r.motor.emf_constant),
+                torque_constant: T::lit(r.motor.torque_constant),
+            },
+            mass: T::lit(r.mass),
+            inertia: T::lit(r.inertia),
+            friction: Friction { viscous: r.friction.viscous.map(T::lit), coulomb: r.friction.coulomb.map(T::lit) },
+            supply: T::lit(r.supply),
+        }
+    }
+}

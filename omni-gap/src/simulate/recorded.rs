@@ -1,0 +1,250 @@
+//! A recording, laid out row by row for the plant: what drives the model, and what it is compared with.
+
+use model_core::plant::{Input, Reading};
+use model_core::scalar::Real;
+
+use crate::log::{Group, RobotFile, Run, Sampled};
+
+/// The most channels that are compared: four currents, four wheel speeds, and the pose.
+pub const MAX_CHANNELS: usize = 11;
+
+/// The longest step that the plant takes [s]; longer rows are cut into equal ones.
+const LONGEST_STEP_S: f64 = 0.0026;
+
+/// A quantum above this share of a signal's RMS is too coarse to drive a model with.
+const COARSE: f64 = 0.05;
+
+/// The signal that drives the model: the first of the chain that is there and good enough.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Chain {
+    /// Commanded voltages.
+    Voltage,
+    /// Measured currents.
+    Current,
+    /// Measured wheel speeds.
+    WheelSpeed,
+    /// Commanded wheel speeds.
+    SetSpeed,
+}
+
+/// Where the channels of each group stand in a row: currents, wheel speeds, x, y, heading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Channels {
+    /// Wheels.
+    pub wheels: usize,
+}
+
+impl Channels {
+    /// How many channels a row has.
+    pub const fn count(self) -> usize {
+        2 * self.wheels + 3
+    }
+
+    /// The group of a channel: `i`, `w` or `pose`.
+    pub const fn group(self, channel: usize) -> &'static str {
+        if channel < self.wheels {
+            "i"
+        } else if channel < 2 * self.wheels {
+            "w"
+        } else {
+            "pose"
+        }
+    }
+}
+
+/// One row of numbers, one a channel.
+pub type Row = [f64; MAX_CHANNELS];
+
+/// A recording of a robot with `N` wheels, ready to be compared with a model.
+#[derive(Clone, Debug)]
+pub struct Recorded<const N: usize> {
+    /// The run's name.
+    pub name: String,
+    /// Time of each row since the first [s]
+    pub t: Vec<f64>,
+    /// Length of each row's hold [s]; the last row's is the median
+    pub dt: Vec<f64>,
+    /// What drives the model.
+    pub chain: Chain,
+    /// The driving signal, row by row [V], [A] or [rad/s]; holes hold the last value
+    pub input: Vec<[f64; N]>,
+    /// What was measured; only where [`Recorded::has`] says so
+    pub measured: Vec<Row>,
+    /// Bit c: channel c was measured on this row
+    pub has: Vec<u16>,
+    /// One-sigma noise of each channel, by the robot file
+    pub sigma: Row,
+    /// True if the currents are magnitudes.
+    pub unsigned_current: bool,
+    /// Measured yaw rate [rad/s], where there is one
+    pub gyro: Vec<Option<f64>>,
+    /// Largest voltage seen [V]; zero where none is logged
+    pub largest_voltage: f64,
+}
+
+fn good_enough(group: &Group) -> bool {
+    if group.unsigned {
+        return false;
+    }
+    let Some(quantum) = group.quantum else { return true };
+    let (mut sum, mut n) = (0.0, 0.0);
+    for channel in &group.channels {
+        for (_, x) in channel.present() {
+            sum += x * x;
+            n += 1.0;
+        }
+    }
+    n > 0.0 && quantum <= COARSE * f64::sqrt(sum / n)
+}
+
+impl<const N: usize> Recorded<N> {
+    /// Lays a run out; `None` where nothing in it can drive a model.
+    pub fn new(run: &Run, robot: &RobotFile) -> Option<Self> {
+        let good = |group: &Option<Group>| group.as_ref().is_some_and(good_enough);
+        let (chain, driving) = if good(&run.u) {
+            (Chain::Voltage, run.u.as_ref()?)
+        } else if good(&run.i) {
+            (Chain::Current, run.i.as_ref()?)
+        } else if good(&run.w) {
+            (Chain::WheelSpeed, run.w.as_ref()?)
+        } else {
+            (Chain::SetSpeed, run.wset.as_ref()?)
+        };
+        let rows = run.rows();
+        let step = run.median_step_s();
+        let start = *run.t_s.first()?;
+        let t: Vec<f64> = run.t_s.iter().map(|t| t - start).collect();
+        let dt = (0..rows).map(|k| t.get(k + 1).map_or(step, |next| next - t[k])).collect();
+
+        let mut input = vec![[0.0; N]; rows];
+        for (j, channel) in driving.channels.iter().enumerate().take(N) {
+            let mut held = 0.0;
+            for (row, value) in input.iter_mut().enumerate() {
+                held = channel.get(row).unwrap_or(held);
+                value[j] = held;
+            }
+        }
+        if chain == Chain::WheelSpeed {
+            // a measured speed changes evenly between its rows: hold the middle
+            for k in 0..rows.saturating_sub(1) {
+                input[k] = std::array::from_fn(|j| 0.5 * (input[k][j] + input[k + 1][j]));
+            }
+        }
+
+        let mut measured = vec![[0.0; MAX_CHANNELS]; rows];
+        let mut has = vec![0_u16; rows];
+        let mut put = |group: &Option<Group>, first: usize, count: usize, shift: usize| {
+            for (c, channel) in group.iter().flat_map(|g| &g.channels).enumerate().take(count) {
+                for (row, value) in channel.present().filter(|(row, _)| *row >= shift) {
+                    measured[row - shift][first + c] = value;
+                    has[row - shift] |= 1 << (first + c);
+                }
+            }
+        };
+        // a current sampled before its row's voltage answers to the voltage of the row above
+        let shift = usize::from(run.currents_sampled == Sampled::Before);
+        if chain != Chain::Current {
+            put(&run.i, 0, N, shift);
+        }
+        if chain != Chain::WheelSpeed {
+            put(&run.w, N, N, 0);
+        }
+        put(&run.pose, 2 * N, 3, 0);
+
+        // quantisation adds its own variance, q²/12
+        let noisy = |sigma: f64, group: &Option<Group>| {
+            let quantum = group.as_ref().and_then(|g| g.quantum).unwrap_or(0.0);
+            (sigma * sigma + quantum * quantum / 12.0).sqrt()
+        };
+        let mut sigma = [1.0; MAX_CHANNELS];
+        sigma[..N].fill(noisy(robot.sensors.current_noise_a, &run.i));
+        sigma[N..2 * N].fill(noisy(robot.sensors.wheel_speed_noise_rad_s, &run.w));
+        sigma[2 * N..2 * N + 2].fill(robot.sensors.position_noise_m);
+        sigma[2 * N + 2] = robot.sensors.heading_noise_rad;
+
+        let largest_voltage = run
+            .u
+            .iter()
+            .flat_map(|g| &g.channels)
+            .flat_map(|c| c.present())
+            .chain(run.vbat.iter().flat_map(|c| c.present()))
+            .fold(0.0, |most: f64, (_, u)| most.max(u.abs()));
+        Some(Self {
+            name: run.name.clone(),
+            t,
+            dt,
+            chain,
+            input,
+            measured,
+            has,
+            sigma,
+            unsigned_current: run.i.as_ref().is_some_and(|g| g.unsigned),
+            gyro: (0..rows).map(|row| run.gyro.as_ref().and_then(|c| c.get(row).ok())).collect(),
+            largest_voltage,
+        })
+    }
+
+    /// The channels' order.
+    pub const fn channels() -> Channels {
+        Channels { wheels: N }
+    }
+
+    /// How many rows it has.
+    pub fn rows(&self) -> usize {
+        self.t.len()
+    }
+
+    /// True if the channel was measured on this row.
+    #[inline]
+    pub fn saw(&self, row: usize, channel: usize) -> bool {
+        self.has[row] & (1 << channel) != 0
+    }
+
+    /// True if any row has a channel of the group (`i`, `w` or `pose`).
+    pub fn has_group(&self, group: &str) -> bool {
+        let channels = Self::channels();
+        let mask = (0..channels.count()).filter(|c| channels.group(*c) == group).fold(0_u16, |m, c| m | 1 << c);
+        self.has.iter().any(|has| has & mask != 0)
+    }
+
+    /// The input of a row, in any number type.
+    #[inline]
+    pub fn input<T: Real>(&self, row: usize) -> Input<N, T> {
+        let held = self.input[row].map(T::lit);
+        match self.chain {
+            Chain::Voltage => Input::Voltage(held),
+            Chain::Current => Input::Current(held),
+            Chain::WheelSpeed | Chain::SetSpeed => Input::Speed(held),
+        }
+    }
+
+    /// In how many equal steps the plant takes a row.
+    #[inline]
+    pub fn steps(&self, row: usize) -> usize {
+        ((self.dt[row] / LONGEST_STEP_S).ceil() as usize).max(1)
+    }
+
+    /// A reading as a row of channels, currents as magnitudes where the log keeps only those.
+    #[inline]
+    pub fn row_of<T: Real>(&self, reading: &Reading<N, T>) -> [T; MAX_CHANNELS] {
+        let mut row = [T::zero(); MAX_CHANNELS];
+        for j in 0..N {
+            row[j] = if self.unsigned_current { reading.current[j].abs() } else { reading.current[j] };
+            row[N + j] = reading.wheel_speed[j];
+        }
+        row[2 * N] = reading.pose.x;
+        row[2 * N + 1] = reading.pose.y;
+        row[2 * N + 2] = reading.pose.theta;
+        row
+    }
+
+    /// Measured minus predicted in units of sigma; headings modulo a turn.
+    #[inline]
+    pub fn error(&self, row: usize, channel: usize, predicted: f64) -> f64 {
+        let mut error = self.measured[row][channel] - predicted;
+        if channel == 2 * N + 2 {
+            error -= std::f64::consts::TAU * (error / std::f64::consts::TAU).round();
+        }
+        error / self.sigma[channel]
+    }
+}

@@ -1,0 +1,137 @@
+//! Where a free run starts: measurements smoothed by straight lines, without a model.
+//!
+//! A line is fitted by least squares to the samples around the restart, ±50 ms of wheel speeds and yaw rate, ±100 ms of
+//! the pose, and read at the restart itself. A window with fewer than two samples is widened, up to four times.
+
+use model_core::frames::{BodyTwist, Pose, WorldTwist};
+use model_core::plant::{Plant, Reading, State};
+
+use super::recorded::Recorded;
+
+const SPEED_HALF_S: f64 = 0.050;
+const POSE_HALF_S: f64 = 0.100;
+
+/// A smoothed measurement at the instant of a restart.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<const N: usize> {
+    /// Time since the start of the run [s]
+    pub time: f64,
+    /// Wheel speeds [rad/s], where measured (or imposed)
+    pub wheel_speed: Option<[f64; N]>,
+    /// (x, y, θ) and its rate [m, m, rad] [m/s, m/s, rad/s], where measured
+    pub pose: Option<([f64; 3], [f64; 3])>,
+    /// Yaw rate [rad/s], where measured
+    pub gyro: Option<f64>,
+}
+
+/// Value and slope of the least-squares line through the points, at time `at`.
+fn line(points: impl Iterator<Item = (f64, f64)> + Clone, at: f64) -> Option<(f64, f64)> {
+    let (mut n, mut st, mut sx) = (0.0, 0.0, 0.0);
+    for (t, x) in points.clone() {
+        n += 1.0;
+        st += t - at;
+        sx += x;
+    }
+    if n < 2.0 {
+        return None;
+    }
+    let (mean_t, mean_x) = (st / n, sx / n);
+    let (mut tt, mut tx) = (0.0, 0.0);
+    for (t, x) in points {
+        let d = t - at - mean_t;
+        tt += d * d;
+        tx += d * (x - mean_x);
+    }
+    let slope = if tt > 0.0 { tx / tt } else { 0.0 };
+    Some((mean_x - slope * mean_t, slope))
+}
+
+/// The line through one channel around a row.
+fn smooth(t: &[f64], row: usize, half: f64, sample: impl Fn(usize) -> Option<f64> + Copy) -> Option<(f64, f64)> {
+    let at = t[row];
+    (0..3).find_map(|widen| {
+        let half = half * f64::from(1 << widen) + 1e-9;
+        let first = t.partition_point(|x| *x < at - half);
+        let last = t.partition_point(|x| *x <= at + half);
+        line((first..last).filter_map(move |k| sample(k).map(|x| (t[k], x))), at)
+    })
+}
+
+/// The smoothed measurement at a row.
+pub fn start_at<const N: usize>(run: &Recorded<N>, row: usize) -> Start<N> {
+    let t = &run.t;
+    let channel = |c: usize, half: f64| smooth(t, row, half, move |k| run.saw(k, c).then(|| run.measured[k][c]));
+    let mut wheel_speed = Some([0.0; N]);
+    for j in 0..N {
+        wheel_speed = wheel_speed.zip(channel(N + j, SPEED_HALF_S)).map(|(mut w, (value, _))| {
+            w[j] = value;
+            w
+        });
+    }
+    if wheel_speed.is_none() && matches!(run.chain, super::Chain::WheelSpeed | super::Chain::SetSpeed) {
+        wheel_speed = Some(run.input[row]);
+    }
+    let axis = |a: usize| channel(2 * N + a, POSE_HALF_S);
+    let pose = axis(0)
+        .zip(axis(1))
+        .zip(axis(2))
+        .map(|((x, y), theta)| ([x.0, y.0, theta.0], [x.1, y.1, theta.1]));
+    let gyro = smooth(t, row, SPEED_HALF_S, |k| run.gyro[k]).map(|g| g.0);
+    Start { time: t[row], wheel_speed, pose, gyro }
+}
+
+impl<const N: usize> Start<N> {
+    /// The plant's own true state behind this measurement: through the inverse of its sensing effects.
+    ///
+    /// The twist comes from the wheel speeds, where there are none from the pose's rate, and where there is neither the
+    /// run goes on with `before`.
+    pub fn state(&self, plant: &Plant<N, f64>, before: &State<N, f64>) -> State<N, f64> {
+        let measured = self.pose.map_or(before.pose, |(p, _)| Pose { x: p[0], y: p[1], theta: p[2] });
+        let reading = Reading {
+            current: [0.0; N],
+            wheel_speed: self.wheel_speed.unwrap_or([0.0; N]),
+            pose: measured,
+            gyro: self.gyro.unwrap_or(0.0),
+        };
+        let truth = plant.unread(self.time, BodyTwist::default(), reading);
+        let mut twist = if self.wheel_speed.is_some() {
+            plant.robot().wheels.twist_of_wheel_speeds(truth.wheel_speed)
+        } else if let Some((_, rate)) = self.pose {
+            measured.to_body(WorldTwist { x: rate[0], y: rate[1], w: rate[2] })
+        } else {
+            before.twist
+        };
+        if self.gyro.is_some() {
+            twist.w = truth.gyro;
+        }
+        let truth = plant.unread(self.time, twist, reading);
+        let mut state = plant.start(self.time, truth.pose, twist);
+        if self.pose.is_none() {
+            state.pose = before.pose;
+        }
+        state.wheel_angle = before.wheel_angle;
+        state.current = before.current;
+        state.bus = before.bus;
+        state
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_read_at_the_restart_itself() {
+        let points = [(0.0, 1.0), (0.1, 1.2), (0.2, 1.4)];
+        let (value, slope) = line(points.into_iter(), 0.25).unwrap();
+        assert!((value - 1.5).abs() < 1e-12 && (slope - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_window_without_samples_is_widened_and_one_sample_is_none() {
+        let t: Vec<f64> = (0..101).map(|k| f64::from(k) * 0.01).collect();
+        let sparse = |k: usize| k.is_multiple_of(15).then(|| 3.0 * t[k]);
+        assert!((smooth(&t, 50, 0.05, sparse).unwrap().0 - 1.5).abs() < 1e-12);
+        assert!(smooth(&t, 50, 0.05, |k| (k == 50).then_some(1.0)).is_none());
+    }
+}
