@@ -60,8 +60,7 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in signal order.
-    pub const ALL: [Stage; 5] =
-        [Stage::Electrical, Stage::Drivetrain, Stage::Contact, Stage::Body, Stage::Sensing];
+    pub const ALL: [Stage; 5] = [Stage::Electrical, Stage::Drivetrain, Stage::Contact, Stage::Body, Stage::Sensing];
 
     /// The name that files use.
     pub const fn name(self) -> &'static str {

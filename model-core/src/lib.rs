@@ -6,4 +6,4 @@
 pub mod card;
 pub mod frames;
 pub mod scalar;
-mod trig;
+pub mod trig;
