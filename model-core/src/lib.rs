@@ -4,6 +4,7 @@
 #![deny(missing_docs)]
 
 pub mod card;
+pub mod dual;
 pub mod frames;
 pub mod scalar;
 pub mod trig;
