@@ -7,4 +7,5 @@ pub mod card;
 pub mod dual;
 pub mod frames;
 pub mod scalar;
+pub mod small;
 pub mod trig;
