@@ -7,5 +7,6 @@ pub mod card;
 pub mod dual;
 pub mod frames;
 pub mod scalar;
+pub mod shafts;
 pub mod small;
 pub mod trig;
