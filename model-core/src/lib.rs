@@ -1,12 +1,26 @@
 //! The dynamics of 3- and 4-wheel omnidirectional robots, and the effects a plain model leaves out.
+//!
+//! In reading order: the numbers ([`scalar`], [`trig`], [`dual`], [`small`]), the geometry ([`frames`], [`shafts`],
+//! [`kinematics`]), the effects' pages ([`card`]).
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod card;
-pub mod dual;
-pub mod frames;
+// The numbers
 pub mod scalar;
-pub mod shafts;
-pub mod small;
+
 pub mod trig;
+
+pub mod dual;
+
+pub mod small;
+
+// The geometry
+pub mod frames;
+
+pub mod shafts;
+
+pub mod kinematics;
+
+// The effects
+pub mod card;
