@@ -1,7 +1,7 @@
 //! The dynamics of 3- and 4-wheel omnidirectional robots, and the effects a plain model leaves out.
 //!
 //! In reading order: the numbers ([`scalar`], [`trig`], [`dual`], [`small`]), the geometry ([`frames`], [`shafts`],
-//! [`kinematics`]), the effects' pages ([`card`]).
+//! [`kinematics`]), the winding ([`motor`]), the effects' pages ([`card`]).
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -21,6 +21,9 @@ pub mod frames;
 pub mod shafts;
 
 pub mod kinematics;
+
+// The motor
+pub mod motor;
 
 // The effects
 pub mod card;
