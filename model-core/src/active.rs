@@ -135,6 +135,12 @@ impl<const N: usize, T: Real> Effects<N, T> {
         self.memory
     }
 
+    /// True if there is none.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
     /// True if an effect looks at the current at the drive or winding seam, so that it has to be solved for.
     #[inline]
     pub fn needs_current(&self) -> bool {

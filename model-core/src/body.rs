@@ -14,7 +14,7 @@
 //! Every single update brings the kinetic energy ½·xᵀHx down, so friction never creates any, however few the sweeps.
 
 use crate::scalar::Real;
-use crate::small::{dot, inverse3};
+use crate::small::{dot, inverse3, mul_mat_vec};
 
 /// Sweeps at the most; sliding and single sticking directions need one.
 const SWEEPS: usize = 12;
@@ -52,7 +52,7 @@ impl<T: Real> Mobility<T> {
     pub fn of(&self, f: [T; 3]) -> [T; 3] {
         match self {
             Self::Diagonal(d) => [d[0] * f[0], d[1] * f[1], d[2] * f[2]],
-            Self::Full(m) => [dot(&m[0], &f), dot(&m[1], &f), dot(&m[2], &f)],
+            Self::Full(m) => mul_mat_vec(m, f),
         }
     }
 }
@@ -73,14 +73,9 @@ pub fn spend<const N: usize, T: Real>(
         (Mobility::Diagonal(d), None) => {
             let mut x = free;
             for axis in 0..3 {
-                // λ = −clamp(x/H⁻¹, ±b·Δt),  x⁺ = x + H⁻¹·λ
-                let most = budget[axis] * dt;
-                let stop = x[axis] / d[axis];
-                x[axis] = if stop.abs() <= most {
-                    T::zero()
-                } else {
-                    x[axis] - d[axis] * stop.clamp(-most, most)
-                };
+                // x⁺ = x − clamp(x, ±H⁻¹·b·Δt)
+                let most = d[axis] * budget[axis] * dt;
+                x[axis] -= x[axis].clamp(-most, most);
             }
             x
         }
@@ -115,7 +110,7 @@ fn spend_together<const N: usize, T: Real>(
     let mut weight = [T::zero(); MOST];
     for k in 0..count {
         pushed[k] = mobility.of(direction[k]);
-        weight[k] = dot(&direction[k], &pushed[k]);
+        weight[k] = dot(direction[k], pushed[k]);
     }
     let mut x = free;
     let mut impulse = [T::zero(); MOST];
@@ -126,7 +121,7 @@ fn spend_together<const N: usize, T: Real>(
                 continue;
             }
             // λ ← clamp(λ − d·x / (dᵀH⁻¹d), ±b·Δt)
-            let wanted = impulse[k] - dot(&direction[k], &x) / weight[k];
+            let wanted = impulse[k] - dot(direction[k], x) / weight[k];
             let given = wanted.clamp(-most[k], most[k]);
             let change = given - impulse[k];
             impulse[k] = given;
@@ -169,7 +164,7 @@ mod tests {
     #[test]
     fn coupled_budgets_take_energy_and_never_give_it() {
         let h = [[2.0, 0.1, 0.05], [0.1, 2.5, -0.03], [0.05, -0.03, 0.02]];
-        let energy = |x: [f64; 3]| 0.5 * dot(&x, &[dot(&h[0], &x), dot(&h[1], &x), dot(&h[2], &x)]);
+        let energy = |x: [f64; 3]| 0.5 * dot(x, mul_mat_vec(&h, x));
         let wheels = [([0.0, 1.0, 0.09], 0.4), ([-1.0, 0.0, 0.09], 0.2), ([0.0, -1.0, 0.09], 0.0), ([1.0, 0.0, 0.09], 3.0)];
         for k in 0..200 {
             let a = f64::from(k) * 0.1;

@@ -136,6 +136,12 @@ impl<const N: usize, T: Real> Wheels<N, T> {
         Self { wheels, rows, shares, parity: small::left_null(&four), regular }
     }
 
+    /// The same wheels with all radii and all distances multiplied by a factor [1].
+    pub fn scaled(&self, radius: T, distance: T) -> Self {
+        let [r, d] = [radius, distance];
+        Self::new(self.wheels.map(|w| Wheel { radius: w.radius * r, distance: w.distance * d, ..w }))
+    }
+
     /// The wheels that these were built from.
     #[inline]
     pub fn wheels(&self) -> &[Wheel<T>; N] {

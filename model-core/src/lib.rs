@@ -27,3 +27,18 @@ pub mod motor;
 
 // The effects
 pub mod card;
+
+pub mod seams;
+
+pub mod effects;
+
+pub mod active;
+
+// The robot and its motion
+pub mod robot;
+
+pub mod body;
+
+pub mod plant;
+
+pub mod feedforward;

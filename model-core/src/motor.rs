@@ -57,6 +57,25 @@ impl<T: Real> Motor<T> {
         Gear { ratio: self.gear_ratio }
     }
 
+    /// l·K_v, back-EMF over the speed of the wheel's shaft [V·s].
+    #[inline]
+    pub fn wheel_emf_constant(self) -> T {
+        self.gear().motor_speed(self.emf_constant)
+    }
+
+    /// l·K_t, torque at the wheel's shaft over current [N·m/A].
+    #[inline]
+    pub fn wheel_torque_constant(self) -> T {
+        self.gear().wheel_torque(self.torque_constant)
+    }
+
+    /// How fast the torque at the wheel's shaft falls with its speed at a held voltage [N·m·s].
+    #[inline]
+    pub fn damping(self) -> T {
+        // −∂τ_w/∂ω_w = l·K_t·l·K_v/R
+        self.wheel_torque_constant() * (self.wheel_emf_constant() / self.resistance)
+    }
+
     /// Voltage that the motor makes by turning [V], at a speed of the wheel's shaft [rad/s].
     #[inline]
     pub fn emf(self, wheel_speed: T) -> T {

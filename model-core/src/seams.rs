@@ -6,6 +6,10 @@
 //! which other effects are there.
 
 use crate::frames::{BodyTwist, Pose};
+use crate::scalar::Real;
+
+/// Standard gravity [m/s²].
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Where and when an effect is asked.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,7 +24,9 @@ pub struct At<T> {
     pub wheel_angle: T,
     /// Speed of that wheel at the wheel shaft [rad/s]
     pub wheel_speed: T,
-    /// Pose in the world frame; the heading is that of the middle of the step
+    /// Speed of that wheel's rim over the floor if it rolls [m/s]
+    pub rim_speed: T,
+    /// Pose in the world frame; at the body seam the heading is that of the middle of the step
     pub pose: Pose<T>,
     /// Velocity in the body frame
     pub twist: BodyTwist<T>,
@@ -93,6 +99,8 @@ pub struct Contact<T> {
     pub row: [T; 3],
     /// Wheel radius [m]
     pub radius: T,
+    /// 1/radius [1/m]; the plant works it out again after the effects
+    pub per_radius: T,
     /// Normal force [N]
     pub load: T,
     /// Slip speed per traction, of a contact that creeps [(m/s)/N]; zero: it rolls rigidly
@@ -103,6 +111,14 @@ pub struct Contact<T> {
     pub stiffness: T,
     /// Shape of the slip curve: 1 rises to the limit, above 1 falls after a peak
     pub shape: T,
+}
+
+impl<T: Real> Contact<T> {
+    /// True if the wheel rolls rigidly: whatever the force, its rim is as fast as the floor passes by.
+    #[inline]
+    pub fn rolls(&self) -> bool {
+        self.grip <= T::zero() && self.creep <= T::zero()
+    }
 }
 
 /// Body: forces in, acceleration out. Axes are those of the body: (v, vn, ω).

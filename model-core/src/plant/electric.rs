@@ -11,6 +11,7 @@
 
 use super::{Plant, Source, State};
 use crate::card::Seam;
+use crate::motor::Motor;
 use crate::scalar::Real;
 use crate::seams::{At, Contact, Drive, Supply, Winding};
 
@@ -32,7 +33,7 @@ pub(super) struct Electric<T> {
 impl<const N: usize, T: Real> Plant<N, T> {
     /// The motor of wheel `j` at the wheel speed `at.wheel_speed`; `gain` is bus voltage over nominal.
     #[inline]
-    pub(super) fn electric(
+    pub(super) fn electric<const PLAIN: bool>(
         &self,
         at: &At<T>,
         state: &State<N, T>,
@@ -41,13 +42,15 @@ impl<const N: usize, T: Real> Plant<N, T> {
         j: usize,
         gain: T,
     ) -> Electric<T> {
-        let motor = &self.robot.motor;
         let zero = T::zero();
-        let (emf, kt) = (motor.wheel_emf_constant(), motor.wheel_torque_constant());
+        let (emf, kt) = (self.emf, self.kt);
+        if PLAIN && let Source::Voltage(command) = source {
+            return self.plain_motor(command[j], at.wheel_speed);
+        }
         let bare = Winding {
             current: zero,
             speed: at.wheel_speed,
-            resistance: motor.resistance,
+            resistance: self.robot.motor.resistance,
             inductance: zero,
             emf_constant: emf,
             torque_constant: kt,
@@ -67,15 +70,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             Source::Voltage(command) => {
                 let u = command[j] * gain;
                 if self.effects.none_at(Seam::Drive) && self.effects.none_at(Seam::Winding) {
-                    // i = (u − l·K_v·ω)/R,  τ = l·K_t·i
-                    let current = (u - emf * at.wheel_speed) / motor.resistance;
-                    return Electric {
-                        torque: kt * current,
-                        slope: motor.damping(),
-                        current_slope: emf / motor.resistance,
-                        sampled: current,
-                        after: current,
-                    };
+                    return self.plain_motor(u, at.wheel_speed);
                 }
                 let look = |current: T| {
                     let mut drive =
@@ -90,6 +85,20 @@ impl<const N: usize, T: Real> Plant<N, T> {
         }
     }
 
+    /// The motor of the plain model.
+    #[inline]
+    fn plain_motor(&self, voltage: T, wheel_speed: T) -> Electric<T> {
+        // i = (u − l·K_v·ω)/R,  τ = l·K_t·i
+        let current = (voltage - self.emf * wheel_speed) * self.per_resistance;
+        Electric {
+            torque: self.kt * current,
+            slope: self.kt * self.emf * self.per_resistance,
+            current_slope: self.emf * self.per_resistance,
+            sampled: current,
+            after: current,
+        }
+    }
+
     fn winding(&self, at: &At<T>, memory: &[T], mut winding: Winding<T>) -> Winding<T> {
         for active in self.effects.at(Seam::Winding).filter(|a| a.on(at.wheel)) {
             active.effect.winding(active.params(), &memory[active.memory(at.wheel)], at, &mut winding);
@@ -100,13 +109,13 @@ impl<const N: usize, T: Real> Plant<N, T> {
     fn solve_winding(&self, last: T, dt: T, look: impl Fn(T) -> (Drive<T>, Winding<T>)) -> Electric<T> {
         let steady = |current: T| {
             let (drive, winding) = look(current);
-            (drive.voltage - winding.emf_constant * winding.speed) / winding.resistance
+            (drive.voltage - winding.emf_constant * winding.speed) * (T::one() / winding.resistance)
         };
         let (current, stretch) =
             if self.effects.needs_current() { solve(last, steady) } else { (steady(last), T::one()) };
         let (drive, w) = look(current);
         // −∂i/∂ω = (l·K_v/R)/(1 − ∂(steady)/∂i)
-        let current_slope = w.emf_constant / w.resistance / stretch;
+        let current_slope = w.emf_constant * (T::one() / w.resistance) / stretch;
         let inductive = w.inductance > T::zero();
         let sampled = if inductive {
             last
@@ -115,17 +124,24 @@ impl<const N: usize, T: Real> Plant<N, T> {
         } else {
             (drive.sampled - w.emf_constant * w.speed) / w.resistance
         };
+        // the winding at the wheel's shaft, with the constants and the voltage found above
+        let motor = Motor {
+            gear_ratio: T::one(),
+            resistance: w.resistance,
+            emf_constant: w.emf_constant,
+            torque_constant: w.torque_constant,
+        };
         let (mean, after) = if inductive {
-            // i(t) = i_∞ + (i₀ − i_∞)·e^(−t/τ),  τ = L/R,  mean = i_∞ + (i₀ − i_∞)·(1 − e^(−Δt/τ))·τ/Δt
-            let tau = w.inductance / w.resistance;
-            let fade = (-(dt / tau)).exp();
-            (current + (last - current) * (T::one() - fade) * tau / dt, current + (last - current) * fade)
+            (
+                motor.mean_current(last, drive.voltage, w.speed, w.inductance, dt),
+                motor.current_after(last, drive.voltage, w.speed, w.inductance, dt),
+            )
         } else {
             (current, current)
         };
         Electric {
             torque: w.torque_constant * mean,
-            slope: w.torque_constant * current_slope,
+            slope: w.torque_constant * w.emf_constant * (T::one() / w.resistance) / stretch,
             current_slope,
             sampled,
             after,
@@ -152,11 +168,10 @@ impl<const N: usize, T: Real> Plant<N, T> {
             let gain = voltage / nominal;
             let mut drawn = T::zero();
             for j in 0..N {
-                let rigid = contact[j].grip <= T::zero() && contact[j].creep <= T::zero();
-                let speed = if rigid { rim[j] / contact[j].radius } else { state.wheel_speed[j] };
+                let speed = if contact[j].rolls() { rim[j] * contact[j].per_radius } else { state.wheel_speed[j] };
                 let at = At { wheel: j, wheel_speed: speed, wheel_angle: state.wheel_angle[j], ..*at };
                 // I_bus = Σ duty_j·i_j,  duty_j = u_j/U_nominal
-                drawn += command[j] / nominal * self.electric(&at, state, memory, source, j, gain).sampled;
+                drawn += command[j] / nominal * self.electric::<false>(&at, state, memory, source, j, gain).sampled;
             }
             let mut supply = Supply { current: drawn, voltage: nominal };
             for active in self.effects.at(Seam::Supply) {

@@ -31,7 +31,7 @@ use crate::frames::{BodyTwist, Pose};
 use crate::robot::Robot;
 use crate::scalar::Real;
 use crate::seams::{At, Body, Contact, Gear, STANDARD_GRAVITY, Sense, Turn};
-use crate::small::{add_outer, dot};
+use crate::small::{accumulate_outer, dot};
 
 /// What drives the robot during a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ pub struct State<const N: usize, T> {
     pub pose: Pose<T>,
     /// Velocity in the body frame
     pub twist: BodyTwist<T>,
-    /// Speed of each wheel at its shaft at the end of the last step [rad/s]
+    /// Speed of each wheel at its shaft as last solved for [rad/s]
     pub wheel_speed: [T; N],
     /// Angle that each wheel has turned through [rad]; kept up only while the model has effects
     pub wheel_angle: [T; N],
@@ -81,6 +81,14 @@ pub struct Reading<const N: usize, T> {
 pub struct Plant<const N: usize, T: Real> {
     robot: Robot<N, T>,
     effects: Effects<N, T>,
+    /// True if no effect stands between the command and the wheels' forces
+    plain: bool,
+    /// l·K_v [V·s]
+    emf: T,
+    /// l·K_t [N·m/A]
+    kt: T,
+    /// 1/R [1/Ω]
+    per_resistance: T,
     /// The contacts as the robot's parameters describe them.
     contact: [Contact<T>; N],
     /// Each wheel's share of the body's Coulomb friction, as a torque at its shaft [N·m]
@@ -105,12 +113,12 @@ impl<const N: usize, T: Real> Plant<N, T> {
     /// A model of this robot with these effects.
     pub fn new(robot: Robot<N, T>, effects: Effects<N, T>) -> Self {
         let rows = robot.wheels.rows();
-        let radius = robot.wheels.radii();
         let zero = T::zero();
         let load = robot.mass * T::lit(STANDARD_GRAVITY) / T::lit(N as f64);
         let mut contact = [Contact {
             row: [zero; 3],
             radius: zero,
+            per_radius: zero,
             load,
             creep: zero,
             grip: zero,
@@ -120,21 +128,28 @@ impl<const N: usize, T: Real> Plant<N, T> {
         // the Coulomb force that each wheel would have to give for the body's (C_v, C_vn) to come from the wheels:
         // F_c = (C_v + C_vn) / Σ_j (|cos α_j| + |sin α_j|)
         let mut reach = zero;
-        for row in &rows {
+        for row in rows {
             reach += row[0].abs() + row[1].abs();
         }
         let coulomb = (robot.friction.coulomb[0] + robot.friction.coulomb[1]) / reach;
         let mut coulomb_share = [zero; N];
         let mut plain_rate = [[zero; 3]; 3];
-        let electric = robot.motor.damping();
+        let (emf, kt) = (robot.motor.wheel_emf_constant(), robot.motor.wheel_torque_constant());
+        let per_resistance = T::one() / robot.motor.resistance;
+        let electric = kt * emf * per_resistance;
         for j in 0..N {
             contact[j].row = rows[j];
-            contact[j].radius = radius[j];
-            coulomb_share[j] = coulomb * radius[j];
+            let radius = robot.wheels.wheels()[j].radius;
+            contact[j].radius = radius;
+            contact[j].per_radius = T::one() / radius;
+            coulomb_share[j] = coulomb * radius;
             // k = (l²·K_t·K_v/R)/r²
-            add_outer(&mut plain_rate, electric / (radius[j] * radius[j]), &rows[j]);
+            let per_radius = contact[j].per_radius;
+            accumulate_outer(&mut plain_rate, electric * (per_radius * per_radius), rows[j]);
         }
-        Self { robot, effects, contact, coulomb_share, plain_rate }
+        let chain = [Seam::Supply, Seam::Drive, Seam::Winding, Seam::Gear, Seam::Contact];
+        let plain = chain.into_iter().all(|seam| effects.none_at(seam));
+        Self { robot, effects, plain, emf, kt, per_resistance, contact, coulomb_share, plain_rate }
     }
 
     /// The robot.
@@ -179,52 +194,74 @@ impl<const N: usize, T: Real> Plant<N, T> {
     #[inline]
     pub fn step(&self, state: &mut State<N, T>, memory: &mut [T], input: &Input<N, T>, dt: T) -> Reading<N, T> {
         match input {
-            Input::Voltage(command) => self.step_forces(state, memory, Source::Voltage(command), dt),
-            Input::Current(current) => self.step_forces(state, memory, Source::Current(current), dt),
+            Input::Voltage(command) if self.plain => {
+                self.step_forces::<true>(state, memory, Source::Voltage(command), dt)
+            }
+            Input::Voltage(command) => self.step_forces::<false>(state, memory, Source::Voltage(command), dt),
+            Input::Current(current) => self.step_forces::<false>(state, memory, Source::Current(current), dt),
             Input::Speed(speed) => self.step_speed_driven(state, memory, speed, dt),
         }
     }
 
+    /// A step in which forces move the body. `PLAIN` leaves out, when compiled, what acts before the body, where nothing
+    /// does; what stays is the same arithmetic in the same order.
     #[inline]
-    fn step_forces(&self, state: &mut State<N, T>, memory: &mut [T], source: Source<'_, N, T>, dt: T) -> Reading<N, T> {
+    fn step_forces<const PLAIN: bool>(
+        &self,
+        state: &mut State<N, T>,
+        memory: &mut [T],
+        source: Source<'_, N, T>,
+        dt: T,
+    ) -> Reading<N, T> {
+        let zero = T::zero();
         let x = state.twist.to_array();
         let mut at = self.at(state, dt);
-        let contact = self.contacts(&mut at, state, memory);
-        let rim: [T; N] = core::array::from_fn(|j| dot(&contact[j].row, &x));
-        let bus = self.bus(&at, state, memory, &source, &contact, &rim);
-        let gain = bus / self.robot.supply;
-
-        let mut truth = Reading {
-            current: [T::zero(); N],
-            wheel_speed: [T::zero(); N],
-            pose: state.pose,
-            gyro: state.twist.w,
+        let hooked;
+        let contact = if PLAIN {
+            &self.contact
+        } else {
+            hooked = self.contacts(&mut at, state, memory);
+            &hooked
         };
-        let mut push = Push { force: [T::zero(); 3], rate: [[T::zero(); 3]; 3], mass: [[T::zero(); 3]; 3], holds: false };
-        let mut held = [([T::zero(); 3], T::zero()); N];
-        let plain = self.effects.none_at(Seam::Drive)
-            && self.effects.none_at(Seam::Winding)
-            && self.effects.none_at(Seam::Gear)
-            && self.effects.none_at(Seam::Contact)
-            && matches!(source, Source::Voltage(_));
+        let rim: [T; N] = core::array::from_fn(|j| dot(contact[j].row, x));
+        let bus = if PLAIN { self.robot.supply } else { self.bus(&at, state, memory, &source, contact, &rim) };
+        let gain = if PLAIN { T::one() } else { bus / self.robot.supply };
+
+        let mut truth =
+            Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
+        let mut push = Push { force: [zero; 3], rate: [[zero; 3]; 3], mass: [[zero; 3]; 3], holds: false };
+        let mut held = [([zero; 3], zero); N];
         for j in 0..N {
             let c = &contact[j];
             at.wheel = j;
             at.rim_speed = rim[j];
             at.wheel_angle = state.wheel_angle[j];
-            at.wheel_speed = rim[j] / c.radius;
-            let mut electric = self.electric(&at, state, memory, &source, j, gain);
+            at.wheel_speed = rim[j] * c.per_radius;
+            let mut electric = self.electric::<PLAIN>(&at, state, memory, &source, j, gain);
             let mut speed = at.wheel_speed;
-            let mut gear = self.gear(&at, memory, electric.torque);
-            let rigid = c.grip <= T::zero() && c.creep <= T::zero();
-            let (force, rate) = if rigid {
-                // f = τ/r,  k = −∂f/∂v_j = (−∂τ/∂ω)/r²
-                let force = (gear.torque - gear.damping * speed) / c.radius;
-                (force, (electric.slope + gear.damping) / (c.radius * c.radius))
+            let force = if PLAIN {
+                // f = τ/r
+                electric.torque * c.per_radius
             } else {
-                let grip = self.grip(&mut at, state, memory, &source, c, gain, &mut electric, &mut gear);
-                speed = grip.wheel_speed;
-                (grip.force, grip.rate)
+                let mut gear = self.gear(&at, memory, electric.torque);
+                let (force, rate) = if c.rolls() {
+                    // f = τ/r,  k = −∂f/∂v_j = (−∂τ/∂ω)/r²
+                    if gear.inertia > zero {
+                        accumulate_outer(&mut push.mass, gear.inertia * (c.per_radius * c.per_radius), c.row);
+                    }
+                    let force = (gear.torque - gear.damping * speed) * c.per_radius;
+                    (force, (electric.slope + gear.damping) * (c.per_radius * c.per_radius))
+                } else {
+                    let grip = self.grip(&mut at, state, memory, &source, c, gain, &mut electric, &mut gear);
+                    speed = grip.wheel_speed;
+                    (grip.force, grip.rate)
+                };
+                accumulate_outer(&mut push.rate, rate, c.row);
+                if gear.budget > zero {
+                    push.holds = true;
+                    held[j] = (c.row, gear.budget * c.per_radius);
+                }
+                force
             };
             truth.current[j] = electric.sampled;
             truth.wheel_speed[j] = speed;
@@ -232,22 +269,12 @@ impl<const N: usize, T: Real> Plant<N, T> {
             for axis in 0..3 {
                 push.force[axis] += c.row[axis] * force;
             }
-            if !plain {
-                add_outer(&mut push.rate, rate, &c.row);
-                if rigid && gear.inertia > T::zero() {
-                    add_outer(&mut push.mass, gear.inertia / (c.radius * c.radius), &c.row);
-                }
-                if gear.budget > T::zero() {
-                    push.holds = true;
-                    held[j] = (c.row, gear.budget / c.radius);
-                }
-            }
         }
-        if plain {
+        if PLAIN {
             push.rate = self.plain_rate;
         }
         let next = self.move_body(&at, state, memory, &push, &held, dt);
-        self.finish(state, memory, truth, next, &contact, &source, bus, dt)
+        self.finish(state, memory, truth, next, contact, &source, bus, dt)
     }
 
     /// Everything that acts on the body, and the twist at the end of the step.
@@ -323,21 +350,14 @@ impl<const N: usize, T: Real> Plant<N, T> {
         if !self.effects.is_empty() {
             self.remember(state, memory, &truth, source, bus, dt);
             for j in 0..N {
-                state.wheel_angle[j] += dt * dot(&contact[j].row, &mean.to_array()) / contact[j].radius;
+                state.wheel_angle[j] += dt * dot(contact[j].row, mean.to_array()) * contact[j].per_radius;
             }
         }
         state.pose = state.pose.moved(mean, dt);
         state.twist = next;
         state.time += dt;
         state.bus = bus;
-        for j in 0..N {
-            let rigid = contact[j].grip <= T::zero() && contact[j].creep <= T::zero();
-            state.wheel_speed[j] = if rigid {
-                dot(&contact[j].row, &next.to_array()) / contact[j].radius
-            } else {
-                truth.wheel_speed[j]
-            };
-        }
+        state.wheel_speed = truth.wheel_speed;
         reading
     }
 
@@ -449,6 +469,9 @@ impl<const N: usize, T: Real> Plant<N, T> {
                     at.wheel_speed = state.wheel_speed[j];
                     active.effect.contact(active.params(), &memory[active.memory(j)], at, &mut contact[j]);
                 }
+            }
+            for c in &mut contact {
+                c.per_radius = T::one() / c.radius;
             }
         }
         contact

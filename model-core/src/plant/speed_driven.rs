@@ -7,7 +7,7 @@ use super::traction::floor_force;
 use super::{Plant, Push, Reading, Source, State};
 use crate::frames::BodyTwist;
 use crate::scalar::Real;
-use crate::small::{add_outer, dot};
+use crate::small::{accumulate_outer, dot};
 
 impl<const N: usize, T: Real> Plant<N, T> {
     pub(super) fn step_speed_driven(
@@ -21,7 +21,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
         let contact = self.contacts(&mut at, state, memory);
         let zero = T::zero();
         let rolling = self.robot.wheels.twist_of_wheel_speeds(*speed);
-        let yields = contact.iter().all(|c| c.grip > zero || c.creep > zero);
+        let yields = contact.iter().all(|c| !c.rolls());
         if !yields {
             state.twist = rolling;
         }
@@ -30,12 +30,12 @@ impl<const N: usize, T: Real> Plant<N, T> {
             let x = state.twist.to_array();
             let mut push = Push { force: [zero; 3], rate: [[zero; 3]; 3], mass: [[zero; 3]; 3], holds: false };
             for (c, speed) in contact.iter().zip(speed) {
-                let (force, slope) = floor_force(c, *speed * c.radius - dot(&c.row, &x));
+                let (force, slope) = floor_force(c, *speed * c.radius - dot(c.row, x));
                 for axis in 0..3 {
                     push.force[axis] += c.row[axis] * force;
                 }
                 // twice the slope: the floor's force is stiff, and this makes the step implicit in it
-                add_outer(&mut push.rate, T::lit(2.0) * slope, &c.row);
+                accumulate_outer(&mut push.rate, T::lit(2.0) * slope, c.row);
             }
             self.move_body(&at, state, memory, &push, &[([zero; 3], zero); N], dt)
         } else {

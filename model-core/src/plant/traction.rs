@@ -68,7 +68,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             };
             solved = cross(&line, c, at.rim_speed);
             at.wheel_speed = solved.wheel_speed;
-            *electric = self.electric(at, state, memory, source, j, gain);
+            *electric = self.electric::<false>(at, state, memory, source, j, gain);
             *gear = self.gear(at, memory, electric.torque);
         }
         if gear.inertia > T::zero() {
