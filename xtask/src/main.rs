@@ -1,1 +1,24 @@
-fn main() {}
+//! The developer's errands: `cargo xtask help` lists them.
+//!
+//! Exit code: 0 done, 1 failed, 2 asked for in the wrong way.
+
+mod errands;
+mod install;
+mod line;
+mod real;
+mod steps;
+mod tool;
+
+use std::process::ExitCode;
+
+use errands::Stop;
+
+fn main() -> ExitCode {
+    let (said, code) = match errands::perform(std::env::args_os().skip(1)) {
+        Ok(()) => return ExitCode::SUCCESS,
+        Err(Stop::Failed(said)) => (said, 1),
+        Err(Stop::Usage(said)) => (said, 2),
+    };
+    eprintln!("{said}");
+    ExitCode::from(code)
+}

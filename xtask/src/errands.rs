@@ -1,0 +1,144 @@
+//! # Errands: what a developer can ask for
+//!
+//! An errand is one entry of [`ERRANDS`]; the list that `help` prints is the table itself.
+
+use std::ffi::OsString;
+
+use crate::line::Line;
+use crate::{real, steps, tool};
+
+/// One thing to ask for.
+#[derive(Clone, Copy, Debug)]
+pub struct Errand {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// The argument that it takes, as `help` shows it; empty where it takes none.
+    pub takes: &'static str,
+    /// What it does, in a line.
+    pub does: &'static str,
+    run: fn(Option<OsString>) -> Result<(), String>,
+}
+
+/// All errands, in the order of `help`.
+pub const ERRANDS: &[Errand] = &[
+    Errand { name: "test", takes: "", does: "run every check there is, stop at the first failure", run: test },
+    Errand { name: "bless", takes: "", does: "run the tests and rewrite the golden pages", run: bless },
+    Errand { name: "bench", takes: "", does: "run the benches", run: bench },
+    Errand {
+        name: "benchmark",
+        takes: "",
+        does: "diagnose every effect of the catalogue and rewrite the golden table",
+        run: benchmark,
+    },
+    Errand {
+        name: "real",
+        takes: "[FOLDER]",
+        does: "diagnose the recordings of real robots in FOLDER (or in OMNI_GAP_DATA)",
+        run: on_recordings,
+    },
+    Errand { name: "help", takes: "", does: "print this list", run: help },
+];
+
+/// Why an errand was not done.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// It was asked for in the wrong way.
+    Usage(String),
+    /// It was tried and failed.
+    Failed(String),
+}
+
+/// Does what the arguments ask for.
+pub fn perform(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Stop> {
+    let (errand, argument) = asked(arguments)?;
+    (errand.run)(argument).map_err(Stop::Failed)
+}
+
+fn asked(arguments: impl IntoIterator<Item = OsString>) -> Result<(&'static Errand, Option<OsString>), Stop> {
+    let usage = |what: String| Stop::Usage(format!("{what}\n{}", list()));
+    let mut arguments = arguments.into_iter();
+    let name = arguments.next().ok_or_else(|| usage("no errand named".into()))?;
+    let errand = ERRANDS.iter().find(|errand| name == errand.name);
+    let errand = errand.ok_or_else(|| usage(format!("no errand is called {}", name.display())))?;
+    let argument = if errand.takes.is_empty() { None } else { arguments.next() };
+    match arguments.next() {
+        Some(more) => Err(usage(format!("{} does not take {}", errand.name, more.display()))),
+        None => Ok((errand, argument)),
+    }
+}
+
+/// One line an errand.
+fn list() -> String {
+    let line = |errand: &Errand| format!("  cargo xtask {:<14} {}", [errand.name, errand.takes].join(" "), errand.does);
+    ERRANDS.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn test(_: Option<OsString>) -> Result<(), String> {
+    tool::ensure(tool::TOOLS)?;
+    let outcome = steps::run(steps::STEPS, Line::succeeds);
+    if outcome.failed.is_some() {
+        return Err(outcome.told());
+    }
+    println!("{}", outcome.told());
+    Ok(())
+}
+
+fn bless(_: Option<OsString>) -> Result<(), String> {
+    announced(Line::of("cargo test --workspace").env("BLESS", "1"))?;
+    println!("golden pages rewritten where they differed; read the difference before you commit it: git diff");
+    Ok(())
+}
+
+fn bench(_: Option<OsString>) -> Result<(), String> {
+    announced(Line::of("cargo bench -p host-tests"))
+}
+
+fn benchmark(_: Option<OsString>) -> Result<(), String> {
+    announced(Line::of("cargo run --release -p host-tests --bin catalogue"))
+}
+
+fn on_recordings(argument: Option<OsString>) -> Result<(), String> {
+    let folder = real::folder(argument, std::env::var_os(real::VARIABLE))?;
+    announced(Line::of("cargo run --release -p host-tests --bin real --").word(folder))
+}
+
+fn help(_: Option<OsString>) -> Result<(), String> {
+    println!("{}", list());
+    Ok(())
+}
+
+fn announced(line: Line) -> Result<(), String> {
+    println!("{}", line.shown());
+    if line.succeeds() { Ok(()) } else { Err(format!("failed: {}", line.shown())) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ask(words: &[&str]) -> Result<(&'static str, Option<OsString>), Stop> {
+        asked(words.iter().map(OsString::from)).map(|(errand, argument)| (errand.name, argument))
+    }
+
+    #[test]
+    fn an_unknown_errand_is_answered_with_the_list() {
+        for (words, complaint) in [(&["tset"][..], "no errand is called tset"), (&[], "no errand named")] {
+            let Err(Stop::Usage(said)) = ask(words) else { panic!("{words:?} was taken") };
+            assert!(said.starts_with(complaint), "{said}");
+            assert_eq!(said.lines().count(), 1 + ERRANDS.len(), "{said}");
+        }
+    }
+
+    #[test]
+    fn only_an_errand_that_takes_an_argument_gets_one() {
+        assert_eq!(ask(&["real", "logs"]), Ok(("real", Some("logs".into()))));
+        assert_eq!(ask(&["real"]), Ok(("real", None)));
+        assert!(matches!(ask(&["test", "logs"]), Err(Stop::Usage(_))));
+        assert!(matches!(ask(&["real", "logs", "more"]), Err(Stop::Usage(_))));
+    }
+
+    #[test]
+    fn help_names_the_variable_that_is_read() {
+        assert!(list().contains(real::VARIABLE));
+    }
+}

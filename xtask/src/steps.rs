@@ -1,0 +1,106 @@
+//! # Steps: every check there is, in order
+//!
+//! A check is one entry of [`STEPS`]. They run one after the other, each announced with its exact command, and the first
+//! failure ends the run.
+
+use std::time::{Duration, Instant};
+
+use crate::line::Line;
+
+/// One check.
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    /// What it looks at, in a word or two.
+    pub name: &'static str,
+    /// Its command.
+    pub command: &'static str,
+    /// The variables that the command needs.
+    pub env: &'static [(&'static str, &'static str)],
+}
+
+/// All checks. Tests on the source tree itself (the walls between the rooms) are tests like any other.
+pub const STEPS: &[Step] = &[
+    Step { name: "format", command: "cargo fmt --all --check", env: &[] },
+    Step { name: "lints", command: "cargo clippy --workspace --all-targets -- -D warnings", env: &[] },
+    Step { name: "tests", command: "cargo test --workspace", env: &[] },
+    Step { name: "docs", command: "cargo doc --workspace --no-deps", env: &[("RUSTDOCFLAGS", "-D warnings")] },
+];
+
+impl Step {
+    fn line(&self) -> Line {
+        self.env.iter().fold(Line::of(self.command), |line, (name, value)| line.env(name, value))
+    }
+}
+
+/// What a run came to.
+#[derive(Debug)]
+pub struct Outcome {
+    /// The steps that ran, in order, with the time that each took; the last one is the failed one, if any.
+    pub times: Vec<(&'static str, Duration)>,
+    /// The command of the step that failed.
+    pub failed: Option<String>,
+}
+
+/// Runs the steps with `run`, up to the first that fails.
+pub fn run(steps: &[Step], run: impl Fn(&Line) -> bool) -> Outcome {
+    let mut times = Vec::new();
+    for (k, step) in steps.iter().enumerate() {
+        let line = step.line();
+        println!("[{}/{}] {}: {}", k + 1, steps.len(), step.name, line.shown());
+        let start = Instant::now();
+        let passed = run(&line);
+        times.push((step.name, start.elapsed()));
+        if !passed {
+            return Outcome { times, failed: Some(line.shown()) };
+        }
+    }
+    Outcome { times, failed: None }
+}
+
+impl Outcome {
+    /// The time of each step, then what to do about a failure, then the count.
+    pub fn told(&self) -> String {
+        let failed = usize::from(self.failed.is_some());
+        let mut text = String::new();
+        for (name, time) in &self.times {
+            text += &format!("{name:>8} {:8.1} s\n", time.as_secs_f64());
+        }
+        if let Some(command) = &self.failed {
+            text += &format!("to run the failed step again: {command}\n");
+        }
+        text + &format!("{} passed, {failed} failed", self.times.len() - failed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TWO_OF_THREE: &[Step] = &[
+        Step { name: "first", command: "a", env: &[] },
+        Step { name: "second", command: "b --all", env: &[("X", "1 2")] },
+        Step { name: "third", command: "c", env: &[] },
+    ];
+
+    #[test]
+    fn the_first_failure_ends_the_run_and_names_its_command() {
+        let outcome = run(TWO_OF_THREE, |line| !line.shown().contains("--all"));
+        assert_eq!(outcome.times.len(), 2, "the third step must not run");
+        let told = outcome.told();
+        assert!(told.contains("to run the failed step again: X='1 2' b --all\n"), "{told}");
+        assert!(told.ends_with("\n1 passed, 1 failed"), "{told}");
+    }
+
+    #[test]
+    fn success_ends_in_the_count_and_times_every_step() {
+        let told = run(TWO_OF_THREE, |_| true).told();
+        assert_eq!(told.lines().last(), Some("3 passed, 0 failed"));
+        assert_eq!(told.lines().count(), 4, "{told}");
+    }
+
+    #[test]
+    fn warnings_of_the_docs_are_errors() {
+        let shown: Vec<String> = STEPS.iter().map(|step| step.line().shown()).collect();
+        assert!(shown.contains(&"RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps".into()), "{shown:?}");
+    }
+}
