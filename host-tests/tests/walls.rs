@@ -1,0 +1,68 @@
+//! # Walls: what the source tree itself must look like
+//!
+//! These tests read files; they run none of the product. Each finding says where it is and what to do about it, and the
+//! helpers that find are tested on small texts beside them, so that every wall is known to be able to fail.
+
+#[path = "walls/code.rs"]
+mod code;
+#[path = "walls/finding.rs"]
+mod finding;
+#[path = "walls/manifest.rs"]
+mod manifest;
+#[path = "walls/needles.rs"]
+mod needles;
+#[path = "walls/rooms.rs"]
+mod rooms;
+#[path = "walls/tree.rs"]
+mod tree;
+
+use finding::{Finding, none};
+use tree::{Source, sources};
+
+/// A longer file is two ideas.
+const MOST_LINES: usize = 400;
+
+/// All Rust sources below a folder, of which there must be some: a wall around nothing proves nothing.
+fn rust_below(folder: &str) -> Vec<Source> {
+    let found: Vec<Source> = sources(&["rs"]).into_iter().filter(|s| s.path.starts_with(folder)).collect();
+    assert!(!found.is_empty(), "no Rust source below {folder:?}: has the folder moved?");
+    found
+}
+
+fn in_all(sources: &[Source], check: impl Fn(&Source) -> Vec<Finding>) -> Vec<Finding> {
+    sources.iter().flat_map(check).collect()
+}
+
+#[test]
+fn the_core_computes_the_same_bits_everywhere_and_in_single_precision() {
+    none(in_all(&rust_below("model-core/"), |source| needles::in_code(source, needles::CORE)));
+}
+
+#[test]
+fn the_core_depends_on_libm_alone() {
+    let path = "model-core/Cargo.toml";
+    let found = sources(&["toml"]);
+    let manifest = found.iter().find(|source| source.path == path).expect("model-core has a manifest");
+    assert!(!manifest::dependencies(&manifest.text).is_empty(), "{path}: not even libm is found");
+    none(manifest::others_than("libm", manifest));
+}
+
+#[test]
+fn doors_between_the_rooms_open_one_way() {
+    none(in_all(&rust_below(rooms::HOUSE), rooms::backward_doors));
+}
+
+#[test]
+fn one_file_is_one_idea() {
+    none(in_all(&rust_below(""), |source| finding::too_long(source, MOST_LINES)));
+}
+
+#[test]
+fn nothing_is_skipped_and_nothing_is_left_to_do() {
+    none(in_all(&rust_below(""), |source| needles::in_code(source, needles::UNFINISHED)));
+}
+
+#[test]
+fn no_file_names_a_folder_of_one_machine() {
+    none(in_all(&sources(tree::WRITTEN), needles::machine_paths));
+}
