@@ -4,6 +4,9 @@
 //!
 //! - [`paper`]: the paper's two robots, typed in once;
 //! - [`matrices`]: A, B and K of `dx/dt = A·x + B·u + K·sign(x)`, as printed and as derived from virtual work;
+//! - [`flow`]: the exact solution between two sign changes, and when the next one comes;
+//! - [`mod@reference`]: the f64 robot that every other implementation is measured against;
+//! - [`excite`]: seeded robots, and voltage sequences that start, stop, reverse and rest.
 //!
 //! The paper is Oliveira, Sousa, Moreira and Costa, *Dynamical Models for Omni-directional Robots with 3 and 4 Wheels*
 //! (ICINCO 2008). Nothing in this library depends on the core: two implementations that agree prove something only if
@@ -12,5 +15,8 @@
 // A unit in brackets, [V], is not a link.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+pub mod excite;
+pub mod flow;
 pub mod matrices;
 pub mod paper;
+pub mod reference;
