@@ -1,0 +1,241 @@
+//! The fit: Levenberg–Marquardt on the reduced equations, within bounds.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::linear::{Linearised, Reduced, linearise};
+use super::prior::Prior;
+use super::shoot::{Starts, Windows, first_starts, run_windows};
+use crate::simulate::{Model, Recorded, Slot};
+use model_core::frames::{BodyTwist, Pose};
+
+/// A number of the model that the fit may change.
+#[derive(Clone, Copy, Debug)]
+pub struct Free {
+    /// Which.
+    pub slot: Slot,
+    /// The lowest and the highest value allowed.
+    pub within: (f64, f64),
+}
+
+/// A fitted model.
+#[derive(Clone, Debug)]
+pub struct Fit<const N: usize> {
+    /// The model.
+    pub model: Model<N>,
+    /// What was free.
+    pub free: Vec<Free>,
+    /// The start of every window, run by run.
+    pub starts: Vec<Starts>,
+    /// Σ error² [σ²] over what was measured
+    pub cost: f64,
+    /// How many numbers were compared.
+    pub samples: usize,
+    /// Σ violation² of what was stated
+    pub prior_cost: f64,
+    /// Covariance of the free numbers, robust against errors that go on through a window.
+    pub covariance: DMatrix<f64>,
+}
+
+impl<const N: usize> Fit<N> {
+    /// One-sigma uncertainty of a free number; `None` where it was not free.
+    pub fn std(&self, slot: Slot) -> Option<f64> {
+        let at = self.free.iter().position(|f| f.slot == slot)?;
+        Some(self.covariance[(at, at)].max(0.0).sqrt())
+    }
+
+    /// True if the number ended at one of its bounds.
+    pub fn at_bound(&self, free: &Free) -> bool {
+        let x = self.model.get(free.slot);
+        let margin = 1e-6 * (free.within.1 - free.within.0);
+        x <= free.within.0 + margin || x >= free.within.1 - margin
+    }
+}
+
+/// Fits the free numbers of `model` to the runs; `starts` are where to begin, if known from a fit before.
+pub fn fit<const N: usize>(
+    mut model: Model<N>,
+    runs: &[&Recorded<N>],
+    windows: &[Windows],
+    starts: Option<Vec<Starts>>,
+    free: &[Free],
+    prior: &Prior,
+    rounds: usize,
+) -> Fit<N> {
+    let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
+    let mut starts = starts.unwrap_or_else(|| {
+        let plant = model.plant();
+        runs.iter().zip(windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect()
+    });
+    let mut damping = 1e-4;
+    let mut linear = linearise(&model, runs, windows, &starts, &slots, false);
+    let mut total = linear.cost().0 + prior.cost(&model);
+    for _ in 0..rounds {
+        let reduced = with_prior(linear.reduced(), &model, free, prior);
+        let mut better = None;
+        for _ in 0..5 {
+            let Some(step) = solve(&reduced, damping) else {
+                damping *= 10.0;
+                continue;
+            };
+            let (trial, taken) = stepped(&model, free, &step);
+            let moved = linear.starts_after(&starts, &taken);
+            let cost = cost_of(&trial, runs, windows, &moved) + prior.cost(&trial);
+            if cost.is_finite() && cost < total {
+                damping = (damping * 0.2).max(1e-9);
+                better = Some((trial, moved, cost));
+                break;
+            }
+            damping = (damping * 10.0).max(1e-3);
+        }
+        let Some((trial, moved, cost)) = better else { break };
+        let gained = total - cost;
+        (model, starts, total) = (trial, moved, cost);
+        linear = linearise(&model, runs, windows, &starts, &slots, false);
+        if gained < 0.3 + 1e-5 * total {
+            break;
+        }
+    }
+    let reduced = with_prior(linear.reduced(), &model, free, prior);
+    let (cost, samples) = linear.cost();
+    Fit {
+        covariance: covariance(&reduced, linear.reduced(), free.len()),
+        prior_cost: prior.cost(&model),
+        model,
+        free: free.to_vec(),
+        starts,
+        cost,
+        samples,
+    }
+}
+
+/// The best starts for a model as it is, and each window's Σ error² and count: how well whole runs are predicted.
+pub fn profile<const N: usize>(
+    model: &Model<N>,
+    runs: &[&Recorded<N>],
+    windows: &[Windows],
+) -> (Vec<Starts>, Vec<Vec<(f64, usize)>>) {
+    let none = DVector::zeros(0);
+    let plant = model.plant();
+    let mut starts: Vec<Starts> =
+        runs.iter().zip(windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect();
+    let mut linear = linearise(model, runs, windows, &starts, &[], false);
+    for _ in 0..3 {
+        let moved = linear.starts_after(&starts, &none);
+        let trial = linearise(model, runs, windows, &moved, &[], false);
+        // each window on its own: a start that got worse stays
+        let (old, new) = (linear.cost_by_window(), trial.cost_by_window());
+        for (run, (old, new)) in old.iter().zip(&new).enumerate() {
+            for (k, (old, new)) in old.iter().zip(new).enumerate() {
+                if new.0 < old.0 {
+                    starts[run][k] = moved[run][k];
+                }
+            }
+        }
+        let gained: f64 = old.iter().flatten().zip(new.iter().flatten()).map(|(o, n)| (o.0 - n.0).max(0.0)).sum();
+        linear = linearise(model, runs, windows, &starts, &[], false);
+        if gained < 0.1 {
+            break;
+        }
+    }
+    let cost = linear.cost_by_window();
+    (starts, cost)
+}
+
+fn cost_of<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>], windows: &[Windows], starts: &[Starts]) -> f64 {
+    let plant = model.plant();
+    let count = Recorded::<N>::channels().count();
+    let costs: Vec<f64> = (0..runs.len())
+        .into_par_iter()
+        .map(|k| {
+            let (run, starts) = (runs[k], &starts[k]);
+            let start = |w: usize| {
+                let [x, y, theta, v, vn, w] = starts[w];
+                (Pose { x, y, theta }, BodyTwist { v, vn, w })
+            };
+            let mut sum = 0.0;
+            run_windows(&plant, run, &windows[k], start, |_| {}, |_, row, predicted| {
+                for c in (0..count).filter(|c| run.saw(row, *c)) {
+                    sum += run.error(row, c, predicted[c]).powi(2);
+                }
+            });
+            sum
+        })
+        .collect();
+    costs.iter().sum()
+}
+
+/// Adds what was stated; and holds each number loosely to its bounds' width, so that the equations stay regular.
+pub(crate) fn with_prior<const N: usize>(mut reduced: Reduced, model: &Model<N>, free: &[Free], prior: &Prior) -> Reduced {
+    let at = |p| free.iter().position(|f| f.slot == Slot::Nominal(p));
+    for (row, violation) in prior.rows.iter().zip(prior.violations(model)) {
+        for (p, c) in &row.terms {
+            let Some(k) = at(*p) else { continue };
+            reduced.grad[k] -= violation * c / row.sigma;
+            for (q, d) in &row.terms {
+                if let Some(l) = at(*q) {
+                    reduced.hess[(k, l)] += c * d / (row.sigma * row.sigma);
+                }
+            }
+        }
+    }
+    for (k, f) in free.iter().enumerate() {
+        let width = f.within.1 - f.within.0;
+        reduced.hess[(k, k)] += 1.0 / (width * width);
+    }
+    reduced
+}
+
+fn solve(reduced: &Reduced, damping: f64) -> Option<DVector<f64>> {
+    let mut hess = reduced.hess.clone();
+    for k in 0..hess.ncols() {
+        hess[(k, k)] *= 1.0 + damping;
+    }
+    if hess.ncols() == 0 {
+        return Some(DVector::zeros(0));
+    }
+    hess.cholesky().map(|c| c.solve(&reduced.grad))
+}
+
+/// The model after a step, held within bounds, and the step that was really taken.
+fn stepped<const N: usize>(model: &Model<N>, free: &[Free], step: &DVector<f64>) -> (Model<N>, DVector<f64>) {
+    let mut trial = model.clone();
+    let mut taken = step.clone();
+    for (k, f) in free.iter().enumerate() {
+        let from = model.get(f.slot);
+        let to = (from + step[k]).clamp(f.within.0, f.within.1);
+        taken[k] = to - from;
+        trial.set(f.slot, to);
+    }
+    (trial, taken)
+}
+
+/// S⁻¹·(Σ g·gᵀ + prior)·S⁻¹, no smaller than S⁻¹ on its diagonal.
+fn covariance(reduced: &Reduced, data: Reduced, n: usize) -> DMatrix<f64> {
+    if n == 0 {
+        return DMatrix::zeros(0, 0);
+    }
+    let Some(inverse) = reduced.hess.clone().cholesky().map(|c| c.inverse()) else {
+        return DMatrix::from_diagonal_element(n, n, f64::INFINITY);
+    };
+    let meat = data.meat + (&reduced.hess - data.hess);
+    let mut robust = &inverse * meat * &inverse;
+    for k in 0..n {
+        robust[(k, k)] = robust[(k, k)].max(inverse[(k, k)]);
+    }
+    robust
+}
+
+/// The windows linearised at a fit, kept whole for a screening.
+impl<const N: usize> Fit<N> {
+    /// The errors and derivatives of every window at this fit.
+    pub fn linearised(&self, runs: &[&Recorded<N>], windows: &[Windows]) -> Linearised {
+        let slots: Vec<Slot> = self.free.iter().map(|f| f.slot).collect();
+        linearise(&self.model, runs, windows, &self.starts, &slots, true)
+    }
+
+    /// The reduced equations with what was stated, at this fit.
+    pub fn reduced(&self, linear: &Linearised, prior: &Prior) -> Reduced {
+        with_prior(linear.reduced(), &self.model, &self.free, prior)
+    }
+}

@@ -1,0 +1,16 @@
+//! # Identify: the best numbers for a model, and how sure they are
+//!
+//! A model is fitted to whole runs by multiple shooting: each run is cut into windows, each window starts from a state of
+//! its own, and the parameters are common to all. The starts are eliminated window by window, derivatives are exact
+//! (the plant is run in dual numbers), and what the robot file says of its own uncertainty enters as a [`Prior`]. Every
+//! number comes with its uncertainty, which holds under errors that go on through a window.
+
+mod fit;
+mod linear;
+mod prior;
+mod shoot;
+
+pub use fit::{Fit, Free, fit, profile};
+pub use linear::{Linearised, WindowLinear, linearise};
+pub use prior::{Prior, PriorRow, Release};
+pub use shoot::{Starts, Windows, first_starts, run_windows};

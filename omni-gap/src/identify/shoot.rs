@@ -1,0 +1,91 @@
+//! Shooting: one window after another, each from a start of its own.
+
+use model_core::frames::{BodyTwist, Pose};
+use model_core::plant::Plant;
+use model_core::scalar::Real;
+
+use crate::simulate::{MAX_CHANNELS, Recorded, restart_rows, start_at};
+
+/// The state from which a window starts: x, y, θ, v, vn, ω [m, m, rad, m/s, m/s, rad/s].
+pub type StartState = [f64; 6];
+
+/// The starts of all windows of a run.
+pub type Starts = Vec<StartState>;
+
+/// The windows of a run: the rows at which each begins, and the number of rows as the last entry.
+#[derive(Clone, Debug)]
+pub struct Windows(Vec<usize>);
+
+impl Windows {
+    /// Windows of `horizon` [s]; a last one shorter than half of that joins the one before.
+    pub fn new<const N: usize>(run: &Recorded<N>, horizon: f64) -> Self {
+        let mut rows = restart_rows(&run.t, horizon);
+        if rows.len() > 1 && run.t[run.rows() - 1] - run.t[rows[rows.len() - 1]] < 0.5 * horizon {
+            rows.pop();
+        }
+        rows.push(run.rows());
+        Self(rows)
+    }
+
+    /// How many windows.
+    pub fn len(&self) -> usize {
+        self.0.len() - 1
+    }
+
+    /// True if there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The rows of a window.
+    pub fn rows(&self, window: usize) -> std::ops::Range<usize> {
+        self.0[window]..self.0[window + 1]
+    }
+}
+
+/// Starts from the smoothed measurements, through the inverse of the plant's sensing effects.
+pub fn first_starts<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, windows: &Windows) -> Starts {
+    let mut before = plant.start(0.0, Pose::default(), BodyTwist::default());
+    (0..windows.len())
+        .map(|k| {
+            let state = start_at(run, windows.rows(k).start).state(plant, &before);
+            before = state;
+            let (p, x) = (state.pose, state.twist);
+            [p.x, p.y, p.theta, x.v, x.vn, x.w]
+        })
+        .collect()
+}
+
+/// Runs the plant through all windows of a run and hands every row's predicted channels to `each(window, row, channels)`.
+///
+/// `start` makes the window's start in the plant's number type; `enter` may change the memory at a window's beginning.
+pub fn run_windows<const N: usize, T: Real>(
+    plant: &Plant<N, T>,
+    run: &Recorded<N>,
+    windows: &Windows,
+    start: impl Fn(usize) -> (Pose<T>, BodyTwist<T>),
+    enter: impl Fn(&mut [T]),
+    mut each: impl FnMut(usize, usize, &[T; MAX_CHANNELS]),
+) {
+    let mut memory = vec![T::zero(); plant.memory_len()];
+    let mut state = plant.start(T::zero(), Pose::default(), BodyTwist::default());
+    for window in 0..windows.len() {
+        let rows = windows.rows(window);
+        let (pose, twist) = start(window);
+        let before = state;
+        state = plant.start(T::lit(run.t[rows.start]), pose, twist);
+        (state.wheel_angle, state.current, state.bus) = (before.wheel_angle, before.current, before.bus);
+        enter(&mut memory);
+        plant.restart(&state, &mut memory);
+        for row in rows {
+            let input = run.input::<T>(row);
+            let steps = run.steps(row);
+            let dt = T::lit(run.dt[row] / steps as f64);
+            let reading = plant.step(&mut state, &mut memory, &input, dt);
+            for _ in 1..steps {
+                plant.step(&mut state, &mut memory, &input, dt);
+            }
+            each(window, row, &run.row_of(&reading));
+        }
+    }
+}
