@@ -1,0 +1,136 @@
+//! # Motor mismatch: one motor is not like the others
+//!
+//! ```text
+//! K_v → k·K_v        K_t → k·K_t        R → ρ·R
+//! ```
+//!
+//! The model has one motor for all wheels. A motor with weakened magnets or a shorted turn has smaller constants, and
+//! because back-EMF and torque are two faces of the same flux, both shrink by the same factor k. A worn brush, a bad
+//! plug or a long cable adds to the resistance.
+//!
+//! symbol  code                     unit  meaning
+//! ------  -----------------------  ----  ------------------------------------------------------
+//! k       `torque_constant_ratio`  1     this motor's constants K_v and K_t over those of the model
+//! ρ       `resistance_ratio`       1     this motor's resistance over that of the model
+//!
+//! Both are fitted. One of them may stay at 1.
+//!
+//! Fails when: one phase is broken: the torque then depends on the angle.
+//! How to measure it: lift the robot and give all wheels the same voltage: the odd wheel runs at another speed (k);
+//! lock the wheels: it draws another current (ρ).
+//! Source: equations of the DC motor; sizes from catalogue notes E8 (−5 to −30 %) and E9 (+5 to +50 %).
+
+use crate::card::{Card, Param, Place, Role, Seam};
+use crate::effects::Effect;
+use crate::scalar::Real;
+use crate::seams::{At, Winding};
+
+/// The effect's page as data.
+pub const CARD: Card = Card {
+    id: "motor_mismatch",
+    title: "Mismatch of one motor",
+    summary: "One motor is weaker or stronger than the others, or its winding has another resistance.",
+    equation: "K_v → k·K_v,  K_t → k·K_t,  R → ρ·R",
+    source: "equations of the DC motor; sizes: catalogue E8, E9",
+    seams: &[Seam::Winding],
+    place: Place::OneWheel,
+    params: &[
+        Param {
+            key: "torque_constant_ratio",
+            symbol: "k",
+            unit: "1",
+            absent: 1.0,
+            typical: 0.88,
+            within: (0.4, 1.6),
+            role: Role::Size,
+        },
+        Param {
+            key: "resistance_ratio",
+            symbol: "ρ",
+            unit: "1",
+            absent: 1.0,
+            typical: 1.0,
+            within: (0.4, 2.5),
+            role: Role::Shape,
+        },
+    ],
+    memory: 0,
+    needs_current: false,
+    signature: "current and torque wrong on one wheel alone: in step with its speed (k) or with its current (ρ)",
+    look_alikes: &[],
+};
+
+/// The winding of the odd motor.
+#[inline]
+pub fn odd<T: Real>(torque_constant_ratio: T, resistance_ratio: T, x: Winding<T>) -> Winding<T> {
+    Winding {
+        // K_v → k·K_v,  K_t → k·K_t
+        emf_constant: x.emf_constant * torque_constant_ratio,
+        torque_constant: x.torque_constant * torque_constant_ratio,
+        // R → ρ·R
+        resistance: x.resistance * resistance_ratio,
+        ..x
+    }
+}
+
+/// Mismatch of one motor.
+#[derive(Debug)]
+pub struct MotorMismatch;
+
+impl<T: Real> Effect<T> for MotorMismatch {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn winding(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Winding<T>) {
+        let &[torque_constant_ratio, resistance_ratio] = p else { return };
+        *x = odd(torque_constant_ratio, resistance_ratio, *x);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAIN: Winding<f64> = Winding {
+        current: 0.7,
+        speed: 13.0,
+        resistance: 4.3111,
+        inductance: 3e-4,
+        emf_constant: 0.1295,
+        torque_constant: 0.1297,
+    };
+
+    fn wound(p: [f64; 2]) -> Winding<f64> {
+        let mut x = PLAIN;
+        MotorMismatch.winding(&p, &[], &At::default(), &mut x);
+        x
+    }
+
+    fn bits(x: &Winding<f64>) -> [u64; 6] {
+        [x.current, x.speed, x.resistance, x.inductance, x.emf_constant, x.torque_constant].map(f64::to_bits)
+    }
+
+    #[test]
+    fn a_motor_like_the_others_is_left_bit_for_bit() {
+        assert_eq!(bits(&wound([1.0, 1.0])), bits(&PLAIN));
+    }
+
+    #[test]
+    fn free_speed_goes_with_one_over_k_and_locked_torque_with_k_over_rho() {
+        let odd = wound([0.88, 1.2]);
+        // ω₀ = u/K_v
+        assert!((PLAIN.emf_constant / odd.emf_constant - 1.0 / 0.88).abs() < 1e-12);
+        // τ_s = K_t·u/R
+        let locked = |x: &Winding<f64>| x.torque_constant / x.resistance;
+        assert!((locked(&odd) / locked(&PLAIN) - 0.88 / 1.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn it_turns_no_more_electrical_power_into_mechanical_than_before() {
+        // e·i against τ·ω
+        let balance =
+            |x: &Winding<f64>| (x.torque_constant * x.current) * x.speed / (x.emf_constant * x.speed * x.current);
+        assert!((balance(&wound([0.6, 1.4])) - balance(&PLAIN)).abs() < 1e-12);
+    }
+}
