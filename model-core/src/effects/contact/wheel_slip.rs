@@ -1,0 +1,195 @@
+//! # Wheel slip: the floor holds only so much
+//!
+//! ```text
+//! f = μ·N · sin(C · atan(B·s))        s = r·ω − (cos α·v + sin α·vn + d·ω)
+//! ```
+//!
+//! A wheel pushes on the floor with at most μ·N. Near that limit its rim runs away from the floor: speed is lost, the
+//! wheel spins up, and odometry counts a way that was never gone. The curve is the short form of Pacejka's formula.
+//! With C = 1 it rises to the limit, f = μ·N·B·s/√(1 + (B·s)²); with C above 1 it falls again after a peak.
+//!
+//! symbol  code                    unit     meaning
+//! ------  ----------------------  -------  -----------------------------------------------------
+//! μ       `friction_coefficient`  1        largest force over normal force; 0 stands for no limit
+//! N       `load`                  N        normal force
+//! B       `stiffness`             1/(m/s)  slope at the origin over the limit, at C = 1
+//! C       `shape`                 1        1 rises to the limit, above 1 falls after a peak
+//! s       `slip`                  m/s      rim speed minus speed of the floor below the wheel
+//!
+//! A coefficient of zero stands for a contact that holds any force: the nominal model. The way there leads over large
+//! coefficients, not over small ones, so a fit starts from the typical value and says nothing near zero.
+//!
+//! Fails when: the rollers' own grip along the axle matters; when the floor changes from place to place.
+//! How to measure it: hold the robot with a spring balance, raise the current until a wheel spins, divide by its load.
+//! Source: Pacejka, Tire and Vehicle Dynamics; size from catalogue notes C6 and C7 (μ 0.2–0.8).
+
+use crate::card::{Card, LookAlike, Param, Place, Role, Seam};
+use crate::effects::Effect;
+use crate::scalar::Real;
+use crate::seams::{At, Contact};
+
+/// The effect's page as data.
+pub const CARD: Card = Card {
+    id: "wheel_slip",
+    title: "Slip of the wheels",
+    summary: "A wheel that pushes too hard slips, so that it turns faster than the robot moves.",
+    equation: "f = μ·N · sin(C · atan(B·s))",
+    source: "Pacejka's formula in its short form; sizes: catalogue C6, C7",
+    seams: &[Seam::Contact],
+    place: Place::Wheels,
+    params: &[
+        Param {
+            key: "friction_coefficient",
+            symbol: "μ",
+            unit: "1",
+            absent: 0.0,
+            typical: 0.35,
+            within: (0.0, 1.5),
+            role: Role::Size,
+        },
+        Param {
+            key: "curve_stiffness",
+            symbol: "B",
+            unit: "1/(m/s)",
+            absent: 30.0,
+            typical: 30.0,
+            within: (5.0, 200.0),
+            role: Role::Fixed,
+        },
+        Param {
+            key: "curve_shape",
+            symbol: "C",
+            unit: "1",
+            absent: 1.0,
+            typical: 1.0,
+            within: (0.8, 1.4),
+            role: Role::Fixed,
+        },
+    ],
+    memory: 0,
+    needs_current: false,
+    signature: "wheels faster than the body at high current; wheels disagree with each other; current itself right",
+    look_alikes: &[LookAlike { with: "creep", settled_by: "drive gently: creep stays at small forces, slip does not" }],
+};
+
+/// Force on the floor [N] and its slope [N/(m/s)], of a contact that holds at most `limit` [N].
+///
+/// At a shape of exactly 1 the closed form is taken, which knows no derivative by the shape.
+#[inline]
+pub fn traction<T: Real>(limit: T, stiffness: T, shape: T, slip: T) -> (T, T) {
+    let one = T::one();
+    let x = stiffness * slip;
+    let square = one + x * x;
+    if shape == one {
+        // f = μ·N · x/√(1 + x²),  ∂f/∂s = μ·N·B/(1 + x²)^(3/2)
+        let root = square.sqrt();
+        return (limit * x / root, limit * stiffness / (square * root));
+    }
+    // f = μ·N · sin(C · atan x),  ∂f/∂s = μ·N · cos(C · atan x) · C·B/(1 + x²)
+    let (sin, cos) = (shape * x.atan2(one)).sin_cos();
+    (limit * sin, limit * cos * shape * stiffness / square)
+}
+
+/// Slip of the wheels.
+#[derive(Debug)]
+pub struct WheelSlip;
+
+impl<T: Real> Effect<T> for WheelSlip {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn contact(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Contact<T>) {
+        let &[friction_coefficient, stiffness, shape] = p else { return };
+        if friction_coefficient > T::zero() {
+            x.grip = friction_coefficient;
+            x.stiffness = stiffness;
+            x.shape = shape;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn touched(p: [f64; 3]) -> Contact<f64> {
+        let mut x = Contact {
+            row: [0.0, 1.0, 0.089],
+            radius: 0.0325,
+            per_radius: 1.0 / 0.0325,
+            load: 5.7,
+            creep: 0.01,
+            grip: 0.0,
+            stiffness: 0.0,
+            shape: 1.0,
+        };
+        WheelSlip.contact(&p, &[], &At::default(), &mut x);
+        x
+    }
+
+    fn bits(x: &Contact<f64>) -> [u64; 3] {
+        [x.grip, x.stiffness, x.shape].map(f64::to_bits)
+    }
+
+    #[test]
+    fn without_a_coefficient_the_contact_holds_any_force_bit_for_bit() {
+        assert_eq!(bits(&touched([0.0, 30.0, 1.2])), [0.0, 0.0, 1.0].map(f64::to_bits));
+        assert_eq!(bits(&touched([0.35, 30.0, 1.2])), [0.35, 30.0, 1.2].map(f64::to_bits));
+    }
+
+    #[test]
+    fn at_small_slip_it_is_a_damper_and_at_large_slip_it_holds_the_limit() {
+        for shape in [0.9, 1.0, 1.3] {
+            let (force, slope) = traction(2.0, 30.0, shape, 1e-7);
+            assert!((slope - 2.0 * 30.0 * shape).abs() < 1e-6);
+            assert!((force - slope * 1e-7).abs() < 1e-12);
+        }
+        let (force, slope) = traction(2.0_f64, 30.0, 1.0, 100.0);
+        assert!((force - 2.0).abs() < 1e-6 && slope.abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_closed_form_is_the_formula_at_a_shape_of_one() {
+        for k in -50..=50 {
+            let slip = f64::from(k) * 0.01;
+            let (force, slope) = traction(2.0, 30.0, 1.0, slip);
+            let (near_force, near_slope) = traction(2.0, 30.0, 1.0 + 1e-12, slip);
+            assert!((force - near_force).abs() < 1e-10 && (slope - near_slope).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_slope_is_that_of_the_force() {
+        for shape in [0.8, 1.0, 1.4] {
+            for slip in [-0.4, -0.02, 0.0, 0.01, 0.1, 0.7] {
+                let h = 1e-6;
+                let difference =
+                    (traction(2.0, 30.0, shape, slip + h).0 - traction(2.0, 30.0, shape, slip - h).0) / (2.0 * h);
+                assert!((traction(2.0, 30.0, shape, slip).1 - difference).abs() < 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn it_brakes_the_slip_both_ways_and_never_beyond_the_limit() {
+        for shape in [0.8, 1.0, 1.4] {
+            for k in -200..=200 {
+                let slip = f64::from(k) * 0.02;
+                let (force, _) = traction(2.0, 30.0, shape, slip);
+                assert!(force * slip >= 0.0 && force.abs() <= 2.0 + 1e-12);
+                assert!((force + traction(2.0, 30.0, shape, -slip).0).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn above_a_shape_of_one_it_falls_after_a_peak() {
+        let force = |slip: f64| traction(2.0, 30.0, 1.4, slip).0;
+        // the peak stands where C·atan(B·s) is a quarter turn
+        let (sin, cos) = (core::f64::consts::FRAC_PI_2 / 1.4).sin_cos();
+        let peak = sin / cos / 30.0;
+        assert!((force(peak) - 2.0).abs() < 1e-12);
+        assert!(force(0.9 * peak) < force(peak) && force(1.1 * peak) < force(peak));
+    }
+}
