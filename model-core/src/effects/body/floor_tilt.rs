@@ -1,0 +1,149 @@
+//! # Floor tilt: the floor is not level
+//!
+//! ```text
+//! F_v  = M·g·sin β · cos(φ − θ)
+//! F_vn = M·g·sin β · sin(φ − θ)
+//! ```
+//!
+//! On a tilted floor gravity pulls downhill with a force that is fixed in the world: a robot that turns feels it from
+//! another side. It pulls at rest too, and the robot rolls away where friction lets it.
+//!
+//! symbol  code         unit   meaning
+//! ------  -----------  -----  -----------------------------------------------
+//! β       `tilt`       rad    steepest slope of the floor
+//! φ       `direction`  rad    where downhill lies in the world, from x towards y
+//! θ       `pose.theta` rad    heading of the robot
+//! g                    m/s²   standard gravity
+//!
+//! A tilt has two components, and slope and direction are their polar form: at zero slope the direction means nothing.
+//! A fit starts at the typical slope and has to try several directions. The normal forces, smaller by cos β, are left
+//! as they are: 2 % at the steepest floor allowed, 0.02 % at one degree.
+//!
+//! Fails when: the floor is bent: then the slope depends on the place.
+//! How to measure it: lay a spirit level on the floor; or drive the same way in both directions and compare.
+//! Source: gravity on an inclined plane; size from catalogue note B5 (0.2–2°).
+
+use crate::card::{Card, Param, Place, Role, Seam};
+use crate::effects::Effect;
+use crate::scalar::Real;
+use crate::seams::{At, Body, STANDARD_GRAVITY};
+
+/// The effect's page as data.
+pub const CARD: Card = Card {
+    id: "floor_tilt",
+    title: "Tilt of the floor",
+    summary: "The floor is not level, so that gravity pulls the robot one way, whatever its heading.",
+    equation: "F = M·g·sin β · (cos(φ − θ), sin(φ − θ))",
+    source: "gravity on an inclined plane; sizes: catalogue B5",
+    seams: &[Seam::Body],
+    place: Place::Robot,
+    params: &[
+        Param {
+            key: "tilt_rad",
+            symbol: "β",
+            unit: "rad",
+            absent: 0.0,
+            typical: 0.0175,
+            within: (0.0, 0.2),
+            role: Role::Size,
+        },
+        Param {
+            key: "direction_rad",
+            symbol: "φ",
+            unit: "rad",
+            absent: 0.0,
+            typical: 0.5,
+            within: (-core::f64::consts::PI, core::f64::consts::PI),
+            role: Role::Shape,
+        },
+    ],
+    memory: 0,
+    needs_current: false,
+    signature: "a constant force in the world frame, at rest too; in the body frame it turns with the heading",
+    look_alikes: &[],
+};
+
+/// Force along the robot's axes (v, vn) over mass [m/s², m/s²], downhill lying at `bearing` from the heading [rad].
+#[inline]
+pub fn pull<T: Real>(tilt: T, bearing: T) -> [T; 2] {
+    let (sin_tilt, _) = tilt.sin_cos();
+    let (sin, cos) = bearing.sin_cos();
+    // F/M = g·sin β · (cos(φ − θ), sin(φ − θ))
+    let g = T::lit(STANDARD_GRAVITY) * sin_tilt;
+    [g * cos, g * sin]
+}
+
+/// Tilt of the floor.
+#[derive(Debug)]
+pub struct FloorTilt;
+
+impl<T: Real> Effect<T> for FloorTilt {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn body(&self, p: &[T], _: &[T], at: &At<T>, x: &mut Body<T>) {
+        let &[tilt, direction] = p else { return };
+        let [v, vn] = pull(tilt, direction - at.pose.theta);
+        // 0 − a, taken away: a force that is absent then keeps even the sign of a zero
+        x.force[0] -= T::zero() - x.mass * v;
+        x.force[1] -= T::zero() - x.mass * vn;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::{BodyTwist, Pose};
+    use core::f64::consts::PI;
+
+    fn pulled(p: [f64; 2], theta: f64, force: [f64; 3]) -> [f64; 3] {
+        let at = At { pose: Pose { x: 0.4, y: -0.2, theta }, ..At::default() };
+        let mut x = Body { mass: 2.34, inertia: 0.0228, force, rate: [[0.0; 3]; 3], budget: [0.0; 3] };
+        FloorTilt.body(&p, &[], &at, &mut x);
+        x.force
+    }
+
+    #[test]
+    fn on_a_level_floor_the_force_is_left_bit_for_bit() {
+        for theta in [-2.0, 0.0, 0.5, 3.0] {
+            let force = [0.3, -0.0, 0.0];
+            assert_eq!(pulled([0.0, 0.5], theta, force).map(f64::to_bits), force.map(f64::to_bits));
+        }
+    }
+
+    #[test]
+    fn it_is_the_slope_of_the_potential_whatever_the_heading() {
+        // height of the floor: −tan β along downhill; along the floor a way ds sinks by sin β·ds
+        let (tilt, direction) = (0.0175, 0.5_f64);
+        let (sin_tilt, _) = tilt.sin_cos();
+        let (sin, cos) = direction.sin_cos();
+        for k in 0..12 {
+            let pose = Pose { theta: f64::from(k) * PI / 6.0 - 2.0, ..Pose::default() };
+            let [v, vn, w] = pulled([tilt, direction], pose.theta, [0.0; 3]);
+            let world = pose.to_world(BodyTwist { v, vn, w });
+            assert!((world.x - 2.34 * 9.80665 * sin_tilt * cos).abs() < 1e-12);
+            assert!((world.y - 2.34 * 9.80665 * sin_tilt * sin).abs() < 1e-12);
+            assert_eq!(w, 0.0);
+        }
+    }
+
+    #[test]
+    fn the_robot_turned_round_feels_it_from_the_other_side() {
+        let one = pulled([0.0175, 0.5], 0.2, [0.0; 3]);
+        let other = pulled([0.0175, 0.5], 0.2 + PI, [0.0; 3]);
+        assert!((one[0] + other[0]).abs() < 1e-12 && (one[1] + other[1]).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_way_there_and_back_takes_no_work() {
+        // a closed square driven at four headings
+        let mut work = 0.0;
+        for (theta, x, y) in [(0.3, 1.0, 0.0), (1.1, 0.0, 1.0), (-2.0, -1.0, 0.0), (2.9, 0.0, -1.0)] {
+            let [v, vn, _] = pulled([0.0175, 0.5], theta, [0.0; 3]);
+            let world = Pose { theta, ..Pose::default() }.to_world(BodyTwist { v, vn, w: 0.0 });
+            work += world.x * x + world.y * y;
+        }
+        assert!(work.abs() < 1e-12);
+    }
+}
