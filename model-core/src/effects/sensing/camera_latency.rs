@@ -1,0 +1,294 @@
+//! # Camera latency: the pose is that of a moment ago
+//!
+//! ```text
+//! pose_read(t) = pose(t − t_d)
+//! ```
+//!
+//! Exposure, transfer and image processing take time, and the row that carries the pose is stamped when it arrives. A
+//! robot that moves is then always seen behind itself, by velocity times latency.
+//!
+//! symbol  code       unit  meaning
+//! ------  ---------  ----  -----------------------------------
+//! t_d     `latency`  s     time from the exposure to the time stamp
+//!
+//! Memory: 48 poses at least 3.5 ms apart, so that the longest latency allowed, 0.15 s, is covered at any step length.
+//! Between two of them, and between the last of them and the present, the pose is taken on the chord: off by at most
+//! (|v·ω| + |dv/dt|)·h²/8 at a spacing of h, which at 1.5 m/s and 6 rad/s is 0.03 mm for h = 5 ms and 1.8 mm for 40 ms.
+//! Where the memory does not reach back far enough, the oldest pose stands.
+//!
+//! At a restart the robot is taken to have come with constant velocity, from the pose that the camera reads then.
+//!
+//! Fails when: the latency varies from frame to frame.
+//! How to measure it: spin the robot up and stop it: the camera sees the stop late by t_d.
+//! Source: pure delay; size from catalogue note S1 (20–90 ms; one camera frame is 40 ms).
+
+use crate::card::{Card, Param, Place, Role, Seam};
+use crate::effects::Effect;
+use crate::frames::Pose;
+use crate::scalar::Real;
+use crate::seams::{At, Sense, Turn};
+
+/// Poses that are remembered.
+const SLOTS: u8 = 48;
+
+/// Pieces into which a restart cuts the way that the robot came.
+const PIECES: u8 = 24;
+
+/// Least time between two remembered poses [s]; below 4 ms, so that steps of 4 ms are all kept whatever their rounding.
+const SPACING: f64 = 0.0035;
+
+/// The effect's page as data.
+pub const CARD: Card = Card {
+    id: "camera_latency",
+    title: "Latency of the camera",
+    summary: "The camera reports where the robot was a moment ago.",
+    equation: "pose_read(t) = pose(t − t_d)",
+    source: "pure delay; sizes: catalogue S1",
+    seams: &[Seam::Sense],
+    place: Place::Robot,
+    params: &[Param {
+        key: "latency_s",
+        symbol: "t_d",
+        unit: "s",
+        absent: 0.0,
+        typical: 0.040,
+        within: (0.0, 0.15),
+        role: Role::Size,
+    }],
+    // the next slot and the number of slots in use, then (time, x, y, θ) of each pose
+    memory: 2 + 4 * SLOTS as usize,
+    needs_current: false,
+    signature: "pose behind by velocity times latency, in x, y and heading alike; current and wheel speed right",
+    look_alikes: &[],
+};
+
+/// The pose a `latency` [s] ago.
+///
+/// `past` holds (time, x, y, θ), newest first. Where it does not reach back far enough, its oldest pose stands.
+#[inline]
+pub fn delayed<T: Real>(latency: T, time: T, now: Pose<T>, past: impl Iterator<Item = [T; 4]>) -> Pose<T> {
+    let (mut newer, mut newer_age) = (now, T::zero());
+    for [then, x, y, theta] in past {
+        let (older, age) = (Pose { x, y, theta }, time - then);
+        if latency <= age && newer_age < age {
+            // on the chord from the newer pose to the older; 0 − a, taken away, keeps even the sign of a zero
+            let share = (latency - newer_age) / (age - newer_age);
+            let chord = |newer: T, older: T| newer - (T::zero() - (older - newer) * share);
+            return Pose {
+                x: chord(newer.x, older.x),
+                y: chord(newer.y, older.y),
+                theta: chord(newer.theta, older.theta),
+            };
+        }
+        (newer, newer_age) = (older, age);
+    }
+    newer
+}
+
+/// The remembered poses, newest first.
+fn newest_first<T: Real>(s: &[T]) -> impl Iterator<Item = [T; 4]> {
+    let (next, used, ring) = match s {
+        [next, used, ring @ ..] => (next.index(), used.index(), ring),
+        _ => (0, 0, s),
+    };
+    let (slots, _) = ring.as_chunks::<4>();
+    let (after, before) = slots.split_at(next.min(slots.len()));
+    after.iter().rev().chain(before.iter().rev()).take(used).copied()
+}
+
+/// Remember a pose in the place of the oldest.
+fn remember<T: Real>(s: &mut [T], time: T, pose: Pose<T>) {
+    let [next, used, ring @ ..] = s else { return };
+    let (slots, _) = ring.as_chunks_mut::<4>();
+    let Some(slot) = slots.get_mut(next.index()) else { return };
+    *slot = [time, pose.x, pose.y, pose.theta];
+    let all = T::lit(f64::from(SLOTS));
+    *used = (*used + T::one()).min(all);
+    *next += T::one();
+    if *next >= all {
+        *next = T::zero();
+    }
+}
+
+/// Latency of the camera.
+#[derive(Debug)]
+pub struct CameraLatency;
+
+impl<T: Real> Effect<T> for CameraLatency {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn sense(&self, p: &[T], s: &[T], at: &At<T>, x: &mut Sense<T>) {
+        let &[latency] = p else { return };
+        x.pose = delayed(latency.max(T::zero()), at.time, x.pose, newest_first(s));
+    }
+
+    fn unsense(&self, p: &[T], at: &At<T>, x: &mut Sense<T>) {
+        let &[latency] = p else { return };
+        x.pose = x.pose.moved(at.twist, latency.max(T::zero()));
+    }
+
+    fn restart(&self, p: &[T], s: &mut [T], at: &At<T>) {
+        let &[latency] = p else { return };
+        s.fill(T::zero());
+        for k in (0..=PIECES).rev() {
+            let ago = latency.max(T::zero()) * T::lit(f64::from(k) / f64::from(PIECES));
+            remember(s, at.time - ago, at.pose.moved(at.twist, -ago));
+        }
+    }
+
+    fn advance(&self, _: &[T], s: &mut [T], at: &At<T>, _: &Turn<T>) {
+        let recent = newest_first(s).next().is_some_and(|[time, ..]| at.time - time < T::lit(SPACING));
+        if !recent {
+            remember(s, at.time, at.pose);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::BodyTwist;
+
+    const STRAIGHT: BodyTwist<f64> = BodyTwist { v: 0.9, vn: -0.5, w: 0.0 };
+    const CURVE: BodyTwist<f64> = BodyTwist { v: 1.5, vn: 0.0, w: 6.0 };
+
+    /// Where a robot is that left (0.2, −0.1, 0.4) at time zero with a constant twist.
+    fn truth(twist: BodyTwist<f64>, t: f64) -> Pose<f64> {
+        let start = Pose { x: 0.2, y: -0.1, theta: 0.4 };
+        if twist.w == 0.0 {
+            return start.moved(twist, t);
+        }
+        // along the arc: (x, y) = (x₀, y₀) + v/ω·(sin θ − sin θ₀, cos θ₀ − cos θ)
+        let theta = start.theta + twist.w * t;
+        let ((s0, c0), (s, c)) = (start.theta.sin_cos(), theta.sin_cos());
+        Pose { x: start.x + twist.v / twist.w * (s - s0), y: start.y + twist.v / twist.w * (c0 - c), theta }
+    }
+
+    fn at(twist: BodyTwist<f64>, time: f64) -> At<f64> {
+        At { time, pose: truth(twist, time), twist, ..At::default() }
+    }
+
+    fn read(latency: f64, s: &[f64], at: &At<f64>) -> Pose<f64> {
+        let mut x = Sense { pose: at.pose, ..Sense::default() };
+        CameraLatency.sense(&[latency], s, at, &mut x);
+        x.pose
+    }
+
+    fn off(a: Pose<f64>, b: Pose<f64>) -> f64 {
+        (a.x - b.x).abs().max((a.y - b.y).abs()).max((a.theta - b.theta).abs())
+    }
+
+    fn bits(a: Pose<f64>) -> [u64; 3] {
+        [a.x, a.y, a.theta].map(f64::to_bits)
+    }
+
+    /// Drives from time zero, cold, in steps from a list over and over; the largest error once `latency` is over.
+    fn worst(latency: f64, twist: BodyTwist<f64>, steps: &[f64], end: f64) -> f64 {
+        let mut s = [0.0; CARD.memory];
+        let (mut time, mut worst) = (0.0, 0.0_f64);
+        for dt in steps.iter().cycle() {
+            CameraLatency.advance(&[latency], &mut s, &at(twist, time), &Turn::default());
+            time += dt;
+            if time > end {
+                break;
+            }
+            if time > latency {
+                worst = worst.max(off(read(latency, &s, &at(twist, time)), truth(twist, time - latency)));
+            }
+        }
+        worst
+    }
+
+    #[test]
+    fn without_latency_the_pose_is_the_truth_bit_for_bit() {
+        let mut s = [0.0; CARD.memory];
+        assert_eq!(bits(read(0.0, &s, &at(CURVE, 0.0))), bits(truth(CURVE, 0.0)));
+        CameraLatency.restart(&[0.0], &mut s, &at(CURVE, 0.0));
+        for k in 0..100 {
+            let here = at(CURVE, 0.005 * f64::from(k));
+            assert_eq!(bits(read(0.0, &s, &here)), bits(here.pose));
+            let mut x = Sense { pose: here.pose, ..Sense::default() };
+            CameraLatency.unsense(&[0.0], &here, &mut x);
+            assert_eq!(bits(x.pose), bits(here.pose));
+            CameraLatency.advance(&[0.0], &mut s, &here, &Turn::default());
+        }
+        let zero = At { time: 0.6, pose: Pose { x: -0.0, y: 0.0, theta: -0.0 }, ..At::default() };
+        assert_eq!(bits(read(0.0, &s, &zero)), bits(zero.pose));
+    }
+
+    #[test]
+    fn on_a_straight_way_it_is_exact_at_any_step_length() {
+        for latency in [0.0007, 0.040, 0.0613, 0.15] {
+            for steps in [&[0.005][..], &[0.001], &[0.004], &[0.0035], &[0.003, 0.011, 0.001, 0.0005, 0.040]] {
+                let worst = worst(latency, STRAIGHT, steps, 1.0);
+                assert!(worst < 1e-12, "{worst} m at {latency} s in steps of {steps:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn in_a_curve_it_is_off_by_no_more_than_the_page_says() {
+        for (step, spacing) in [(0.005, 0.005), (0.001, 0.004), (0.040, 0.040)] {
+            let bound = CURVE.v * CURVE.w * spacing * spacing / 8.0;
+            let worst = worst(0.0613, CURVE, &[step], 2.0);
+            assert!(worst < 1.001 * bound && worst > 0.1 * bound, "{worst} m against {bound} m");
+        }
+    }
+
+    #[test]
+    fn before_it_has_seen_anything_older_the_first_pose_stands() {
+        let mut s = [0.0; CARD.memory];
+        assert_eq!(bits(read(0.040, &s, &at(STRAIGHT, 0.0))), bits(truth(STRAIGHT, 0.0)));
+        CameraLatency.advance(&[0.040], &mut s, &at(STRAIGHT, 0.0), &Turn::default());
+        assert_eq!(bits(read(0.040, &s, &at(STRAIGHT, 0.005))), bits(truth(STRAIGHT, 0.0)));
+    }
+
+    #[test]
+    fn after_a_restart_the_camera_reads_the_measured_pose() {
+        for time in [0.0, 17.3] {
+            for latency in [0.003, 0.040, 0.15] {
+                let measured = Pose { x: 0.31, y: -1.2, theta: 2.8 };
+                let mut x = Sense { pose: measured, ..Sense::default() };
+                let mut here = At { time, twist: CURVE, ..At::default() };
+                CameraLatency.unsense(&[latency], &here, &mut x);
+                here.pose = x.pose;
+                let mut s = [7.0; CARD.memory];
+                CameraLatency.restart(&[latency], &mut s, &here);
+                assert!(off(read(latency, &s, &here), measured) < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn from_a_restart_on_it_follows_the_way_the_robot_came() {
+        for latency in [0.040, 0.15] {
+            let mut s = [0.0; CARD.memory];
+            let start = 0.5;
+            CameraLatency.restart(&[latency], &mut s, &at(STRAIGHT, start));
+            for k in 0..200 {
+                let here = at(STRAIGHT, start + 0.004 * f64::from(k));
+                assert!(off(read(latency, &s, &here), truth(STRAIGHT, here.time - latency)) < 1e-12);
+                CameraLatency.advance(&[latency], &mut s, &here, &Turn::default());
+            }
+        }
+    }
+
+    #[test]
+    fn a_robot_at_rest_is_seen_where_it_is_and_a_moving_one_behind_itself() {
+        let mut s = [0.0; CARD.memory];
+        CameraLatency.restart(&[0.040], &mut s, &at(BodyTwist::default(), 0.0));
+        assert!(off(read(0.040, &s, &at(BodyTwist::default(), 0.0)), truth(STRAIGHT, 0.0)) == 0.0);
+        let back = BodyTwist { v: -STRAIGHT.v, vn: -STRAIGHT.vn, w: 0.0 };
+        let behind = |twist| {
+            let mut s = [0.0; CARD.memory];
+            CameraLatency.restart(&[0.040], &mut s, &at(twist, 0.0));
+            let seen = read(0.040, &s, &at(twist, 0.0));
+            let here = truth(twist, 0.0);
+            [seen.x - here.x, seen.y - here.y]
+        };
+        let (there, back) = (behind(STRAIGHT), behind(back));
+        assert!((there[0] + back[0]).abs() < 1e-12 && (there[1] + back[1]).abs() < 1e-12);
+    }
+}
