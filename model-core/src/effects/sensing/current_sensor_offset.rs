@@ -1,0 +1,112 @@
+//! # Current sensor offset: the zero of the current is off
+//!
+//! ```text
+//! i_read = i + o
+//! ```
+//!
+//! Amplifier and converter have a zero that drifts with temperature and is rarely trimmed. The reading then carries a
+//! constant that the motor never sees: speed and pose are as they should be.
+//!
+//! symbol  code      unit  meaning
+//! ------  --------  ----  --------------------------
+//! o       `offset`  A     reading at zero current
+//!
+//! Fails when: the sensor reads the amount of the current: then the offset turns with the current's sign.
+//! How to measure it: read the current with the bridge off.
+//! Source: zero error of a shunt amplifier; size from catalogue note S9 (10–100 mA).
+
+use crate::card::{Card, Param, Place, Role, Seam};
+use crate::effects::Effect;
+use crate::scalar::Real;
+use crate::seams::{At, Sense};
+
+/// The effect's page as data.
+pub const CARD: Card = Card {
+    id: "current_sensor_offset",
+    title: "Offset of the current sensor",
+    summary: "The current sensor does not read zero at zero current.",
+    equation: "i_read = i + o",
+    source: "zero error of a shunt amplifier; sizes: catalogue S9",
+    seams: &[Seam::Sense],
+    place: Place::Wheels,
+    params: &[Param {
+        key: "offset_A",
+        symbol: "o",
+        unit: "A",
+        absent: 0.0,
+        typical: 0.05,
+        within: (-0.5, 0.5),
+        role: Role::Size,
+    }],
+    memory: 0,
+    needs_current: false,
+    signature: "a constant in the current, at rest too; speed and pose right",
+    look_alikes: &[],
+};
+
+/// Reading of the current [A].
+#[inline]
+pub fn reading<T: Real>(offset: T, current: T) -> T {
+    // i_read = i + o, written so that no offset keeps even the sign of a zero
+    current - (T::zero() - offset)
+}
+
+/// Offset of the current sensor.
+#[derive(Debug)]
+pub struct CurrentSensorOffset;
+
+impl<T: Real> Effect<T> for CurrentSensorOffset {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn sense(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Sense<T>) {
+        let &[offset] = p else { return };
+        x.current = reading(offset, x.current);
+    }
+
+    fn unsense(&self, p: &[T], _: &At<T>, x: &mut Sense<T>) {
+        let &[offset] = p else { return };
+        x.current -= offset;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sensed(offset: f64, current: f64) -> Sense<f64> {
+        let mut x = Sense { current, wheel_speed: 3.0, ..Sense::default() };
+        CurrentSensorOffset.sense(&[offset], &[], &At::default(), &mut x);
+        x
+    }
+
+    #[test]
+    fn without_offset_the_reading_is_the_truth_bit_for_bit() {
+        for current in [0.0, -0.0, 0.7, -1.3] {
+            let mut x = sensed(0.0, current);
+            assert_eq!(x.current.to_bits(), current.to_bits());
+            CurrentSensorOffset.unsense(&[0.0], &At::default(), &mut x);
+            assert_eq!(x.current.to_bits(), current.to_bits());
+        }
+    }
+
+    #[test]
+    fn at_zero_current_the_reading_is_the_offset() {
+        assert_eq!(sensed(0.05, 0.0).current, 0.05);
+        assert_eq!(sensed(-0.05, 0.0).current, -0.05);
+        assert_eq!(sensed(0.05, 0.0).wheel_speed, 3.0);
+    }
+
+    #[test]
+    fn reading_backwards_gives_the_truth() {
+        let mut x = sensed(0.05, 0.7);
+        CurrentSensorOffset.unsense(&[0.05], &At::default(), &mut x);
+        assert!((x.current - 0.7).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_mean_over_both_directions_is_the_offset() {
+        assert!((0.5 * (sensed(0.05, 0.7).current + sensed(0.05, -0.7).current) - 0.05).abs() < 1e-15);
+    }
+}
