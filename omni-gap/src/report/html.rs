@@ -1,0 +1,178 @@
+//! The report on one page: no script, no network, light and dark, wide and narrow.
+
+mod blame;
+mod gap;
+mod notes;
+mod signals;
+
+use super::markup::Markup;
+use super::model::{Report, Verdict};
+use super::number::{num, percent};
+use super::picture::Pictures;
+use super::words;
+
+/// The whole page.
+pub fn html(report: &Report, pictures: &Pictures) -> String {
+    let mut m = Markup::default();
+    m.own("<!doctype html>\n");
+    m.within("html", &[("lang", &"en")], |m| {
+        m.within("head", &[], |m| {
+            m.own("<meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">");
+            m.own("<meta name=\"color-scheme\" content=\"light dark\">");
+            m.leaf("title", &[], &format!("{}: {}", subject(report), words::verdict(report.verdict)));
+            m.within("style", &[], |m| m.own(include_str!("html/style.css")));
+        });
+        m.within("body", &[], |m| {
+            m.within("main", &[], |m| {
+                head(m, report);
+                notes::faults(m, report);
+                gap::how_large(m, report);
+                blame::places(m, report);
+                blame::causes(m, report);
+                signals::charts(m, pictures);
+                notes::parameters(m, report);
+                notes::next(m, report);
+                notes::not_seen(m, report);
+                notes::notices(m, report);
+                foot(m);
+            });
+        });
+    });
+    m.finish() + "\n"
+}
+
+/// A section under a heading, with a line that says how to read it.
+fn section(m: &mut Markup, title: &str, explained: &str, fill: impl FnOnce(&mut Markup)) {
+    m.within("section", &[], |m| {
+        m.leaf("h2", &[], title);
+        if !explained.is_empty() {
+            m.leaf("p", &[("class", &"how")], explained);
+        }
+        fill(m);
+    });
+}
+
+fn subject(report: &Report) -> String {
+    let parts: Vec<_> = [&report.robot, &report.session].into_iter().flatten().cloned().collect();
+    if parts.is_empty() { "omni-gap".into() } else { parts.join(", ") }
+}
+
+fn head(m: &mut Markup, report: &Report) {
+    m.within("header", &[], |m| {
+        m.within("p", &[("class", &"subject")], |m| {
+            m.leaf(
+                "span",
+                &[("class", &format!("verdict {}", words::verdict(report.verdict)))],
+                words::verdict(report.verdict),
+            );
+            m.text(&subject(report));
+        });
+        m.leaf("h1", &[], &words::headline(report));
+        let lead = report.causes.first().and_then(|id| report.cause(id));
+        let sure = lead.map(|w| format!("Probability {}. ", percent(w.probability)));
+        let alike = lead
+            .and_then(|w| words::look_alikes(report, w))
+            .map(|names| format!(" This log cannot tell it from: {names}."));
+        let lede: String = [sure, words::change(report), alike].into_iter().flatten().collect();
+        if !lede.is_empty() {
+            m.leaf("p", &[("class", &"lede")], &lede);
+        }
+        figures(m, report);
+    });
+}
+
+/// The four numbers that sum the diagnosis up.
+fn figures(m: &mut Markup, report: &Report) {
+    let s = &report.shrink;
+    if report.verdict == Verdict::UnfitData || s.before.is_none() {
+        return;
+    }
+    let interval = s.closed_ci95.map(|[lo, hi]| format!("95 % interval {} to {}", percent(lo), percent(hi)));
+    let cells = [
+        ("error before", s.before.map(|x| num(x) + "\u{a0}σ"), Some("nominal model".to_string())),
+        ("error after", s.after.map(|x| num(x) + "\u{a0}σ"), Some("corrected model".to_string())),
+        ("noise floor", s.noise_floor.map(|x| num(x) + "\u{a0}σ"), Some("a perfect model".to_string())),
+        ("gap closed", s.closed.map(percent).or(Some("–".into())), interval.or(s.reason.clone())),
+    ];
+    m.within("dl", &[("class", &"figures")], |m| {
+        for (name, value, note) in cells {
+            let Some(value) = value else { continue };
+            m.within("div", &[], |m| {
+                m.leaf("dt", &[], name);
+                m.leaf("dd", &[("class", &"figure")], &value);
+                m.leaf("dd", &[("class", &"note")], &note.unwrap_or_default());
+            });
+        }
+    });
+}
+
+fn foot(m: &mut Markup) {
+    m.leaf(
+        "footer",
+        &[],
+        "Every number on this page stands in report.json beside it; corrected_robot.toml is the robot file with the \
+         causes written in.",
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample;
+
+    #[test]
+    fn a_page_needs_no_script_and_no_network() {
+        for (name, report) in sample::all() {
+            let page = html(&report, &sample::pictures());
+            for banned in ["<script", "http", "url(", "@import", "NaN", "javascript"] {
+                assert!(!page.contains(banned), "{name} contains {banned}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_tag_that_opens_closes() {
+        for (name, report) in sample::all() {
+            let page = html(&report, &sample::pictures());
+            let mut open = Vec::new();
+            for tag in page.split('<').skip(1).map(|rest| rest.split('>').next().unwrap()) {
+                match tag.split_whitespace().next().unwrap() {
+                    "!doctype" | "meta" => {}
+                    closing if closing.starts_with('/') => {
+                        assert_eq!(open.pop(), Some(&closing[1..]), "{name}: <{tag}>")
+                    }
+                    opening => open.push(opening),
+                }
+            }
+            assert!(open.is_empty(), "{name}: {open:?} stay open");
+        }
+    }
+
+    #[test]
+    fn text_of_the_session_is_never_markup() {
+        let mut report = sample::effect();
+        let evil = "<b>\"x\"</b>".to_string();
+        report.robot = Some(evil.clone());
+        report.which[0].title = Some(evil.clone());
+        report.which[0].settle_by = Some(evil.clone());
+        report.notices = vec![evil.clone()];
+        report.not_seen = vec![evil.clone()];
+        report.parameters[0].key = evil.clone();
+        let mut pictures = sample::pictures();
+        pictures.panels[0].title = evil.clone();
+        pictures.panels[0].series[0].name = evil.clone();
+        pictures.caption = evil;
+        let page = html(&report, &pictures);
+        assert!(!page.contains("<b>"));
+        assert!(page.matches("&lt;b&gt;").count() >= 9);
+    }
+
+    #[test]
+    fn pages_can_be_looked_at() {
+        let Some(dir) = std::env::var_os("OMNI_GAP_PAGES") else { return };
+        for (name, report) in sample::all() {
+            let path = std::path::Path::new(&dir).join(name).with_extension("html");
+            std::fs::write(path, html(&report, &sample::pictures())).unwrap();
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Where the gap lies, and which cause is behind it.
+
+use super::section;
+use crate::report::markup::Markup;
+use crate::report::model::{Kind, Report, Stage, Verdict, Which};
+use crate::report::number::{estimate, percent};
+use crate::report::words;
+
+/// Causes less probable than this are summed up in a line.
+const WORTH_A_ROW: f64 = 0.005;
+
+/// Causes shown at most, so that the page stays one a person reads.
+const MOST_ROWS: usize = 10;
+
+pub(super) fn places(m: &mut Markup, report: &Report) {
+    if report.where_.is_empty() {
+        return;
+    }
+    let share = |stage: Stage| report.where_.iter().filter(|w| w.stage == stage).map(|w| w.share).sum::<f64>();
+    let most = Stage::ALL.into_iter().max_by(|a, b| share(*a).total_cmp(&share(*b)));
+    let how = "The signal path from command to reading. Each stage was given measured input; its share is what it alone \
+               adds to the error.";
+    section(m, "Where does it lie?", how, |m| {
+        m.within("div", &[("class", &"path")], |m| {
+            for stage in Stage::ALL.into_iter().filter(|s| share(*s) > 0.0) {
+                let class = if Some(stage) == most { "most" } else { "" };
+                m.within("div", &[("class", &class), ("style", &format!("flex-grow:{:.4}", share(stage)))], |m| {
+                    if share(stage) >= 0.1 {
+                        m.leaf("span", &[], &percent(share(stage)));
+                    }
+                });
+            }
+        });
+        m.within("ol", &[("class", &"stages")], |m| {
+            for stage in Stage::ALL {
+                let class = if Some(stage) == most { "most" } else { "" };
+                m.within("li", &[("class", &class)], |m| {
+                    m.leaf("strong", &[], words::stage(stage));
+                    m.leaf("span", &[("class", &"share")], &percent(share(stage)));
+                    m.leaf("small", &[], words::stage_path(stage));
+                });
+            }
+        });
+        m.within("ul", &[("class", &"plain")], |m| {
+            for w in report.where_.iter().filter(|w| w.regime.is_some() || w.wheel.is_some() || w.axis.is_some()) {
+                let regime = w.regime.as_ref().map(|r| format!(". {} of it where {}", percent(r.share), r.text));
+                let spot = words::spot(w.wheel, w.axis);
+                m.within("li", &[], |m| {
+                    m.leaf("strong", &[], &format!("{}{spot}: {}", words::stage(w.stage), percent(w.share)));
+                    m.text(&format!("{}.", regime.unwrap_or_default()));
+                });
+            }
+        });
+    });
+}
+
+pub(super) fn causes(m: &mut Markup, report: &Report) {
+    if report.which.is_empty() || report.verdict == Verdict::UnfitData {
+        return;
+    }
+    let worth = |w: &&Which| w.probability >= WORTH_A_ROW || report.causes.contains(&w.cause);
+    let shown: Vec<_> = report.which.iter().filter(worth).take(MOST_ROWS).collect();
+    section(m, "Which cause?", "Every cause of the catalogue was weighed; probabilities sum to 100 %.", |m| {
+        m.within("table", &[("class", &"causes")], |m| {
+            m.within("thead", &[], |m| {
+                m.within("tr", &[], |m| {
+                    for name in ["Cause", "Probability", "Parameters", "Not told apart from"] {
+                        m.leaf("th", &[("scope", &"col")], name);
+                    }
+                });
+            });
+            m.within("tbody", &[], |m| shown.iter().for_each(|w| cause(m, report, w)));
+        });
+        let rest = report.which.len() - shown.len();
+        if rest > 0 {
+            let left = 1.0 - shown.iter().map(|w| w.probability).sum::<f64>();
+            let others = if rest == 1 { "One other cause has".into() } else { format!("{rest} other causes share") };
+            m.leaf("p", &[("class", &"how")], &format!("{others} {}.", percent(left.max(0.0))));
+        }
+    });
+}
+
+fn cause(m: &mut Markup, report: &Report, w: &Which) {
+    let class = if report.causes.contains(&w.cause) { "found" } else { "" };
+    m.within("tr", &[("class", &class)], |m| {
+        m.within("th", &[("scope", &"row")], |m| {
+            m.text(&words::title(report, &w.cause));
+            let kind = match w.kind {
+                Some(Kind::Effect) => "effect",
+                Some(Kind::Parameter) => "parameter",
+                None => "no cause of the catalogue",
+            };
+            m.leaf("small", &[], &format!("{kind}{}", words::spot(w.wheel, w.axis)));
+        });
+        m.within("td", &[("class", &"chance")], |m| {
+            m.leaf("span", &[], &percent(w.probability));
+            m.within("div", &[("class", &"meter")], |m| {
+                m.leaf("i", &[("style", &format!("width:{:.2}%", 100.0 * w.probability.clamp(0.0, 1.0)))], "");
+            });
+        });
+        m.within("td", &[("data-name", &"Parameters")], |m| {
+            for (key, p) in &w.parameters {
+                m.within("div", &[("class", &"parameter")], |m| {
+                    m.leaf("code", &[], key);
+                    m.leaf("span", &[], &estimate(p.value, p.std, &p.unit));
+                });
+            }
+        });
+        m.within("td", &[("data-name", &"Not told apart from")], |m| {
+            if let Some(alike) = words::look_alikes(report, w) {
+                m.text(&alike);
+                if let Some(settle) = &w.settle_by {
+                    m.leaf("small", &[], &format!("Settle it by: {settle}"));
+                }
+            }
+        });
+    });
+}

@@ -1,0 +1,99 @@
+//! How large the gap is: before, after and noise floor, in total, per signal group and per horizon.
+
+use super::section;
+use crate::report::horizons::horizon_chart;
+use crate::report::markup::Markup;
+use crate::report::model::{Report, SignalGap};
+use crate::report::number::{num, percent};
+use crate::report::words;
+
+/// The longest bar, so that its number still fits beside it [% of the row].
+const LONGEST: f64 = 84.0;
+
+/// Signal groups in signal order.
+const GROUPS: [&str; 3] = ["i", "w", "pose"];
+
+pub(super) fn how_large(m: &mut Markup, report: &Report) {
+    let s = &report.shrink;
+    let mut rows: Vec<(&str, SignalGap)> = Vec::new();
+    if let (Some(before), Some(after), Some(noise_floor)) = (s.before, s.after, s.noise_floor) {
+        rows.push(("total", SignalGap { before, after, noise_floor }));
+    }
+    let known = GROUPS.iter().filter_map(|key| report.gap.signals.get_key_value(*key));
+    let others = report.gap.signals.iter().filter(|(key, _)| !GROUPS.contains(&key.as_str()));
+    rows.extend(known.chain(others).map(|(key, gap)| (words::group(key), *gap)));
+    if rows.is_empty() {
+        return;
+    }
+    let how = "Root mean square of measured minus predicted, in units of each sensor’s stated sigma, over free runs of \
+               0.5 s on runs held out. The upright mark is the noise floor: a perfect model would end there.";
+    section(m, "How large is the gap?", how, |m| {
+        legend(m);
+        let top = rows.iter().flat_map(|(_, g)| [g.before, g.after, g.noise_floor]).fold(0.0, f64::max);
+        let width = |x: f64| LONGEST * x.max(0.0) / top.max(f64::MIN_POSITIVE);
+        m.within("div", &[("class", &"bars")], |m| rows.iter().for_each(|(name, gap)| row(m, name, gap, width)));
+        rivals(m, report);
+        if report.gap.curves.len() > 1 {
+            m.within("figure", &[("class", &"alone")], |m| {
+                m.leaf("figcaption", &[], "Error over the length of the prediction");
+                horizon_chart(m, &report.gap.curves);
+            });
+        }
+    });
+}
+
+fn legend(m: &mut Markup) {
+    m.within("p", &[("class", &"legend")], |m| {
+        for (class, name) in
+            [("nominal", "before: nominal"), ("corrected", "after: corrected"), ("floor", "noise floor")]
+        {
+            m.leaf("span", &[("class", &format!("key block {class}"))], name);
+        }
+    });
+}
+
+fn row(m: &mut Markup, name: &str, gap: &SignalGap, width: impl Fn(f64) -> f64) {
+    let class = if name == "total" { "row total" } else { "row" };
+    m.within("div", &[("class", &class)], |m| {
+        m.leaf("span", &[("class", &"name")], name);
+        m.within("div", &[("class", &"pair")], |m| {
+            for (class, value) in [("nominal", gap.before), ("corrected", gap.after)] {
+                m.within("div", &[("class", &"bar")], |m| {
+                    m.leaf("i", &[("class", &class), ("style", &format!("width:{:.2}%", width(value)))], "");
+                    m.leaf("span", &[], &num(value));
+                });
+            }
+            let label = format!("noise floor {}", num(gap.noise_floor));
+            let at = format!("left:{:.2}%", width(gap.noise_floor));
+            m.leaf("i", &[("class", &"floor"), ("style", &at), ("title", &label)], "");
+        });
+    });
+}
+
+/// What else would have closed the gap, for honesty.
+fn rivals(m: &mut Markup, report: &Report) {
+    let s = &report.shrink;
+    let all = [
+        ("the causes found", s.closed, "corrected"),
+        ("refit of nominal parameters alone", s.closed_by_refit_alone, "plain"),
+        ("the second-best cause", s.closed_by_runner_up, "plain"),
+        ("a flexible model without physics", s.closed_by_flexible_model, "plain"),
+    ];
+    if all.iter().filter(|(_, closed, _)| closed.is_some()).count() < 2 {
+        return;
+    }
+    m.leaf("h3", &[], "Share of the gap closed by");
+    m.within("div", &[("class", &"bars slim")], |m| {
+        for (name, closed, class) in all {
+            let Some(closed) = closed else { continue };
+            m.within("div", &[("class", &"row")], |m| {
+                m.leaf("span", &[("class", &"name")], name);
+                m.within("div", &[("class", &"bar")], |m| {
+                    let width = format!("width:{:.2}%", LONGEST * closed.clamp(0.0, 1.0));
+                    m.leaf("i", &[("class", &class), ("style", &width)], "");
+                    m.leaf("span", &[], &percent(closed));
+                });
+            });
+        }
+    });
+}

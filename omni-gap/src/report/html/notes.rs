@@ -1,0 +1,113 @@
+//! Parameters, what to do next, what could not be seen, what is wrong with the log.
+
+use super::section;
+use crate::report::markup::Markup;
+use crate::report::model::{Corrected, Report};
+use crate::report::number::{estimate, figures};
+use crate::report::terminal::place_in_log;
+use crate::report::words;
+
+pub(super) fn faults(m: &mut Markup, report: &Report) {
+    if report.faults.is_empty() {
+        return;
+    }
+    section(m, "What is wrong with the log, and how to mend it", "", |m| {
+        m.within("ol", &[("class", &"faults")], |m| {
+            for fault in &report.faults {
+                m.within("li", &[], |m| {
+                    m.leaf("strong", &[], &fault.what);
+                    let place = place_in_log(fault);
+                    if !place.is_empty() {
+                        m.leaf("code", &[], place.trim_end_matches(": "));
+                    }
+                    m.leaf("p", &[], &format!("To mend it: {}.", fault.mend));
+                });
+            }
+        });
+    });
+}
+
+pub(super) fn parameters(m: &mut Markup, report: &Report) {
+    if report.parameters.is_empty() {
+        return;
+    }
+    let how = "One standard deviation on both sides; the last column is the change in stated uncertainties.";
+    section(m, "Parameters, nominal and corrected", how, |m| {
+        m.within("table", &[("class", &"numbers")], |m| {
+            m.within("thead", &[], |m| {
+                m.within("tr", &[], |m| {
+                    for name in ["Parameter", "Nominal", "Corrected", "Change"] {
+                        m.leaf("th", &[("scope", &"col")], name);
+                    }
+                });
+            });
+            m.within("tbody", &[], |m| report.parameters.iter().for_each(|p| parameter(m, p)));
+        });
+    });
+}
+
+fn parameter(m: &mut Markup, p: &Corrected) {
+    m.within("tr", &[], |m| {
+        m.within("th", &[("scope", &"row")], |m| m.leaf("code", &[], &p.key));
+        let nominal = p.nominal.map(|x| estimate(x, p.nominal_std, &p.unit)).unwrap_or("none".into());
+        m.leaf("td", &[("data-name", &"nominal")], &nominal);
+        m.leaf("td", &[("data-name", &"corrected")], &estimate(p.corrected, p.std, &p.unit));
+        m.within("td", &[("data-name", &"change")], |m| {
+            let Some(nominal) = p.nominal else { return m.text("new") };
+            if nominal != 0.0 {
+                let change = 100.0 * (p.corrected - nominal) / nominal.abs();
+                let sign = if change > 0.0 { "+" } else { "" };
+                m.text(&format!("{sign}{}\u{a0}%", figures(change, 2)));
+            }
+            if let Some(std) = p.nominal_std.filter(|s| *s > 0.0) {
+                m.leaf("small", &[], &format!("{}\u{a0}σ", figures((p.corrected - nominal).abs() / std, 2)));
+            }
+        });
+    });
+}
+
+pub(super) fn next(m: &mut Markup, report: &Report) {
+    let Some(next) = &report.next_experiment else { return };
+    section(m, "The next experiment", "", |m| {
+        m.within("div", &[("class", &"next")], |m| {
+            m.leaf("p", &[], &next.why);
+            let names: Vec<_> = next.tells_apart.iter().map(|id| words::title(report, id).into_owned()).collect();
+            if !names.is_empty() {
+                m.leaf("p", &[("class", &"how")], &format!("Tells apart: {}.", words::list(&names)));
+            }
+            if let Some(file) = &next.file {
+                m.within("p", &[("class", &"how")], |m| {
+                    m.text("Input to play: ");
+                    m.leaf("code", &[], file);
+                });
+            }
+        });
+    });
+}
+
+pub(super) fn not_seen(m: &mut Markup, report: &Report) {
+    list(m, "What this log could not have shown", &report.not_seen);
+}
+
+pub(super) fn notices(m: &mut Markup, report: &Report) {
+    list(m, "Notices", &report.notices);
+}
+
+fn list(m: &mut Markup, title: &str, items: &[String]) {
+    if items.is_empty() {
+        return;
+    }
+    section(m, title, "", |m| {
+        m.within("ul", &[("class", &"plain columns")], |m| {
+            for item in items {
+                m.within("li", &[], |m| match item.split_once(": ") {
+                    Some((name, why)) => {
+                        m.leaf("code", &[], name);
+                        m.text(&format!(" {why}"));
+                    }
+                    None => m.text(item),
+                });
+            }
+        });
+    });
+}

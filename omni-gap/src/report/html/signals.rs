@@ -1,0 +1,39 @@
+//! What was measured, and what either model predicts, over time.
+
+use super::section;
+use crate::report::markup::Markup;
+use crate::report::picture::{Pictures, chart, ink};
+
+pub(super) fn charts(m: &mut Markup, pictures: &Pictures) {
+    if pictures.panels.is_empty() {
+        return;
+    }
+    let restarts = if pictures.restarts_s.is_empty() {
+        ""
+    } else {
+        " Predictions restart from the measured state at the faint uprights."
+    };
+    let caption = pictures.caption.trim_end_matches('.');
+    let stop = if caption.is_empty() { "" } else { "." };
+    section(m, "What the signals say", &format!("{caption}{stop}{restarts}"), |m| {
+        let mut names: Vec<(&str, String)> = Vec::new();
+        for panel in &pictures.panels {
+            for (at, series) in panel.series.iter().enumerate() {
+                if names.iter().all(|(name, _)| *name != series.name) {
+                    names.push((&series.name, ink(&series.name, at)));
+                }
+            }
+        }
+        m.within("p", &[("class", &"legend")], |m| {
+            names.iter().for_each(|(name, ink)| m.leaf("span", &[("class", &format!("key {ink}"))], name));
+        });
+        m.within("div", &[("class", &"panels")], |m| {
+            for panel in &pictures.panels {
+                m.within("figure", &[], |m| {
+                    m.leaf("figcaption", &[], &panel.title);
+                    chart(m, panel, &pictures.restarts_s);
+                });
+            }
+        });
+    });
+}

@@ -1,0 +1,29 @@
+//! # Report: sentences, tables and pictures of one diagnosis
+//!
+//! A [`Report`] is the diagnosis as data: `report.json` is that struct and nothing else. [`terminal()`] says it in about
+//! ten lines, [`html()`] draws it on one page that needs no network, and [`write()`] puts the files into a folder so that
+//! none is ever half-written. Neither prose nor page computes anything: every sentence traces to a number in the report.
+
+mod horizons;
+mod html;
+mod markup;
+mod model;
+mod number;
+mod picture;
+#[cfg(test)]
+mod sample;
+mod scale;
+mod sound;
+mod terminal;
+mod thin;
+mod words;
+mod write;
+
+pub use html::html;
+pub use model::{
+    Axis, Corrected, Estimate, Fault, Gap, HorizonError, Kind, NextExperiment, Regime, Report, SCHEMA, Shrink,
+    SignalGap, Stage, Verdict, Where, Which,
+};
+pub use picture::{MEASURED, Panel, Pictures, Series};
+pub use terminal::terminal;
+pub use write::{Written, write};

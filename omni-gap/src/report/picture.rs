@@ -1,0 +1,155 @@
+//! Signals over time as line charts.
+
+use super::markup::{Markup, Px};
+use super::scale::Scale;
+use super::thin::stretches;
+
+/// Name of the series that was measured: drawn below the others, and not broken where predictions restart.
+pub const MEASURED: &str = "measured";
+
+/// The pictures of a report.
+#[derive(Clone, Debug, Default)]
+pub struct Pictures {
+    /// What the panels show: run, and stretch of it.
+    pub caption: String,
+    /// Where the predictions restart from the measured state [s].
+    pub restarts_s: Vec<f64>,
+    /// One chart each.
+    pub panels: Vec<Panel>,
+}
+
+/// One chart.
+#[derive(Clone, Debug, Default)]
+pub struct Panel {
+    /// What is shown.
+    pub title: String,
+    /// Its unit.
+    pub unit: String,
+    /// Time of every row [s].
+    pub t_s: Vec<f64>,
+    /// Lines of the chart; names `measured`, `nominal` and `corrected` have fixed colours.
+    pub series: Vec<Series>,
+}
+
+/// One line of a chart.
+#[derive(Clone, Debug, Default)]
+pub struct Series {
+    /// Name in the legend.
+    pub name: String,
+    /// One value a row; none where the sample is missing.
+    pub values: Vec<Option<f64>>,
+}
+
+/// Size of a chart and its margins [px].
+pub(super) const SIZE: (f64, f64) = (420.0, 190.0);
+pub(super) const INSIDE_X: (f64, f64) = (46.0, 408.0);
+pub(super) const INSIDE_Y: (f64, f64) = (166.0, 20.0);
+
+/// The class that gives a series its colour and dash.
+pub(super) fn ink(name: &str, at: usize) -> String {
+    match name {
+        MEASURED => "measured".into(),
+        "nominal" | "before" => "nominal".into(),
+        "corrected" | "after" => "corrected".into(),
+        _ => format!("other{}", at % 4),
+    }
+}
+
+/// Draws one panel.
+pub(super) fn chart(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
+    let cuts = |name: &str| if name == MEASURED { &[] } else { restarts_s };
+    let lines: Vec<_> = panel.series.iter().map(|s| (s, stretches(&panel.t_s, &s.values, cuts(&s.name)))).collect();
+    let seen = |pick: fn(&(f64, f64)) -> f64| lines.iter().flat_map(|(_, l)| l).flatten().map(pick).collect::<Vec<_>>();
+    let times = seen(|p| p.0);
+    let (first, last) = times.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(*t), b.max(*t)));
+    let x = Scale::new(if first <= last { (first, last) } else { (0.0, 1.0) }, INSIDE_X);
+    let y = Scale::around(seen(|p| p.1).into_iter(), INSIDE_Y);
+    let names: Vec<_> = panel.series.iter().map(|s| s.name.as_str()).collect();
+    let label = format!("{} in {} over time: {}", panel.title, panel.unit, names.join(", "));
+    frame(m, &label, |m| {
+        for &t in restarts_s.iter().filter(|t| (first..=last).contains(*t)) {
+            m.leaf(
+                "path",
+                &[("class", &"restart"), ("d", &format!("M{} {}V{}", Px(x.at(t)), INSIDE_Y.0, INSIDE_Y.1))],
+                "",
+            );
+        }
+        y_axis(m, &y, &panel.unit);
+        let ticks = x.ticks(5).into_iter().map(|(t, label)| (x.at(t), label)).collect::<Vec<_>>();
+        x_axis(m, &ticks, "s");
+        for (at, (series, stretches)) in lines.iter().enumerate() {
+            let d: String = stretches.iter().map(|points| path(points, &x, &y)).collect();
+            m.leaf("path", &[("class", &format!("line {}", ink(&series.name, at))), ("d", &d)], "");
+        }
+    });
+}
+
+/// An empty chart with a name for those who cannot see it.
+pub(super) fn frame(m: &mut Markup, label: &str, fill: impl FnOnce(&mut Markup)) {
+    let view = format!("0 0 {} {}", SIZE.0, SIZE.1);
+    m.within("svg", &[("viewBox", &view), ("role", &"img"), ("aria-label", &label)], fill);
+}
+
+/// Horizontal grid lines with numbers, the unit above.
+pub(super) fn y_axis(m: &mut Markup, y: &Scale, unit: &str) {
+    for (value, label) in y.ticks(4) {
+        let at = Px(y.at(value));
+        let class = if value == 0.0 { "zero" } else { "grid" };
+        m.leaf("path", &[("class", &class), ("d", &format!("M{} {at}H{}", INSIDE_X.0, INSIDE_X.1))], "");
+        let here: [(&str, &dyn std::fmt::Display); 3] =
+            [("class", &"end"), ("x", &Px(INSIDE_X.0 - 6.0)), ("y", &Px(y.at(value) + 3.5))];
+        m.leaf("text", &here, &label);
+    }
+    m.leaf("text", &[("class", &"end"), ("x", &Px(INSIDE_X.0 - 6.0)), ("y", &Px(INSIDE_Y.1 - 9.0))], unit);
+}
+
+/// Numbers below the chart, the last with the unit.
+pub(super) fn x_axis(m: &mut Markup, ticks: &[(f64, String)], unit: &str) {
+    for (k, (at, label)) in ticks.iter().enumerate() {
+        let label = if k + 1 == ticks.len() { format!("{label} {unit}") } else { label.clone() };
+        let d = format!("M{} {}v4", Px(*at), INSIDE_Y.0);
+        m.leaf("path", &[("class", &"tick"), ("d", &d)], "");
+        let class = if *at > INSIDE_X.1 - 14.0 { "end" } else { "mid" };
+        let x = if class == "end" { INSIDE_X.1 + 8.0 } else { *at };
+        m.leaf("text", &[("class", &class), ("x", &Px(x)), ("y", &Px(INSIDE_Y.0 + 17.0))], &label);
+    }
+}
+
+/// A line through the points; one alone is a dot.
+pub(super) fn path(points: &[(f64, f64)], x: &Scale, y: &Scale) -> String {
+    let mut d = String::new();
+    for (k, &(t, v)) in points.iter().enumerate() {
+        let step = if k == 0 { "M" } else { "L" };
+        d.push_str(&format!("{step}{} {}", Px(x.at(t)), Px(y.at(v))));
+    }
+    if points.len() == 1 { d + "h0" } else { d }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panel_draws_a_path_for_every_series_and_a_break_at_every_restart() {
+        let t_s: Vec<f64> = (0..100).map(|k| 0.01 * k as f64).collect();
+        let wave = |name: &str| Series { name: name.into(), values: t_s.iter().map(|t| Some(t.sin())).collect() };
+        let series = vec![wave(MEASURED), wave("nominal"), wave("corrected")];
+        let panel = Panel { title: "Wheel 0".into(), unit: "rad/s".into(), t_s: t_s.clone(), series };
+        let mut m = Markup::default();
+        chart(&mut m, &panel, &[0.5]);
+        let svg = m.finish();
+        assert_eq!(svg.matches("class=\"line ").count(), 3);
+        let moves = |class: &str| {
+            let d = svg.split(&format!("line {class}\" d=\"")).nth(1).unwrap().split('"').next().unwrap();
+            d.matches('M').count()
+        };
+        assert_eq!([moves("measured"), moves("nominal"), moves("corrected")], [1, 2, 2]);
+    }
+
+    #[test]
+    fn a_panel_without_samples_is_an_empty_frame() {
+        let mut m = Markup::default();
+        chart(&mut m, &Panel { series: vec![Series::default()], ..Panel::default() }, &[0.5]);
+        assert!(!m.finish().contains("NaN"));
+    }
+}

@@ -1,0 +1,183 @@
+//! The diagnosis in about ten lines for a person at a terminal.
+
+use super::model::{Fault, Report, Verdict, Where, Which};
+use super::number::{NBSP, estimate, num, percent};
+use super::words;
+use super::write::Written;
+
+/// Width of a line and of the column of labels [characters].
+const WIDTH: usize = 100;
+const LABEL: usize = 12;
+
+/// Shares and probabilities below this are not worth a line.
+const WORTH_A_LINE: f64 = 0.05;
+
+/// The report in plain text; with the paths of the files where they were written.
+pub fn terminal(report: &Report, files: Option<&Written>) -> String {
+    let mut page = Page(String::new());
+    page.line("", &words::headline(report));
+    page.0.push('\n');
+    report.faults.iter().for_each(|f| fault(&mut page, f));
+    where_(&mut page, report);
+    which(&mut page, report);
+    how_far(&mut page, report);
+    if let [first, rest @ ..] = report.not_seen.as_slice() {
+        let more = if rest.is_empty() { String::new() } else { format!(" (and {} more, see the report)", rest.len()) };
+        page.line("not seen", &format!("{first}{more}"));
+    }
+    if let Some(next) = &report.next_experiment {
+        let file = next.file.as_ref().map(|f| format!(" ({f})")).unwrap_or_default();
+        page.line("next", &format!("{}{file}", next.why));
+    }
+    for (n, notice) in report.notices.iter().enumerate() {
+        page.line(if n == 0 { "notice" } else { "" }, notice);
+    }
+    if let Some(files) = files {
+        page.line("files", &files.html.display().to_string());
+        page.line("", &files.json.display().to_string());
+        page.line("", &files.robot.display().to_string());
+    }
+    page.0.replace(NBSP, " ")
+}
+
+fn fault(page: &mut Page, fault: &Fault) {
+    page.line("fault", &format!("{}{}.", place_in_log(fault), fault.what));
+    page.line("", &format!("To mend it: {}.", fault.mend));
+}
+
+/// "runs/01.csv, lines 2 to 4801, column t_s: "
+pub(super) fn place_in_log(fault: &Fault) -> String {
+    let rows = fault.rows.map(|[first, last]| match last {
+        last if last == first => format!("line{NBSP}{first}"),
+        last => format!("lines {first} to {last}"),
+    });
+    let column = fault.column.as_ref().map(|c| format!("column {c}"));
+    let parts: Vec<_> = [fault.file.clone(), rows, column].into_iter().flatten().collect();
+    if parts.is_empty() { String::new() } else { parts.join(", ") + ": " }
+}
+
+fn where_(page: &mut Page, report: &Report) {
+    let mut places: Vec<&Where> = report.where_.iter().collect();
+    places.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let Some((first, rest)) = places.split_first() else { return };
+    let regime = first.regime.as_ref().map(|r| format!("; {} of it where {}", percent(r.share), r.text));
+    let told = |w: &Where| format!("{}{}: {}", words::stage(w.stage), words::spot(w.wheel, w.axis), percent(w.share));
+    page.line("where", &format!("{} of the gap{}", told(first), regime.unwrap_or_default()));
+    let rest: Vec<_> = rest.iter().filter(|w| w.share >= WORTH_A_LINE).map(|w| told(w)).collect();
+    if !rest.is_empty() {
+        page.line("", &rest.join(" · "));
+    }
+}
+
+fn which(page: &mut Page, report: &Report) {
+    if report.verdict == Verdict::UnfitData {
+        return;
+    }
+    let told = |w: &Which| {
+        let at = words::spot(w.wheel, w.axis);
+        format!("{}{at}: probability {}", words::title(report, &w.cause), percent(w.probability))
+    };
+    let mut label = "which";
+    let (answers, others): (Vec<&Which>, Vec<&Which>) =
+        report.which.iter().partition(|w| report.causes.contains(&w.cause));
+    for w in &answers {
+        let parameters: Vec<_> =
+            w.parameters.iter().map(|(k, p)| format!("{k}{NBSP}{}", estimate(p.value, p.std, &p.unit))).collect();
+        let parameters = if parameters.is_empty() { String::new() } else { format!("; {}", parameters.join(", ")) };
+        page.line(std::mem::take(&mut label), &format!("{}{parameters}", told(w)));
+        if let Some(alike) = words::look_alikes(report, w) {
+            let settle = w.settle_by.as_ref().map(|s| format!("; settle it by: {s}")).unwrap_or_default();
+            page.line("", &format!("not told apart from {alike}{settle}"));
+        }
+    }
+    let others: Vec<_> = others.iter().filter(|w| w.probability >= WORTH_A_LINE).take(3).map(|w| told(w)).collect();
+    if !others.is_empty() {
+        page.line(if answers.is_empty() { "which" } else { "" }, &others.join(" · "));
+    }
+}
+
+fn how_far(page: &mut Page, report: &Report) {
+    let s = &report.shrink;
+    let Some(before) = s.before else { return };
+    let after = s.after.map(|a| format!(" → {}", num(a))).unwrap_or_default();
+    let floor = s.noise_floor.map(|f| format!(", noise floor {}", num(f))).unwrap_or_default();
+    let interval = s
+        .closed_ci95
+        .map(|[lo, hi]| format!(" (95 % interval {} to {})", percent(lo), percent(hi)))
+        .unwrap_or_default();
+    let closed = match (s.closed, &s.reason) {
+        (Some(c), _) => format!("; {} of the gap closed{interval}", percent(c)),
+        (None, reason) => reason.as_ref().map(|r| format!("; {r}")).unwrap_or_default(),
+    };
+    page.line("how far", &format!("error {}{after}{NBSP}σ{floor}{closed}", num(before)));
+    let rivals: Vec<_> = [
+        ("refit of parameters alone", s.closed_by_refit_alone),
+        ("runner-up", s.closed_by_runner_up),
+        ("flexible model", s.closed_by_flexible_model),
+    ]
+    .iter()
+    .filter_map(|(name, closed)| closed.map(|c| format!("{name} {}", percent(c))))
+    .collect();
+    if !rivals.is_empty() {
+        page.line("", &format!("closed by others: {}", rivals.join(", ")));
+    }
+}
+
+/// Lines with a label, broken at spaces.
+struct Page(String);
+
+impl Page {
+    fn line(&mut self, label: &str, text: &str) {
+        let indent = if self.0.is_empty() { 0 } else { LABEL };
+        let mut line = format!("{label:indent$}");
+        let mut words = 0;
+        for word in text.split(' ').filter(|w| !w.is_empty()) {
+            if words > 0 && line.chars().count() + 1 + word.chars().count() > WIDTH {
+                self.0.push_str(&line);
+                self.0.push('\n');
+                line = " ".repeat(indent);
+                words = 0;
+            }
+            if words > 0 {
+                line.push(' ');
+            }
+            line.push_str(word);
+            words += 1;
+        }
+        self.0.push_str(&line);
+        self.0.push('\n');
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample;
+    use std::path::{Path, PathBuf};
+
+    fn files() -> Written {
+        let at = |name: &str| PathBuf::from("out").join(name);
+        Written { json: at("report.json"), html: at("report.html"), robot: at("corrected_robot.toml") }
+    }
+
+    #[test]
+    fn the_five_verdicts_read_as_agreed() {
+        for (name, report) in sample::all() {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/report/golden").join(name).with_extension("txt");
+            let said = terminal(&report, Some(&files())).replace('\\', "/");
+            if std::env::var_os("BLESS").is_some() {
+                std::fs::write(&path, &said).unwrap();
+            }
+            let agreed = std::fs::read_to_string(&path).unwrap_or_default();
+            assert_eq!(said, agreed, "{} differs; BLESS=1 rewrites it", path.display());
+        }
+    }
+
+    #[test]
+    fn no_line_is_wider_than_the_terminal() {
+        for (name, report) in sample::all() {
+            let said = terminal(&report, None);
+            assert!(said.lines().all(|l| l.chars().count() <= WIDTH), "{name}:\n{said}");
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! The sentences that terminal and page share. Each is made of fields of the report.
+
+use std::borrow::Cow;
+
+use super::model::{Axis, Kind, Report, Stage, Verdict, Where, Which};
+use super::number::{num, percent};
+
+/// The verdict as one sentence.
+pub fn headline(report: &Report) -> String {
+    match report.verdict {
+        Verdict::Effect => {
+            let (wrong, missing): (Vec<_>, Vec<_>) =
+                report.causes.iter().partition(|id| report.cause(id).is_some_and(|w| w.kind == Some(Kind::Parameter)));
+            let missing = format!("Missing from the simulator: {}.", named(report, &missing));
+            if wrong.is_empty() { missing } else { format!("{missing} Also wrong: {}.", named(report, &wrong)) }
+        }
+        Verdict::Parameter => {
+            format!("Wrong in the robot file: {}.", named(report, &report.causes.iter().collect::<Vec<_>>()))
+        }
+        Verdict::Unknown => {
+            let lies = main_place(report).map(|w| format!(" It lies mostly in {}.", place(w))).unwrap_or_default();
+            format!("There is a gap, and nothing in the catalogue explains it.{lies}")
+        }
+        Verdict::NoGap => {
+            "No gap: the simulator predicts these runs as well as noise and stated uncertainty allow.".into()
+        }
+        Verdict::UnfitData => match report.faults.len() {
+            1 => "This log is not fit for a diagnosis: mend one fault first.".into(),
+            n => format!("This log is not fit for a diagnosis: mend {n} faults first."),
+        },
+    }
+}
+
+/// How the error changed, as one sentence; none where nothing was measured.
+pub fn change(report: &Report) -> Option<String> {
+    let s = &report.shrink;
+    let before = s.before?;
+    let floor = s.noise_floor.map(|f| format!("; noise alone gives {}", num(f))).unwrap_or_default();
+    let closed = match (s.closed, &s.reason) {
+        (Some(c), _) => format!(", so {} of the gap is closed", percent(c)),
+        (None, Some(reason)) => format!(" ({reason})"),
+        (None, None) => String::new(),
+    };
+    Some(match s.after {
+        Some(after) => {
+            format!(
+                "The prediction error on held-out runs goes from {} to {} σ{floor}{closed}.",
+                num(before),
+                num(after)
+            )
+        }
+        None => format!("The prediction error on held-out runs is {} σ{floor}{closed}.", num(before)),
+    })
+}
+
+/// A stage, as it stands in a sentence.
+pub fn stage(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Electrical => "electrical",
+        Stage::Drivetrain => "drivetrain",
+        Stage::Contact => "contact",
+        Stage::Body => "body",
+        Stage::Sensing => "sensing",
+    }
+}
+
+/// What a stage turns into what.
+pub fn stage_path(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Electrical => "voltage to current",
+        Stage::Drivetrain => "current to wheel torque",
+        Stage::Contact => "wheel to floor",
+        Stage::Body => "force to motion",
+        Stage::Sensing => "motion to reading",
+    }
+}
+
+/// A body axis.
+pub fn axis(axis: Axis) -> &'static str {
+    match axis {
+        Axis::V => "forward motion (v)",
+        Axis::Vn => "sideways motion (vn)",
+        Axis::W => "turning (w)",
+    }
+}
+
+/// A signal group.
+pub fn group(key: &str) -> &str {
+    match key {
+        "i" => "motor current",
+        "w" => "wheel speed",
+        "pose" => "pose",
+        other => other,
+    }
+}
+
+/// The verdict's name in a heading.
+pub fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Effect => "effect",
+        Verdict::Parameter => "parameter",
+        Verdict::Unknown => "unknown",
+        Verdict::NoGap => "no gap",
+        Verdict::UnfitData => "unfit data",
+    }
+}
+
+/// Stage, wheel and axis of an entry of `where`.
+pub fn place(w: &Where) -> String {
+    format!("the {} stage{}", stage(w.stage), spot(w.wheel, w.axis))
+}
+
+/// ", wheel 2" or ", turning (w)"; empty where neither is known.
+pub fn spot(wheel: Option<usize>, on: Option<Axis>) -> String {
+    let wheel = wheel.map(|j| format!(", wheel\u{a0}{j}")).unwrap_or_default();
+    wheel + &on.map(|a| format!(", {}", axis(a))).unwrap_or_default()
+}
+
+/// The entry of `where` with the largest share.
+pub fn main_place(report: &Report) -> Option<&Where> {
+    report.where_.iter().max_by(|a, b| a.share.total_cmp(&b.share))
+}
+
+/// A cause's name for people: the title of its card, or its id in plain words.
+pub fn title<'a>(report: &'a Report, id: &str) -> Cow<'a, str> {
+    if let Some(title) = report.cause(id).and_then(|w| w.title.as_deref()) {
+        return title.into();
+    }
+    match id {
+        "unknown" => "Something outside the catalogue".into(),
+        "no_gap" => "No gap".into(),
+        _ => {
+            let words = id.replace('_', " ");
+            let mut letters = words.chars();
+            letters.next().map(|first| first.to_uppercase().chain(letters).collect::<String>()).unwrap_or(words).into()
+        }
+    }
+}
+
+/// Causes that may be in the gap's place of this one, by name.
+pub fn look_alikes(report: &Report, which: &Which) -> Option<String> {
+    let names: Vec<_> = which.not_told_apart_from.iter().map(|id| title(report, id).into_owned()).collect();
+    (!names.is_empty()).then(|| list(&names))
+}
+
+/// "a", "a and b", "a, b and c".
+pub fn list(items: &[String]) -> String {
+    match items {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+fn named(report: &Report, ids: &[&String]) -> String {
+    let name = |id: &&String| {
+        let at = report.cause(id).map(|w| spot(w.wheel, w.axis).replacen(", ", " at ", 1)).unwrap_or_default();
+        format!("{}{at}", title(report, id))
+    };
+    list(&ids.iter().map(name).collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample;
+
+    #[test]
+    fn a_headline_names_the_cause_and_its_place() {
+        assert_eq!(headline(&sample::effect()), "Missing from the simulator: Wheel slip at wheel\u{a0}2.");
+        assert_eq!(headline(&sample::parameter()), "Wrong in the robot file: Mass and Winding resistance.");
+    }
+
+    #[test]
+    fn a_cause_without_a_card_is_named_by_its_id() {
+        assert_eq!(title(&sample::effect(), "cable_pull"), "Cable pull");
+    }
+}

@@ -1,0 +1,118 @@
+//! The files of a report, each whole or not there.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::model::Report;
+
+/// Where the files of a report stand.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// `report.json`.
+    pub json: PathBuf,
+    /// `report.html`.
+    pub html: PathBuf,
+    /// `corrected_robot.toml`.
+    pub robot: PathBuf,
+}
+
+/// Puts `report.json`, `report.html` and `corrected_robot.toml` into the folder, which is made where it is not there.
+///
+/// An error says which path, why, and how to mend it.
+pub fn write(dir: &Path, report: &Report, html: &str, corrected_robot_toml: &str) -> io::Result<Written> {
+    let json = report.to_json()?;
+    std::fs::create_dir_all(dir).map_err(|e| {
+        if dir.is_file() {
+            told(&e, dir, "is a file, and the report needs a folder", "name another folder with --out")
+        } else {
+            told(&e, dir, &format!("cannot be made: {e}"), "name a folder you may write to with --out")
+        }
+    })?;
+    let [json_at, html_at, robot_at] =
+        ["report.json", "report.html", "corrected_robot.toml"].map(|name| dir.join(name));
+    // All three are staged before the first is put in place: a full disk then leaves an older report as it was.
+    let staged = [(&json_at, json.as_str()), (&html_at, html), (&robot_at, corrected_robot_toml)]
+        .map(|(path, text)| stage(dir, path, text).map(|file| (path, file)));
+    for staged in staged {
+        let (path, file) = staged?;
+        file.persist(path).map_err(|e| unwritable(&e.error, path))?;
+    }
+    Ok(Written { json: json_at, html: html_at, robot: robot_at })
+}
+
+/// The text in a file of the same folder that nobody reads yet.
+fn stage(dir: &Path, path: &Path, text: &str) -> io::Result<tempfile::NamedTempFile> {
+    let staged = || {
+        let mut builder = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(std::fs::Permissions::from_mode(0o644));
+        }
+        let mut file = builder.prefix(".report-").tempfile_in(dir)?;
+        file.write_all(text.as_bytes())?;
+        file.as_file().sync_all()?;
+        Ok(file)
+    };
+    staged().map_err(|e: io::Error| unwritable(&e, path))
+}
+
+fn unwritable(e: &io::Error, path: &Path) -> io::Error {
+    let mend = "free space or name a folder you may write to with --out";
+    told(e, path, &format!("cannot be written: {e}"), mend)
+}
+
+fn told(e: &io::Error, path: &Path, reason: &str, mend: &str) -> io::Error {
+    io::Error::new(e.kind(), format!("{} {reason}; {mend}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample;
+
+    fn names(dir: &Path) -> Vec<String> {
+        let mut names: Vec<_> =
+            std::fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn three_files_stand_in_a_folder_that_was_not_there() {
+        let root = tempfile::tempdir().unwrap();
+        let dir = root.path().join("deep/out");
+        let written = write(&dir, &sample::effect(), "<html></html>", "name = \"x\"\n").unwrap();
+        assert_eq!(names(&dir), ["corrected_robot.toml", "report.html", "report.json"]);
+        let back: Report = serde_json::from_str(&std::fs::read_to_string(written.json).unwrap()).unwrap();
+        assert_eq!(back, sample::effect());
+    }
+
+    #[test]
+    fn a_second_report_replaces_the_first() {
+        let root = tempfile::tempdir().unwrap();
+        write(root.path(), &sample::effect(), "one", "one").unwrap();
+        write(root.path(), &sample::no_gap(), "two", "two").unwrap();
+        assert_eq!(std::fs::read_to_string(root.path().join("report.html")).unwrap(), "two");
+        assert_eq!(names(root.path()).len(), 3);
+    }
+
+    #[test]
+    fn a_file_in_the_folders_place_is_named_with_what_to_do() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("out");
+        std::fs::write(&path, "mine").unwrap();
+        let error = write(&path, &sample::effect(), "", "").unwrap_err().to_string();
+        assert!(error.starts_with(path.to_str().unwrap()) && error.contains("is a file") && error.contains("--out"));
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
+    }
+
+    #[test]
+    fn a_name_that_is_taken_by_a_folder_leaves_nothing_behind() {
+        let root = tempfile::tempdir().unwrap();
+        std::fs::create_dir(root.path().join("report.json")).unwrap();
+        let error = write(root.path(), &sample::effect(), "", "").unwrap_err().to_string();
+        assert!(error.contains("report.json cannot be written"), "{error}");
+        assert_eq!(names(root.path()), ["report.json"]);
+    }
+}
