@@ -7,7 +7,7 @@ mod signals;
 
 use super::markup::Markup;
 use super::model::{Report, Verdict};
-use super::number::{num, percent};
+use super::number::{num, percent, percents};
 use super::picture::Pictures;
 use super::words;
 
@@ -68,12 +68,15 @@ fn head(m: &mut Markup, report: &Report) {
             m.text(&subject(report));
         });
         m.leaf("h1", &[], &words::headline(report));
-        let lead = report.causes.first().and_then(|id| report.cause(id));
-        let sure = lead.map(|w| format!("Probability {}. ", percent(w.probability)));
-        let alike = lead
-            .and_then(|w| words::look_alikes(report, w))
-            .map(|names| format!(" This log cannot tell it from: {names}."));
-        let lede: String = [sure, words::change(report), alike].into_iter().flatten().collect();
+        let found: Vec<_> = report.causes.iter().filter_map(|id| report.cause(id)).collect();
+        let sure: Vec<_> =
+            found.iter().map(|w| format!("{} {}", words::title(report, &w.cause), percent(w.probability))).collect();
+        let sure = (!sure.is_empty()).then(|| format!("Probability: {}.", words::list(&sure)));
+        let alike = found.iter().filter_map(|w| {
+            let names = words::look_alikes(report, w)?;
+            Some(format!("This log cannot tell {} from {names}.", words::title(report, &w.cause)))
+        });
+        let lede = sure.into_iter().chain(words::change(report)).chain(alike).collect::<Vec<_>>().join(" ");
         if !lede.is_empty() {
             m.leaf("p", &[("class", &"lede")], &lede);
         }
@@ -87,7 +90,7 @@ fn figures(m: &mut Markup, report: &Report) {
     if report.verdict == Verdict::UnfitData || s.before.is_none() {
         return;
     }
-    let interval = s.closed_ci95.map(|[lo, hi]| format!("95 % interval {} to {}", percent(lo), percent(hi)));
+    let interval = s.closed_ci95.map(|range| format!("95 % interval {}", percents(range)));
     let cells = [
         ("error before", s.before.map(|x| num(x) + "\u{a0}σ"), Some("nominal model".to_string())),
         ("error after", s.after.map(|x| num(x) + "\u{a0}σ"), Some("corrected model".to_string())),

@@ -98,6 +98,19 @@ pub enum Verdict {
     UnfitData,
 }
 
+impl Verdict {
+    /// Exit code of `diagnose --exit-code`.
+    pub fn exit_code(self) -> u8 {
+        match self {
+            Verdict::NoGap => 0,
+            Verdict::Parameter => 10,
+            Verdict::Effect => 20,
+            Verdict::Unknown => 30,
+            Verdict::UnfitData => 40,
+        }
+    }
+}
+
 /// Something wrong with the log.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fault {

@@ -49,6 +49,11 @@ pub fn percent(fraction: f64) -> String {
     format!("{}{NBSP}%", if text == "-0" { "0".into() } else { minus(text) })
 }
 
+/// A range of fractions: "94 to 98 %".
+pub fn percents([lo, hi]: [f64; 2]) -> String {
+    format!("{} to {}", percent(lo).trim_end_matches('%').trim_end_matches(NBSP), percent(hi))
+}
+
 /// Decimal exponent of the leading figure once rounded to `n` figures.
 fn exponent(x: f64, n: usize) -> i32 {
     let text = format!("{:.*e}", n - 1, x.abs());

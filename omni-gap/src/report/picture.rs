@@ -43,7 +43,7 @@ pub struct Series {
 /// Size of a chart and its margins [px].
 pub(super) const SIZE: (f64, f64) = (420.0, 190.0);
 pub(super) const INSIDE_X: (f64, f64) = (46.0, 408.0);
-pub(super) const INSIDE_Y: (f64, f64) = (166.0, 20.0);
+pub(super) const INSIDE_Y: (f64, f64) = (166.0, 26.0);
 
 /// The class that gives a series its colour and dash.
 pub(super) fn ink(name: &str, at: usize) -> String {
@@ -75,7 +75,7 @@ pub(super) fn chart(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
             );
         }
         y_axis(m, &y, &panel.unit);
-        let ticks = x.ticks(5).into_iter().map(|(t, label)| (x.at(t), label)).collect::<Vec<_>>();
+        let ticks = x.ticks(6).into_iter().map(|(t, label)| (x.at(t), label)).collect::<Vec<_>>();
         x_axis(m, &ticks, "s");
         for (at, (series, stretches)) in lines.iter().enumerate() {
             let d: String = stretches.iter().map(|points| path(points, &x, &y)).collect();
@@ -92,7 +92,7 @@ pub(super) fn frame(m: &mut Markup, label: &str, fill: impl FnOnce(&mut Markup))
 
 /// Horizontal grid lines with numbers, the unit above.
 pub(super) fn y_axis(m: &mut Markup, y: &Scale, unit: &str) {
-    for (value, label) in y.ticks(4) {
+    for (value, label) in y.ticks(5) {
         let at = Px(y.at(value));
         let class = if value == 0.0 { "zero" } else { "grid" };
         m.leaf("path", &[("class", &class), ("d", &format!("M{} {at}H{}", INSIDE_X.0, INSIDE_X.1))], "");
@@ -100,7 +100,7 @@ pub(super) fn y_axis(m: &mut Markup, y: &Scale, unit: &str) {
             [("class", &"end"), ("x", &Px(INSIDE_X.0 - 6.0)), ("y", &Px(y.at(value) + 3.5))];
         m.leaf("text", &here, &label);
     }
-    m.leaf("text", &[("class", &"end"), ("x", &Px(INSIDE_X.0 - 6.0)), ("y", &Px(INSIDE_Y.1 - 9.0))], unit);
+    m.leaf("text", &[("class", &"end"), ("x", &Px(INSIDE_X.0 - 6.0)), ("y", &Px(INSIDE_Y.1 - 15.0))], unit);
 }
 
 /// Numbers below the chart, the last with the unit.

@@ -251,7 +251,7 @@ pub fn pictures() -> Pictures {
     let t_s: Vec<f64> = (0..400).map(|k| 4.0 + 0.005 * k as f64).collect();
     let restarts_s = vec![4.0, 4.5, 5.0, 5.5];
     // A noise that is the same on every machine.
-    let noise = |k: usize, j: usize| ((k * 7919 + j * 104_729) as f64 * 12.9898).sin() * 0.7;
+    let noise = |k: usize, j: usize| ((k * 2_654_435 + j * 40_503) % 1009) as f64 / 504.0 - 1.0;
     let truth = |t: f64, j: usize| (2.1 * t + 1.6 * j as f64).sin() + 0.3 * (5.0 * t).cos();
     let mut panels = Vec::new();
     let mut panel = |title: String, unit: &str, scale: f64, sigma: f64, j: usize, error: f64, every: usize| {

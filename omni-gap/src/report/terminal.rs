@@ -1,7 +1,7 @@
 //! The diagnosis in about ten lines for a person at a terminal.
 
 use super::model::{Fault, Report, Verdict, Where, Which};
-use super::number::{NBSP, estimate, num, percent};
+use super::number::{NBSP, estimate, num, percent, percents};
 use super::words;
 use super::write::Written;
 
@@ -27,7 +27,7 @@ pub fn terminal(report: &Report, files: Option<&Written>) -> String {
     }
     if let Some(next) = &report.next_experiment {
         let file = next.file.as_ref().map(|f| format!(" ({f})")).unwrap_or_default();
-        page.line("next", &format!("{}{file}", next.why));
+        page.line("next", &format!("{}{file}", words::open_ended(&next.why)));
     }
     for (n, notice) in report.notices.iter().enumerate() {
         page.line(if n == 0 { "notice" } else { "" }, notice);
@@ -41,8 +41,8 @@ pub fn terminal(report: &Report, files: Option<&Written>) -> String {
 }
 
 fn fault(page: &mut Page, fault: &Fault) {
-    page.line("fault", &format!("{}{}.", place_in_log(fault), fault.what));
-    page.line("", &format!("To mend it: {}.", fault.mend));
+    page.line("fault", &format!("{}{}.", place_in_log(fault), words::open_ended(&fault.what)));
+    page.line("", &format!("To mend it: {}.", words::open_ended(&fault.mend)));
 }
 
 /// "runs/01.csv, lines 2 to 4801, column t_s: "
@@ -101,10 +101,7 @@ fn how_far(page: &mut Page, report: &Report) {
     let Some(before) = s.before else { return };
     let after = s.after.map(|a| format!(" → {}", num(a))).unwrap_or_default();
     let floor = s.noise_floor.map(|f| format!(", noise floor {}", num(f))).unwrap_or_default();
-    let interval = s
-        .closed_ci95
-        .map(|[lo, hi]| format!(" (95 % interval {} to {})", percent(lo), percent(hi)))
-        .unwrap_or_default();
+    let interval = s.closed_ci95.map(|range| format!(" (95 % interval {})", percents(range))).unwrap_or_default();
     let closed = match (s.closed, &s.reason) {
         (Some(c), _) => format!("; {} of the gap closed{interval}", percent(c)),
         (None, reason) => reason.as_ref().map(|r| format!("; {r}")).unwrap_or_default(),

@@ -41,7 +41,8 @@ pub fn change(report: &Report) -> Option<String> {
         (None, Some(reason)) => format!(" ({reason})"),
         (None, None) => String::new(),
     };
-    Some(match s.after {
+    let after = s.after.filter(|_| report.verdict != Verdict::NoGap);
+    Some(match after {
         Some(after) => {
             format!(
                 "The prediction error on held-out runs goes from {} to {} σ{floor}{closed}.",
@@ -143,6 +144,24 @@ pub fn look_alikes(report: &Report, which: &Which) -> Option<String> {
     (!names.is_empty()).then(|| list(&names))
 }
 
+/// A sentence without its stop, so that another may follow.
+pub fn open_ended(text: &str) -> &str {
+    text.trim_end_matches(['.', ' '])
+}
+
+/// A whole sentence: a capital, unless the first word is a name of the files, and a stop.
+pub fn sentence(text: &str) -> String {
+    let text = open_ended(text);
+    let first = text.split(' ').next().unwrap_or_default();
+    let plain = first.chars().all(|c| c.is_ascii_lowercase());
+    let mut letters = text.chars();
+    match letters.next() {
+        Some(letter) if plain => format!("{}{}.", letter.to_ascii_uppercase(), letters.as_str()),
+        Some(_) => format!("{text}."),
+        None => String::new(),
+    }
+}
+
 /// "a", "a and b", "a, b and c".
 pub fn list(items: &[String]) -> String {
     match items {
@@ -169,6 +188,12 @@ mod tests {
     fn a_headline_names_the_cause_and_its_place() {
         assert_eq!(headline(&sample::effect()), "Missing from the simulator: Wheel slip at wheel\u{a0}2.");
         assert_eq!(headline(&sample::parameter()), "Wrong in the robot file: Mass and Winding resistance.");
+    }
+
+    #[test]
+    fn a_sentence_has_a_capital_and_one_stop_but_a_column_keeps_its_name() {
+        assert_eq!(sentence("time falls."), "Time falls.");
+        assert_eq!(sentence("w1_rad_s is frozen"), "w1_rad_s is frozen.");
     }
 
     #[test]

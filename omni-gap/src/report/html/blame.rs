@@ -18,8 +18,7 @@ pub(super) fn places(m: &mut Markup, report: &Report) {
     }
     let share = |stage: Stage| report.where_.iter().filter(|w| w.stage == stage).map(|w| w.share).sum::<f64>();
     let most = Stage::ALL.into_iter().max_by(|a, b| share(*a).total_cmp(&share(*b)));
-    let how = "The signal path from command to reading. Each stage was given measured input; its share is what it alone \
-               adds to the error.";
+    let how = "Each stage's share of the gap, along the signal path from command to reading.";
     section(m, "Where does it lie?", how, |m| {
         m.within("div", &[("class", &"path")], |m| {
             for stage in Stage::ALL.into_iter().filter(|s| share(*s) > 0.0) {
@@ -43,7 +42,10 @@ pub(super) fn places(m: &mut Markup, report: &Report) {
         });
         m.within("ul", &[("class", &"plain")], |m| {
             for w in report.where_.iter().filter(|w| w.regime.is_some() || w.wheel.is_some() || w.axis.is_some()) {
-                let regime = w.regime.as_ref().map(|r| format!(". {} of it where {}", percent(r.share), r.text));
+                let regime = w
+                    .regime
+                    .as_ref()
+                    .map(|r| format!(". {} of it where {}", percent(r.share), words::open_ended(&r.text)));
                 let spot = words::spot(w.wheel, w.axis);
                 m.within("li", &[], |m| {
                     m.leaf("strong", &[], &format!("{}{spot}: {}", words::stage(w.stage), percent(w.share)));
@@ -60,11 +62,15 @@ pub(super) fn causes(m: &mut Markup, report: &Report) {
     }
     let worth = |w: &&Which| w.probability >= WORTH_A_ROW || report.causes.contains(&w.cause);
     let shown: Vec<_> = report.which.iter().filter(worth).take(MOST_ROWS).collect();
-    section(m, "Which cause?", "Every cause of the catalogue was weighed; probabilities sum to 100 %.", |m| {
+    section(m, "Which cause?", "The causes considered, most probable first; probabilities sum to 100 %.", |m| {
         m.within("table", &[("class", &"causes")], |m| {
             m.within("thead", &[], |m| {
                 m.within("tr", &[], |m| {
-                    for name in ["Cause", "Probability", "Parameters", "Not told apart from"] {
+                    let parameters = shown.iter().any(|w| !w.parameters.is_empty());
+                    let alike = shown.iter().any(|w| !w.not_told_apart_from.is_empty());
+                    let names = ["Cause", "Probability"].into_iter();
+                    let names = names.chain([if parameters { "Parameters" } else { "" }]);
+                    for name in names.chain([if alike { "Not told apart from" } else { "" }]) {
                         m.leaf("th", &[("scope", &"col")], name);
                     }
                 });

@@ -32,13 +32,15 @@ pub(super) fn how_large(m: &mut Markup, report: &Report) {
         let top = rows.iter().flat_map(|(_, g)| [g.before, g.after, g.noise_floor]).fold(0.0, f64::max);
         let width = |x: f64| LONGEST * x.max(0.0) / top.max(f64::MIN_POSITIVE);
         m.within("div", &[("class", &"bars")], |m| rows.iter().for_each(|(name, gap)| row(m, name, gap, width)));
-        rivals(m, report);
-        if report.gap.curves.len() > 1 {
-            m.within("figure", &[("class", &"alone")], |m| {
-                m.leaf("figcaption", &[], "Error over the length of the prediction");
-                horizon_chart(m, &report.gap.curves);
-            });
-        }
+        m.within("div", &[("class", &"beside")], |m| {
+            if report.gap.curves.len() > 1 {
+                m.within("figure", &[], |m| {
+                    m.leaf("figcaption", &[], "Error over the length of the prediction");
+                    horizon_chart(m, &report.gap.curves);
+                });
+            }
+            rivals(m, report);
+        });
     });
 }
 
@@ -74,16 +76,16 @@ fn row(m: &mut Markup, name: &str, gap: &SignalGap, width: impl Fn(f64) -> f64) 
 fn rivals(m: &mut Markup, report: &Report) {
     let s = &report.shrink;
     let all = [
-        ("the causes found", s.closed, "corrected"),
-        ("refit of nominal parameters alone", s.closed_by_refit_alone, "plain"),
-        ("the second-best cause", s.closed_by_runner_up, "plain"),
-        ("a flexible model without physics", s.closed_by_flexible_model, "plain"),
+        ("the corrected model", s.closed, "corrected"),
+        ("refit of nominal parameters alone", s.closed_by_refit_alone, "rival"),
+        ("the second-best cause", s.closed_by_runner_up, "rival"),
+        ("a flexible model", s.closed_by_flexible_model, "rival"),
     ];
     if all.iter().filter(|(_, closed, _)| closed.is_some()).count() < 2 {
         return;
     }
-    m.leaf("h3", &[], "Share of the gap closed by");
-    m.within("div", &[("class", &"bars slim")], |m| {
+    m.within("figure", &[("class", &"bars slim")], |m| {
+        m.leaf("figcaption", &[], "Share of the gap closed by");
         for (name, closed, class) in all {
             let Some(closed) = closed else { continue };
             m.within("div", &[("class", &"row")], |m| {

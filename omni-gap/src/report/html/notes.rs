@@ -15,12 +15,12 @@ pub(super) fn faults(m: &mut Markup, report: &Report) {
         m.within("ol", &[("class", &"faults")], |m| {
             for fault in &report.faults {
                 m.within("li", &[], |m| {
-                    m.leaf("strong", &[], &fault.what);
+                    m.leaf("strong", &[], &words::sentence(&fault.what));
                     let place = place_in_log(fault);
                     if !place.is_empty() {
                         m.leaf("code", &[], place.trim_end_matches(": "));
                     }
-                    m.leaf("p", &[], &format!("To mend it: {}.", fault.mend));
+                    m.leaf("p", &[], &format!("To mend it: {}.", words::open_ended(&fault.mend)));
                 });
             }
         });
@@ -70,7 +70,7 @@ pub(super) fn next(m: &mut Markup, report: &Report) {
     let Some(next) = &report.next_experiment else { return };
     section(m, "The next experiment", "", |m| {
         m.within("div", &[("class", &"next")], |m| {
-            m.leaf("p", &[], &next.why);
+            m.leaf("p", &[], &words::sentence(&next.why));
             let names: Vec<_> = next.tells_apart.iter().map(|id| words::title(report, id).into_owned()).collect();
             if !names.is_empty() {
                 m.leaf("p", &[("class", &"how")], &format!("Tells apart: {}.", words::list(&names)));

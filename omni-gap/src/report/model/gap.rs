@@ -59,6 +59,6 @@ pub struct Shrink {
     pub closed_by_refit_alone: Option<f64>,
     /// What the second-best cause closes.
     pub closed_by_runner_up: Option<f64>,
-    /// What a model without physics closes: the most that could be had.
+    /// What a flexible model closes: about the most that could be had.
     pub closed_by_flexible_model: Option<f64>,
 }
