@@ -6,10 +6,10 @@ use super::number::num;
 use super::picture::{INSIDE_X, INSIDE_Y, frame, path, x_axis, y_axis};
 use super::scale::Scale;
 
-/// Room right of the lines for the last numbers [px].
+/// Room right of the lines for the last numbers (px).
 const LABEL_ROOM: f64 = 40.0;
 
-/// Two labels closer than this are set apart [px].
+/// Two labels closer than this are set apart (px).
 const LABEL_HEIGHT: f64 = 13.0;
 
 /// Draws the curves on a logarithmic axis of lengths.

@@ -12,7 +12,7 @@ pub const MEASURED: &str = "measured";
 pub struct Pictures {
     /// What the panels show: run, and stretch of it.
     pub caption: String,
-    /// Where the predictions restart from the measured state [s].
+    /// Where the predictions restart from the measured state (s).
     pub restarts_s: Vec<f64>,
     /// One chart each.
     pub panels: Vec<Panel>,
@@ -25,7 +25,7 @@ pub struct Panel {
     pub title: String,
     /// Its unit.
     pub unit: String,
-    /// Time of every row [s].
+    /// Time of every row (s).
     pub t_s: Vec<f64>,
     /// Lines of the chart; names `measured`, `nominal` and `corrected` have fixed colours.
     pub series: Vec<Series>,
@@ -40,7 +40,7 @@ pub struct Series {
     pub values: Vec<Option<f64>>,
 }
 
-/// Size of a chart and its margins [px].
+/// Size of a chart and its margins (px).
 pub(super) const SIZE: (f64, f64) = (420.0, 190.0);
 pub(super) const INSIDE_X: (f64, f64) = (46.0, 408.0);
 pub(super) const INSIDE_Y: (f64, f64) = (166.0, 26.0);

@@ -5,7 +5,7 @@ use super::number::{NBSP, estimate, num, percent, percents};
 use super::words;
 use super::write::Written;
 
-/// Width of a line and of the column of labels [characters].
+/// Width of a line and of the column of labels (characters).
 const WIDTH: usize = 100;
 const LABEL: usize = 12;
 

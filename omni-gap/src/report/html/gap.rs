@@ -7,7 +7,7 @@ use crate::report::model::{Report, SignalGap};
 use crate::report::number::{num, percent};
 use crate::report::words;
 
-/// The longest bar, so that its number still fits beside it [% of the row].
+/// The longest bar, so that its number still fits beside it (% of the row).
 const LONGEST: f64 = 84.0;
 
 /// Signal groups in signal order.

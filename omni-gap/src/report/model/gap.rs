@@ -9,14 +9,14 @@ use serde::{Deserialize, Serialize};
 pub struct Gap {
     /// Error per signal group: `i`, `w`, `pose`; a group that is not logged is left out.
     pub signals: BTreeMap<String, SignalGap>,
-    /// Window lengths at which the error was measured [s].
+    /// Window lengths at which the error was measured (s).
     pub horizons_s: Vec<f64>,
     /// Total error at each of these lengths.
     #[serde(default)]
     pub curves: Vec<HorizonError>,
 }
 
-/// Error of one signal group [sigma].
+/// Error of one signal group (sigma).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SignalGap {
     /// With the nominal model.
@@ -27,10 +27,10 @@ pub struct SignalGap {
     pub noise_floor: f64,
 }
 
-/// Total error over windows of one length [sigma].
+/// Total error over windows of one length (sigma).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HorizonError {
-    /// Window length [s].
+    /// Window length (s).
     pub horizon_s: f64,
     /// With the nominal model.
     pub before: f64,
@@ -40,7 +40,7 @@ pub struct HorizonError {
     pub noise_floor: Option<f64>,
 }
 
-/// How far the causes close the gap, on runs held out [sigma; fractions 0 to 1].
+/// How far the causes close the gap, on runs held out (sigma; fractions 0 to 1).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Shrink {
     /// Error of the nominal model.
