@@ -1,0 +1,119 @@
+//! # What can be wrong with what we were given
+//!
+//! One message per mistake: where it stands, what was found, what was expected, how to mend it. The command maps every
+//! [`Error`] to exit code 2.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// The result of everything that touches a file.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// A mistake in a file, or a place that cannot be written to.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// A file or folder that was given cannot be used as it is.
+    #[error("{}{}: {problem}. {mend}", Place(file, *line), InColumn(column.as_deref()))]
+    Input {
+        /// The file or folder.
+        file: PathBuf,
+        /// The line in the file, counted from 1.
+        line: Option<usize>,
+        /// The column of a log, or the key of a TOML file.
+        column: Option<String>,
+        /// What was found and what was expected.
+        problem: String,
+        /// How to mend it.
+        mend: String,
+    },
+    /// An output cannot be written.
+    #[error("{}: cannot be written: {reason}. {mend}", path.display())]
+    Output {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// Why it cannot be.
+        reason: String,
+        /// How to mend it.
+        mend: String,
+    },
+}
+
+impl Error {
+    /// A mistake in `file` as a whole.
+    pub fn input(file: &Path, problem: impl Into<String>, mend: impl Into<String>) -> Error {
+        Error::Input {
+            file: file.into(),
+            line: None,
+            column: None,
+            problem: problem.into(),
+            mend: mend.into(),
+        }
+    }
+
+    /// The same mistake, with the line (counted from 1) where it stands.
+    pub fn at_line(mut self, at: usize) -> Error {
+        if let Error::Input { line, .. } = &mut self {
+            *line = Some(at);
+        }
+        self
+    }
+
+    /// The same mistake, with the column or key it stands in.
+    pub fn in_column(mut self, name: impl Into<String>) -> Error {
+        if let Error::Input { column, .. } = &mut self {
+            *column = Some(name.into());
+        }
+        self
+    }
+
+    /// An output that cannot be written.
+    pub fn output(path: &Path, reason: impl Into<String>, mend: impl Into<String>) -> Error {
+        Error::Output {
+            path: path.into(),
+            reason: reason.into(),
+            mend: mend.into(),
+        }
+    }
+}
+
+struct Place<'a>(&'a Path, Option<usize>);
+
+impl fmt::Display for Place<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.0.display())?;
+        self.1.map_or(Ok(()), |line| write!(f, ":{line}"))
+    }
+}
+
+struct InColumn<'a>(Option<&'a str>);
+
+impl fmt::Display for InColumn<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |name| write!(f, ": column `{name}`"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mistake_names_file_line_column_problem_and_mend() {
+        let error = Error::input(Path::new("a.csv"), "found `x`, expected a number", "Correct the field.")
+            .at_line(3)
+            .in_column("u0_V");
+        assert_eq!(
+            error.to_string(),
+            "a.csv:3: column `u0_V`: found `x`, expected a number. Correct the field."
+        );
+    }
+
+    #[test]
+    fn an_output_that_cannot_be_written_says_why() {
+        let error = Error::output(Path::new("out"), "it is a folder", "Name a file.");
+        assert_eq!(
+            error.to_string(),
+            "out: cannot be written: it is a folder. Name a file."
+        );
+    }
+}

@@ -1,0 +1,209 @@
+//! # The robot file: the nominal model, as a person writes it
+//!
+//! Keys, units and defaults are those of `robot.toml`. A [`RobotFile`] that exists is sound: numbers are finite and in
+//! bounds, the wheels can tell the body's motion, and every effect is one that the caller's [`Catalogue`] knows.
+//!
+//! [`Catalogue`]: super::Catalogue
+
+use super::catalogue::Catalogue;
+use super::robot_read;
+use super::toml_walk::read_text;
+use crate::error::Result;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// One wheel. Wheel j rolls along (cos a, sin a) of the body axes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct WheelFile {
+    /// Direction of rolling in body axes [degrees].
+    pub drive_angle_deg: f64,
+    /// From the centre of the robot to the wheel [m].
+    pub distance_m: f64,
+    /// Radius of the wheel [m].
+    pub radius_m: f64,
+}
+
+impl WheelFile {
+    /// Direction of rolling in body axes [rad].
+    pub fn drive_angle_rad(&self) -> f64 {
+        self.drive_angle_deg.to_radians()
+    }
+
+    /// Rim speed [m/s] per body twist (v [m/s], vn [m/s], ω [rad/s]): (cos a, sin a, d).
+    pub fn row(&self) -> [f64; 3] {
+        let (sin, cos) = self.drive_angle_rad().sin_cos();
+        [cos, sin, self.distance_m]
+    }
+}
+
+/// The motor and its gear, one model for all wheels.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MotorFile {
+    /// Motor speed over wheel speed [1].
+    pub gear_ratio: f64,
+    /// Winding resistance R [Ω].
+    pub resistance_ohm: f64,
+    /// Kv at the motor shaft [V/(rad/s)].
+    #[serde(rename = "emf_constant_V_s")]
+    pub emf_constant_v_s: f64,
+    /// Kt at the motor shaft [N·m/A].
+    #[serde(rename = "torque_constant_Nm_per_A")]
+    pub torque_constant_nm_per_a: f64,
+}
+
+/// The body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BodyFile {
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// Inertia about the vertical axis [kg·m²].
+    pub inertia_kg_m2: f64,
+}
+
+/// Viscous and Coulomb friction along v, vn and about the vertical axis.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct FrictionFile {
+    /// [N·s/m]
+    #[serde(rename = "viscous_v_N_s_per_m")]
+    pub viscous_v_n_s_per_m: f64,
+    /// [N·s/m]
+    #[serde(rename = "viscous_vn_N_s_per_m")]
+    pub viscous_vn_n_s_per_m: f64,
+    /// [N·m·s]
+    #[serde(rename = "viscous_w_Nm_s")]
+    pub viscous_w_nm_s: f64,
+    /// [N]
+    #[serde(rename = "coulomb_v_N")]
+    pub coulomb_v_n: f64,
+    /// [N]
+    #[serde(rename = "coulomb_vn_N")]
+    pub coulomb_vn_n: f64,
+    /// [N·m]
+    #[serde(rename = "coulomb_w_Nm")]
+    pub coulomb_w_nm: f64,
+}
+
+/// One-sigma noise of each measured signal.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SensorsFile {
+    /// [A]
+    #[serde(rename = "current_noise_A")]
+    pub current_noise_a: f64,
+    /// [rad/s]
+    pub wheel_speed_noise_rad_s: f64,
+    /// [m]
+    pub position_noise_m: f64,
+    /// [rad]
+    pub heading_noise_rad: f64,
+}
+
+impl Default for SensorsFile {
+    /// The noise taken where the file is silent.
+    fn default() -> Self {
+        SensorsFile {
+            current_noise_a: 0.02,
+            wheel_speed_noise_rad_s: 0.15,
+            position_noise_m: 0.003,
+            heading_noise_rad: 0.01,
+        }
+    }
+}
+
+/// The supply.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SupplyFile {
+    /// [V]
+    #[serde(rename = "voltage_V")]
+    pub voltage_v: f64,
+}
+
+/// What an experiment may ask of the robot; absent means no limit stated.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct LimitsFile {
+    /// Largest motor current [A].
+    #[serde(rename = "current_A")]
+    pub current_a: Option<f64>,
+    /// Largest body speed [m/s].
+    pub speed_m_s: Option<f64>,
+    /// Side of the free floor [m].
+    pub field_m: Option<f64>,
+}
+
+/// One effect that the nominal model includes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EffectEntry {
+    /// Its id in the catalogue.
+    pub id: String,
+    /// The wheel it sits on, counted from 0; none where it sits on all of them or on the body.
+    pub wheel: Option<usize>,
+    /// The parameters the file gives, by key; units stand in the keys.
+    pub params: BTreeMap<String, f64>,
+}
+
+/// A sound robot file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RobotFile {
+    /// Version of the form; 1 where absent.
+    pub schema: Option<u32>,
+    /// The robot's name.
+    pub name: String,
+    /// Three or four wheels, in wheel order.
+    pub wheel: Vec<WheelFile>,
+    /// The motor.
+    pub motor: MotorFile,
+    /// The body.
+    pub body: BodyFile,
+    /// Friction; zero where absent.
+    pub friction: FrictionFile,
+    /// Noise.
+    pub sensors: SensorsFile,
+    /// One-sigma relative uncertainties that the file states, by key. Ask [`RobotFile::relative_uncertainty`].
+    pub uncertainty: BTreeMap<String, f64>,
+    /// The supply.
+    pub supply: Option<SupplyFile>,
+    /// Limits for experiments.
+    pub limits: Option<LimitsFile>,
+    /// Effects, in the file's order.
+    pub effects: Vec<EffectEntry>,
+}
+
+/// Relative uncertainty [1] of each nominal parameter where the file states none.
+pub const DEFAULT_UNCERTAINTY: [(&str, f64); 13] = [
+    ("mass_kg", 0.01),
+    ("inertia_kg_m2", 0.10),
+    ("resistance_ohm", 0.10),
+    ("emf_constant_V_s", 0.03),
+    ("torque_constant_Nm_per_A", 0.03),
+    ("radius_m", 0.01),
+    ("distance_m", 0.01),
+    ("viscous_v_N_s_per_m", 0.20),
+    ("viscous_vn_N_s_per_m", 0.20),
+    ("viscous_w_Nm_s", 0.20),
+    ("coulomb_v_N", 0.20),
+    ("coulomb_vn_N", 0.20),
+    ("coulomb_w_Nm", 0.20),
+];
+
+impl RobotFile {
+    /// Reads and checks a robot file.
+    pub fn load(path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
+        RobotFile::parse(&read_text(path, "a robot file")?, path, catalogue)
+    }
+
+    /// Checks the text of a robot file; `path` is named in messages.
+    pub fn parse(text: &str, path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
+        robot_read::robot(text, path, catalogue)
+    }
+
+    /// One-sigma relative uncertainty [1] of a nominal parameter, by its key in the robot file; none for other keys.
+    pub fn relative_uncertainty(&self, key: &str) -> Option<f64> {
+        let default = DEFAULT_UNCERTAINTY.iter().find(|(known, _)| *known == key)?.1;
+        Some(self.uncertainty.get(key).copied().unwrap_or(default))
+    }
+
+    /// Kv times the gear ratio: volts per wheel speed [V/(rad/s)].
+    pub fn volts_per_wheel_speed(&self) -> f64 {
+        self.motor.emf_constant_v_s * self.motor.gear_ratio
+    }
+}
