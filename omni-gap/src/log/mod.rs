@@ -3,16 +3,26 @@
 //! Guarantee: SI units, monotonic time, every hole has a reason. What cannot be brought into that form is refused with
 //! one message that says where and how to mend it.
 
+//! Reading order: [`Session`] (a folder of files), [`RobotFile`] (the nominal model), [`Run`] (one recording) with its
+//! [`Channel`]s, and [`columns`] (logs in another layout).
+
 mod catalogue;
+pub mod columns;
 mod correct;
+mod csv;
+mod read;
 mod robot_file;
 mod robot_read;
 mod run;
+mod session;
+mod target;
 mod toml_walk;
 mod write;
 
 pub use catalogue::{Catalogue, KnownEffect, KnownParam};
+pub use columns::Columns;
 pub use correct::{Change, corrected};
 pub use robot_file::*;
 pub use run::{Channel, Group, Missing, Run, Sampled};
+pub use session::Session;
 pub use write::{write_whole, write_whole_with};

@@ -309,4 +309,4 @@ fn effect(s: &Section, id: &str, catalogue: &Catalogue, wheels: usize) -> Result
 
 #[cfg(test)]
 #[path = "robot_read_tests.rs"]
-mod tests;
+pub(super) mod tests;

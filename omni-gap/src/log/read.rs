@@ -1,0 +1,301 @@
+//! # From a table of numbers to a run
+
+use super::columns::{Columns, Rule};
+use super::csv::{Layout, Table};
+use super::run::{Channel, Missing, Run};
+use super::target::Target;
+use crate::error::{Error, Result};
+use std::f64::consts::TAU;
+use std::path::Path;
+
+impl Run {
+    /// Reads a run log of a robot with `wheels` wheels: in the contract's layout, or through a mapping.
+    ///
+    /// The heading is unwrapped, see [`Channel::unwrapped`]. The second value holds notices: what was left out.
+    pub fn load(path: &Path, wheels: usize, columns: Option<&Columns>) -> Result<(Run, Vec<String>)> {
+        let layout = columns.map_or_else(Layout::default, |columns| columns.layout.clone());
+        let table = Table::open(path, &layout)?;
+        let mut notices = Vec::new();
+        let bindings = match columns {
+            Some(columns) => mapped(&table, columns, &mut notices)?,
+            None => named(&table, &mut notices),
+        };
+        complete(&table, &bindings, wheels)?;
+        let wanted: Vec<usize> = bindings.iter().map(|binding| binding.1).collect();
+        let raw = table.columns(&wanted)?;
+        if raw[0].len() < 2 {
+            let rows = ["no rows", "one row"][raw[0].len()];
+            return Err(Error::input(
+                path,
+                format!("there is a header and {rows}, expected at least two rows"),
+                "Record the run again",
+            ));
+        }
+        let mut raw: Vec<(Target, Rule, Channel)> = bindings
+            .into_iter()
+            .zip(raw)
+            .map(|((target, _, rule), channel)| (target, rule, channel))
+            .collect();
+        raw.sort_by_key(|(target, ..)| *target);
+        let (_, rule, time) = raw.remove(0);
+        let (t_s, first_step_s) = clock(&table, &rule, &time)?;
+        let mut run = Run { t_s, ..Run::default() };
+        run.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        run.path = path.into();
+        if let Some(columns) = columns {
+            run.currents_sampled = columns.currents_sampled;
+        }
+        for (target, rule, channel) in raw {
+            let channel = convert(&channel, &rule, &run.t_s, first_step_s);
+            place(&mut run, target, channel);
+        }
+        finish(&mut run, columns, &mut notices)?;
+        Ok((run, notices))
+    }
+}
+
+type Binding = (Target, usize, Rule);
+
+/// Columns of the contract, by name.
+fn named(table: &Table, notices: &mut Vec<String>) -> Vec<Binding> {
+    let mut bindings = Vec::new();
+    let mut ignored = Vec::new();
+    for (column, name) in table.names.iter().enumerate() {
+        match Target::named(name) {
+            Some(target) => bindings.push((target, column, Rule::default())),
+            None => ignored.push(format!("`{name}`")),
+        }
+    }
+    if !ignored.is_empty() {
+        notices.push(format!(
+            "{}: columns left out: {}",
+            table.path.display(),
+            ignored.join(", ")
+        ));
+    }
+    bindings
+}
+
+/// Columns named by the mapping.
+fn mapped(table: &Table, columns: &Columns, notices: &mut Vec<String>) -> Result<Vec<Binding>> {
+    let mut bindings = Vec::new();
+    for (target, rule) in &columns.rules {
+        let column = rule.from.find(&table.names, table.width).ok_or_else(|| {
+            let there = if table.names.is_empty() {
+                format!("{} columns", table.width)
+            } else {
+                table.names.join(", ")
+            };
+            let problem = format!("the log has no column {} for {target}; it has {there}", rule.from);
+            Error::input(&table.path, problem, "Correct `from` in columns.toml")
+        })?;
+        bindings.push((*target, column, rule.clone()));
+    }
+    let unused = |column: &usize| !bindings.iter().any(|(_, used, _)| used == column);
+    let ignored: Vec<String> = (0..table.width)
+        .filter(unused)
+        .map(|column| format!("`{}`", table.title(column)))
+        .collect();
+    if !ignored.is_empty() {
+        notices.push(format!("columns that the mapping leaves out: {}", ignored.join(", ")));
+    }
+    Ok(bindings)
+}
+
+/// Refuses a log without a clock, without any signal, or with a group that lacks a wheel.
+fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
+    let has = |target: Target| bindings.iter().any(|binding| binding.0 == target);
+    let missing = |target: Target, why: &str| {
+        let error = Error::input(
+            &table.path,
+            format!("the column is missing: {why}"),
+            "Add the column, or map it in columns.toml",
+        );
+        Err(error.in_column(target.to_string()))
+    };
+    if !has(Target::Time) {
+        return missing(Target::Time, "every run needs a clock");
+    }
+    if let Some((target, ..)) = bindings
+        .iter()
+        .find(|(target, ..)| target.wheel().is_some_and(|wheel| wheel >= wheels))
+    {
+        let problem = format!("a column for a wheel that the robot file does not have; it has {wheels} wheels");
+        return Err(Error::input(
+            &table.path,
+            problem,
+            "Describe the wheel in robot.toml, or remove the column",
+        )
+        .in_column(target.to_string()));
+    }
+    for group in [Target::U, Target::I, Target::W, Target::Wset] {
+        let there = (0..wheels).filter(|wheel| has(group(*wheel))).count();
+        if let Some(absent) = (0..wheels).find(|wheel| there > 0 && !has(group(*wheel))) {
+            return missing(group(absent), &format!("{there} of {wheels} wheels have one"));
+        }
+    }
+    let pose = [Target::X, Target::Y, Target::Theta];
+    if let Some(absent) = pose
+        .into_iter()
+        .find(|target| !has(*target) && pose.iter().any(|other| has(*other)))
+    {
+        return missing(absent, "a pose is x_m, y_m and theta_rad");
+    }
+    let signal = |target: &Target| target.wheel().is_some() || *target == Target::X;
+    if !bindings.iter().any(|(target, ..)| signal(target)) {
+        let problem = "found no signal, expected at least one of u<j>_V, i<j>_A, w<j>_rad_s or x_m, y_m, theta_rad";
+        return Err(Error::input(
+            &table.path,
+            problem,
+            "Name the columns as the log form says, or map them in columns.toml",
+        ));
+    }
+    Ok(())
+}
+
+/// The time of each row [s], and the length of the first row's sample where the log tells it [s].
+fn clock(table: &Table, rule: &Rule, raw: &Channel) -> Result<(Vec<f64>, Option<f64>)> {
+    let mut t_s = Vec::with_capacity(raw.len());
+    let mut first = None;
+    let mut last = f64::NEG_INFINITY;
+    let told = |row: usize, problem: String, mend: &str| {
+        Err(Error::input(&table.path, problem, mend)
+            .at_line(table.line_of(row))
+            .in_column("t_s"))
+    };
+    for (row, value) in raw.iter().enumerate() {
+        let Ok(value) = value else {
+            return told(
+                row,
+                "the time is missing".into(),
+                "Every row needs its time; remove rows without one",
+            );
+        };
+        let value = rule.linear(value);
+        let now = match (rule.running_sum, row) {
+            (false, _) => value,
+            (true, 0) => {
+                first = Some(value).filter(|length| *length > 0.0);
+                0.0
+            }
+            (true, _) => last + value,
+        };
+        if now <= last {
+            let found = if now == last {
+                "repeated time"
+            } else {
+                "time that runs back"
+            };
+            return told(
+                row,
+                format!("found {now} s after {last} s, a {found}; expected time to increase from row to row"),
+                "Sort the rows by time, remove doubled ones, and check that two recordings were not joined",
+            );
+        }
+        t_s.push(now);
+        last = now;
+    }
+    Ok((t_s, first))
+}
+
+/// One channel in its contract unit.
+fn convert(raw: &Channel, rule: &Rule, t_s: &[f64], first_step_s: Option<f64>) -> Channel {
+    let Some(counts) = rule.counts else {
+        return if rule.is_plain() {
+            raw.clone()
+        } else {
+            raw.map(|_, v| rule.linear(v))
+        };
+    };
+    let turn = TAU / counts.per_turn;
+    let mut last: Option<(usize, f64)> = None;
+    let speed = |(row, sample): (usize, std::result::Result<f64, Missing>)| {
+        let value = sample?;
+        let before = last.replace((row, value));
+        let (counted, length_s) = if counts.position {
+            let (earlier, position) = before.ok_or(Missing::Blank)?;
+            (value - position, t_s[row] - t_s[earlier])
+        } else {
+            let length = if row == 0 {
+                first_step_s
+            } else {
+                Some(t_s[row] - t_s[row - 1])
+            };
+            (value, length.ok_or(Missing::Blank)?)
+        };
+        Ok(rule.linear(counted * turn / length_s))
+    };
+    raw.iter().enumerate().map(speed).collect()
+}
+
+fn place(run: &mut Run, target: Target, channel: Channel) {
+    let group = match target {
+        Target::U(_) => &mut run.u,
+        Target::I(_) => &mut run.i,
+        Target::W(_) => &mut run.w,
+        Target::Wset(_) => &mut run.wset,
+        Target::X | Target::Y => &mut run.pose,
+        Target::Theta => return run.pose.get_or_insert_default().channels.push(channel.unwrapped()),
+        Target::Vbat => return run.vbat = Some(channel),
+        Target::Gyro => return run.gyro = Some(channel),
+        Target::Time => return,
+    };
+    group.get_or_insert_default().channels.push(channel);
+}
+
+/// Drops what is blank throughout, and sets what the mapping says of whole groups.
+fn finish(run: &mut Run, columns: Option<&Columns>, notices: &mut Vec<String>) -> Result<()> {
+    let place = run.path.display().to_string();
+    let groups = [
+        ("u", &mut run.u),
+        ("i", &mut run.i),
+        ("w", &mut run.w),
+        ("wset", &mut run.wset),
+        ("pose", &mut run.pose),
+    ];
+    let mut any = false;
+    for (name, group) in groups {
+        if group
+            .as_ref()
+            .is_some_and(|group| group.channels.iter().all(Channel::is_blank))
+        {
+            notices.push(format!(
+                "{place}: every field of group `{name}` is empty; it counts as absent"
+            ));
+            *group = None;
+        }
+        if let (Some(group), Some(flags)) = (group.as_mut(), columns.and_then(|columns| columns.groups.get(name))) {
+            group.unsigned = flags.unsigned;
+            group.quantum = flags.quantum;
+        }
+        if let Some(group) = group {
+            any = true;
+            let blank = group
+                .channels
+                .iter()
+                .enumerate()
+                .filter(|(_, channel)| channel.is_blank());
+            notices.extend(blank.map(|(at, _)| format!("{place}: channel {at} of group `{name}` is empty throughout")));
+        }
+    }
+    for (name, channel) in [("vbat_V", &mut run.vbat), ("gyro_rad_s", &mut run.gyro)] {
+        if channel.as_ref().is_some_and(Channel::is_blank) {
+            notices.push(format!(
+                "{place}: every field of `{name}` is empty; it counts as absent"
+            ));
+            *channel = None;
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Error::input(
+            &run.path,
+            "every signal is empty throughout",
+            "Record the run again",
+        )),
+    }
+}
+
+#[cfg(test)]
+#[path = "read_tests.rs"]
+mod tests;

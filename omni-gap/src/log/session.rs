@@ -1,0 +1,158 @@
+//! # A session: a robot file and its runs
+
+use super::catalogue::Catalogue;
+use super::columns::Columns;
+use super::robot_file::RobotFile;
+use super::run::Run;
+use super::toml_walk::read_text;
+use crate::error::{Error, Result};
+use std::path::{Path, PathBuf};
+
+/// A robot file and its runs, all read and sound.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Session {
+    /// The nominal model.
+    pub robot: RobotFile,
+    /// The robot file as its author wrote it.
+    pub robot_text: String,
+    /// Runs that may be fitted on, by name.
+    pub runs: Vec<Run>,
+    /// Runs that are only ever predicted; empty where the session has none.
+    pub heldout: Vec<Run>,
+    /// What was left out or taken as absent, one sentence each.
+    pub notices: Vec<String>,
+}
+
+impl Session {
+    /// Reads a session folder: `robot.toml`, `columns.toml` if there is one (or the mapping that is given instead),
+    /// `runs/` and, if there is one, `heldout/`.
+    pub fn load(folder: &Path, columns: Option<&Path>, catalogue: &Catalogue) -> Result<Session> {
+        if !folder.is_dir() {
+            let found = if folder.exists() {
+                "this is a file, expected a session folder"
+            } else {
+                "no such folder"
+            };
+            return Err(Error::input(folder, found, "Give a folder with robot.toml and runs/"));
+        }
+        let own = folder.join("columns.toml");
+        let columns = columns
+            .or_else(|| own.exists().then_some(&*own))
+            .map(Columns::load)
+            .transpose()?;
+        let mut session = Session::of_robot(&folder.join("robot.toml"), catalogue)?;
+        let runs = folder.join("runs");
+        if !runs.is_dir() {
+            return Err(Error::input(
+                &runs,
+                "there is no such folder",
+                "Put the run logs into a folder named runs",
+            ));
+        }
+        let paths = session.files_in(&runs, columns.as_ref())?;
+        session.runs = session.read(&paths, columns.as_ref())?;
+        let heldout = folder.join("heldout");
+        if heldout.is_dir() {
+            let paths = session.files_in(&heldout, columns.as_ref())?;
+            session.heldout = session.read(&paths, columns.as_ref())?;
+        }
+        Ok(session)
+    }
+
+    /// Reads a session whose parts lie anywhere; a run path may be a file or a folder of them.
+    pub fn load_from(robot: &Path, columns: Option<&Path>, runs: &[PathBuf], catalogue: &Catalogue) -> Result<Session> {
+        let columns = columns.map(Columns::load).transpose()?;
+        let mut session = Session::of_robot(robot, catalogue)?;
+        let mut paths = Vec::new();
+        for path in runs {
+            match path.is_dir() {
+                true => paths.extend(session.files_in(path, columns.as_ref())?),
+                false => paths.push(path.clone()),
+            }
+        }
+        session.runs = session.read(&paths, columns.as_ref())?;
+        Ok(session)
+    }
+
+    fn of_robot(path: &Path, catalogue: &Catalogue) -> Result<Session> {
+        let robot_text = read_text(path, "a robot file")?;
+        let robot = RobotFile::parse(&robot_text, path, catalogue)?;
+        Ok(Session {
+            robot,
+            robot_text,
+            runs: Vec::new(),
+            heldout: Vec::new(),
+            notices: Vec::new(),
+        })
+    }
+
+    /// The run logs in a folder, by name. Without a mapping they are the `.csv` files.
+    fn files_in(&mut self, folder: &Path, columns: Option<&Columns>) -> Result<Vec<PathBuf>> {
+        let told =
+            |reason: std::io::Error| Error::input(folder, format!("cannot be read: {reason}"), "Check its permissions");
+        let mut paths = Vec::new();
+        for entry in std::fs::read_dir(folder).map_err(told)? {
+            let path = entry.map_err(told)?.path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            if name.starts_with('.') {
+                continue;
+            }
+            let fits = columns.map_or_else(
+                || name.to_ascii_lowercase().ends_with(".csv"),
+                |columns| columns.takes(&name),
+            );
+            match fits && !path.is_dir() {
+                true => paths.push(path),
+                false => self
+                    .notices
+                    .push(format!("{}: not a run log, left out", path.display())),
+            }
+        }
+        self.notices.sort();
+        paths.sort();
+        match paths.is_empty() {
+            true => Err(Error::input(
+                folder,
+                "there is no run log in the folder",
+                "Put run logs into it, named *.csv or mapped in columns.toml",
+            )),
+            false => Ok(paths),
+        }
+    }
+
+    fn read(&mut self, paths: &[PathBuf], columns: Option<&Columns>) -> Result<Vec<Run>> {
+        let mut runs = Vec::with_capacity(paths.len());
+        for path in paths {
+            let (run, notices) = Run::load(path, self.robot.wheel.len(), columns)?;
+            runs.push(run);
+            for notice in notices {
+                if !self.notices.contains(&notice) {
+                    self.notices.push(notice);
+                }
+            }
+        }
+        tell_apart(&mut runs);
+        Ok(runs)
+    }
+}
+
+/// Gives runs of one name their folder's name too.
+fn tell_apart(runs: &mut [Run]) {
+    let names: Vec<String> = runs.iter().map(|run| run.name.clone()).collect();
+    for run in runs {
+        if names.iter().filter(|name| **name == run.name).count() > 1 {
+            let folder = run
+                .path
+                .parent()
+                .and_then(Path::file_name)
+                .unwrap_or_default()
+                .to_string_lossy();
+            let file = run.path.file_name().unwrap_or_default().to_string_lossy();
+            run.name = format!("{folder}/{file}");
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "session_tests.rs"]
+mod tests;
