@@ -1,10 +1,37 @@
-//! Tells why an omnidirectional robot does not do what its simulator says.
+//! # omni-gap: why a robot does not do what its simulator says
+//!
+//! Somebody has a robot with three or four omni wheels, a simulator that does not match it, and recordings. This library
+//! says *where* the gap lies, *which* unmodelled effect or wrong parameter causes it, and *how far* it shrinks once the
+//! cause is in the model. [`diagnose`] does all of it; the rooms can be used one by one:
+//!
+//! `log` (files → SI) → `check` (faults of the telemetry) → `simulate` (what a model says) → `identify` (the best numbers
+//! and how sure they are) → `localise` (where the gap lies) → `rank` (which cause) → `report` (files for people and
+//! programs).
+//!
+//! A room imports only rooms before it; [`diagnosis`] walks through them all, [`stage`] makes recordings whose truth is
+//! known.
 
 pub mod error;
 pub mod log;
+
+pub mod check;
 
 pub mod simulate;
 
 pub mod identify;
 
+pub mod localise;
+
+pub mod rank;
+
 pub mod report;
+
+pub mod diagnosis;
+mod known;
+pub mod stage;
+
+pub use diagnosis::{Diagnosis, Options, diagnose};
+pub use error::Error;
+pub use known::known_effects;
+pub use log::Session;
+pub use report::{Report, Verdict};

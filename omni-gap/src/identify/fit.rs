@@ -67,7 +67,7 @@ pub fn fit<const N: usize>(
         let plant = model.plant();
         runs.iter().zip(windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect()
     });
-    let mut damping = 1e-4;
+    let mut damping = 1e-7;
     let mut linear = linearise(&model, runs, windows, &starts, &slots, false);
     let mut total = linear.cost().0 + prior.cost(&model);
     for _ in 0..rounds {
@@ -82,17 +82,17 @@ pub fn fit<const N: usize>(
             let moved = linear.starts_after(&starts, &taken);
             let cost = cost_of(&trial, runs, windows, &moved) + prior.cost(&trial);
             if cost.is_finite() && cost < total {
-                damping = (damping * 0.2).max(1e-9);
+                damping = (damping * 0.1).max(1e-10);
                 better = Some((trial, moved, cost));
                 break;
             }
-            damping = (damping * 10.0).max(1e-3);
+            damping = (damping * 30.0).max(1e-5);
         }
         let Some((trial, moved, cost)) = better else { break };
         let gained = total - cost;
         (model, starts, total) = (trial, moved, cost);
         linear = linearise(&model, runs, windows, &starts, &slots, false);
-        if gained < 0.3 + 1e-5 * total {
+        if gained < 0.1 + 1e-6 * total {
             break;
         }
     }
@@ -171,10 +171,12 @@ pub(crate) fn with_prior<const N: usize>(mut reduced: Reduced, model: &Model<N>,
     for (row, violation) in prior.rows.iter().zip(prior.violations(model)) {
         for (p, c) in &row.terms {
             let Some(k) = at(*p) else { continue };
-            reduced.grad[k] -= violation * c / row.sigma;
+            // d ln(factor)/d factor = 1/factor
+            let slope = c / (row.sigma * model.get(Slot::Nominal(*p)));
+            reduced.grad[k] -= violation * slope;
             for (q, d) in &row.terms {
                 if let Some(l) = at(*q) {
-                    reduced.hess[(k, l)] += c * d / (row.sigma * row.sigma);
+                    reduced.hess[(k, l)] += slope * d / (row.sigma * model.get(Slot::Nominal(*q)));
                 }
             }
         }

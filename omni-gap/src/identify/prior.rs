@@ -1,6 +1,7 @@
 //! What is known before the data: the stated uncertainty of the robot file.
 //!
-//! Each row says that a combination of nominal factors is one, within its sigma. The back-EMF constant and the torque
+//! Each row says that a product of nominal factors is one, within its relative sigma: Σ c·ln(factor) = 0 ± σ. (In the
+//! logarithm, a file that is a third too high and a robot that is a third too low are the same distance apart.) The back-EMF constant and the torque
 //! constant are stated each on its own, so the factor that they share and their ratio are known together only as well
 //! as the file says of each.
 
@@ -9,7 +10,7 @@ use model_core::robot::Nominal;
 use crate::log::RobotFile;
 use crate::simulate::{Model, Slot};
 
-/// One statement: Σ coefficient·(factor − 1) = 0 within sigma.
+/// One statement: Σ coefficient·ln(factor) = 0 within sigma.
 #[derive(Clone, Debug)]
 pub struct PriorRow {
     /// The factors and their coefficients.
@@ -36,7 +37,8 @@ fn row(terms: &[(Nominal, f64)], sigma: f64) -> PriorRow {
 impl Prior {
     /// What a robot file states of its own uncertainty.
     pub fn stated(robot: &RobotFile) -> Self {
-        let s = |key: &str| robot.relative_uncertainty(key);
+        // every key here is one of the form, which all have a default
+        let s = |key: &str| robot.relative_uncertainty(key).unwrap_or(0.1);
         let one = |p: Nominal, key: &str| row(&[(p, 1.0)], s(key));
         Self {
             rows: vec![
@@ -91,7 +93,7 @@ impl Prior {
             .iter()
             .map(|row| {
                 let sum: f64 =
-                    row.terms.iter().map(|(p, c)| c * (model.get(Slot::Nominal(*p)) - 1.0)).sum();
+                    row.terms.iter().map(|(p, c)| c * model.get(Slot::Nominal(*p)).ln()).sum();
                 sum / row.sigma
             })
             .collect()

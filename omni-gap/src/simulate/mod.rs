@@ -6,6 +6,7 @@
 //! that is not there, and [`excite`] tells it what to do.
 
 mod excite;
+mod keys;
 mod model;
 mod predict;
 mod record;
@@ -13,6 +14,7 @@ mod recorded;
 mod start;
 
 pub use excite::{Excitation, excite};
+pub use keys::{NOMINAL_KEYS, NominalKey};
 pub use model::{Carried, Model, Slot, robot_of};
 pub use predict::{Prediction, predict, restart_rows};
 pub use record::{Recording, record};

@@ -1,5 +1,7 @@
 //! A model: the robot of a file, factors on its nominal values, and the effects that it carries.
 
+use std::sync::Arc;
+
 use model_core::active::{Effects, Refused};
 use model_core::card::Card;
 use model_core::effects;
@@ -46,6 +48,7 @@ pub enum Slot {
 /// What files describe: a robot with `N` wheels, factors on its nominal values, and effects.
 #[derive(Clone, Debug)]
 pub struct Model<const N: usize> {
+    file: Arc<RobotFile>,
     robot: Robot<N, f64>,
     /// Factors on the nominal values, in the order of [`Nominal::ALL`].
     pub factor: [f64; Nominal::COUNT],
@@ -83,7 +86,8 @@ pub fn robot_of<const N: usize, T: Real>(file: &RobotFile, supply: f64) -> Robot
 impl<const N: usize> Model<N> {
     /// The nominal model of a robot file: factors of one and the effects that the file names.
     pub fn nominal(file: &RobotFile, supply: f64) -> Self {
-        let mut model = Self { robot: robot_of(file, supply), factor: [1.0; Nominal::COUNT], effects: Vec::new() };
+        let robot = robot_of(file, supply);
+        let mut model = Self { file: Arc::new(file.clone()), robot, factor: [1.0; Nominal::COUNT], effects: Vec::new() };
         for entry in &file.effects {
             let Some(effect) = effects::find::<f64>(&entry.id) else { continue };
             let card = effect.card();
@@ -131,7 +135,7 @@ impl<const N: usize> Model<N> {
     /// The plant in any number type; `lift` makes such a number of each slot's value.
     pub fn plant_with<T: Real>(&self, lift: impl Fn(Slot, f64) -> T) -> Plant<N, T> {
         let factor = std::array::from_fn(|k| lift(Slot::Nominal(Nominal::ALL[k]), self.factor[k]));
-        let robot = self.lifted::<T>().scaled(&factor);
+        let robot = robot_of::<N, T>(&self.file, self.robot.supply).scaled(&factor);
         let mut carried = Effects::default();
         for (at, effect) in self.effects.iter().enumerate() {
             let params: Vec<T> =
@@ -144,22 +148,5 @@ impl<const N: usize> Model<N> {
             }
         }
         Plant::new(robot, carried)
-    }
-
-    fn lifted<T: Real>(&self) -> Robot<N, T> {
-        let r = &self.robot;
-        Robot {
-            wheels: r.wheels.lifted(),
-            motor: Motor {
-                gear_ratio: T::lit(r.motor.gear_ratio),
-                resistance: T::lit(r.motor.resistance),
-                emf_constant: T::lit(r.motor.emf_constant),
-                torque_constant: T::lit(r.motor.torque_constant),
-            },
-            mass: T::lit(r.mass),
-            inertia: T::lit(r.inertia),
-            friction: Friction { viscous: r.friction.viscous.map(T::lit), coulomb: r.friction.coulomb.map(T::lit) },
-            supply: T::lit(r.supply),
-        }
     }
 }

@@ -184,6 +184,38 @@ impl<const N: usize> Recorded<N> {
         })
     }
 
+    /// The run cut into `parts` of equal length.
+    pub fn cut(&self, parts: usize) -> Vec<Self> {
+        let rows = self.rows();
+        (0..parts)
+            .map(|k| (k * rows / parts, (k + 1) * rows / parts))
+            .filter(|(first, end)| end > first)
+            .map(|(first, end)| Self {
+                name: format!("{} (rows {first} to {})", self.name, end - 1),
+                t: self.t[first..end].iter().map(|t| t - self.t[first]).collect(),
+                dt: self.dt[first..end].to_vec(),
+                input: self.input[first..end].to_vec(),
+                measured: self.measured[first..end].to_vec(),
+                has: self.has[first..end].to_vec(),
+                gyro: self.gyro[first..end].to_vec(),
+                ..self.without_rows()
+            })
+            .collect()
+    }
+
+    fn without_rows(&self) -> Self {
+        Self {
+            name: String::new(),
+            t: Vec::new(),
+            dt: Vec::new(),
+            input: Vec::new(),
+            measured: Vec::new(),
+            has: Vec::new(),
+            gyro: Vec::new(),
+            ..*self
+        }
+    }
+
     /// The channels' order.
     pub const fn channels() -> Channels {
         Channels { wheels: N }

@@ -1,0 +1,131 @@
+//! Where: the links' shares, told further by stage, wheel, axis and regime.
+
+use model_core::frames::BodyTwist;
+
+use super::causes::stage_of;
+use crate::localise::{Hotspot, Link, links, regimes};
+use crate::rank::{Cause, Data, Outcome, Verdict};
+use crate::report::{Axis, Regime, Stage, Where};
+use crate::simulate::{Model, Prediction, Recorded, predict};
+
+/// A wheel that holds this many times its fair share of the error is named.
+const STANDS_OUT: f64 = 1.8;
+/// An axis that holds this share of the error is named.
+const MOSTLY: f64 = 0.7;
+/// Stages with less are left out.
+const NEGLIGIBLE: f64 = 0.005;
+
+/// The places of the gap, the largest first.
+pub(super) fn places<const N: usize>(
+    verdict: &Verdict<N>,
+    nominal: &Model<N>,
+    data: &Data<'_, N>,
+    horizon: f64,
+) -> Vec<Where> {
+    // what lies within stated uncertainty is not where an effect sits; a wrong parameter is all there is to see
+    let effect = verdict.found.iter().any(|f| matches!(f.cause, Cause::Effect(..)));
+    let model = if effect || matches!(verdict.outcome, Outcome::Unknown) { &verdict.refitted.fit.model } else { nominal };
+    let plant = model.plant();
+    let split = links(&plant, &data.held, horizon);
+    let weights = stage_weights(verdict);
+    let mut shares = [0.0; 5];
+    for (link, share) in &split.shares {
+        let stages: Vec<usize> = (0..5).filter(|s| belongs(Stage::ALL[*s], *link)).collect();
+        let total: f64 = stages.iter().map(|s| weights[*s]).sum();
+        for s in stages {
+            shares[s] += share * weights[s] / total;
+        }
+    }
+    let predictions: Vec<(&Recorded<N>, Prediction)> =
+        data.held.iter().map(|run| (*run, predict(&plant, run, horizon))).collect();
+    let pairs: Vec<(&Recorded<N>, &Prediction)> = predictions.iter().map(|(r, p)| (*r, p)).collect();
+    let (wheel, axis) = standing_out(&pairs, model);
+    let hot = regimes(&pairs).into_iter().next();
+    let mut places: Vec<Where> = (0..5)
+        .filter(|s| shares[*s] > NEGLIGIBLE)
+        .map(|s| Where { stage: Stage::ALL[s], axis: None, wheel: None, share: shares[s], regime: None })
+        .collect();
+    let total: f64 = places.iter().map(|p| p.share).sum();
+    for place in &mut places {
+        place.share /= total;
+    }
+    places.sort_by(|a, b| b.share.total_cmp(&a.share));
+    if let Some(first) = places.first_mut() {
+        first.wheel = verdict.found.first().and_then(|f| f.cause.wheel()).or(wheel.filter(|_| verdict.found.is_empty()));
+        first.axis = if first.wheel.is_none() { axis } else { None };
+        first.regime = hot.map(told);
+    }
+    places
+}
+
+fn told(spot: Hotspot) -> Regime {
+    Regime { feature: spot.feature.to_owned(), low: spot.low, high: spot.high, share: spot.share, text: spot.text }
+}
+
+fn belongs(stage: Stage, link: Link) -> bool {
+    match link {
+        Link::Electrical => matches!(stage, Stage::Electrical | Stage::Sensing),
+        Link::Motion => matches!(stage, Stage::Electrical | Stage::Drivetrain | Stage::Contact | Stage::Body | Stage::Sensing),
+        Link::Contact => matches!(stage, Stage::Contact | Stage::Sensing),
+    }
+}
+
+/// How much each stage's causes explain. The measured signals split the gap among links; which stage of a link it is can
+/// only be told by what explains it.
+fn stage_weights<const N: usize>(verdict: &Verdict<N>) -> [f64; 5] {
+    // every stage keeps a grain, so that a link no cause speaks of still has somewhere to go
+    let mut weights = [1e-6; 5];
+    let at = |stage: Stage| Stage::ALL.iter().position(|s| *s == stage).unwrap_or(0);
+    if verdict.found.is_empty() {
+        for s in &verdict.last.screened {
+            weights[at(s.candidate.card.stage().into())] += s.gain.sqrt();
+        }
+    }
+    for found in &verdict.found {
+        let ranking = &found.ranking;
+        let gain = ranking.base.score(ranking.scale)
+            - ranking.ranked.first().map_or(0.0, |r| r.scored.score(ranking.scale));
+        weights[at(stage_of(found.cause.id()))] += gain.max(0.0);
+    }
+    weights
+}
+
+/// The wheel whose current and speed, and the axis whose velocity, hold most of the error.
+fn standing_out<const N: usize>(
+    runs: &[(&Recorded<N>, &Prediction)],
+    model: &Model<N>,
+) -> (Option<usize>, Option<Axis>) {
+    let mut by_wheel = vec![0.0; N];
+    let mut by_axis = [0.0; 3];
+    let wheels = &model.robot().wheels;
+    let lever: f64 = wheels.rows().iter().map(|r| r[2] * r[2]).sum::<f64>() / N as f64;
+    for (run, prediction) in runs {
+        for (row, p) in prediction.rows.iter().enumerate() {
+            let mut speed = [0.0; N];
+            let mut whole = true;
+            for j in 0..N {
+                for c in [j, N + j] {
+                    if run.saw(row, c) {
+                        by_wheel[j] += run.error(row, c, p[c]).powi(2);
+                    }
+                }
+                whole &= run.saw(row, N + j);
+                speed[j] = run.error(row, N + j, p[N + j]);
+            }
+            if whole {
+                let BodyTwist { v, vn, w } = wheels.twist_of_wheel_speeds(speed);
+                by_axis[0] += v * v;
+                by_axis[1] += vn * vn;
+                by_axis[2] += w * w * lever;
+            }
+        }
+    }
+    let top = |x: &[f64]| {
+        let total: f64 = x.iter().sum();
+        let (k, most) = x.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        (total > 0.0).then_some((k, most / total))
+    };
+    let wheel = top(&by_wheel).filter(|(_, share)| *share > STANDS_OUT / N as f64).map(|(k, _)| k);
+    let axis = top(&by_axis).filter(|(_, share)| *share > MOSTLY).map(|(k, _)| [Axis::V, Axis::Vn, Axis::W][k]);
+    (wheel, axis)
+}

@@ -1,0 +1,24 @@
+//! What robot files may name, as the catalogue's cards say.
+
+use model_core::card::Role;
+use model_core::effects;
+
+use crate::log::{Catalogue, KnownEffect, KnownParam};
+
+/// The effects that this program knows.
+pub fn known_effects() -> Catalogue {
+    let effect = |card: &model_core::card::Card| KnownEffect {
+        id: card.id.to_owned(),
+        params: card
+            .params
+            .iter()
+            .map(|p| KnownParam {
+                key: p.key.to_owned(),
+                low: p.within.0,
+                high: p.within.1,
+                required: p.role == Role::Size,
+            })
+            .collect(),
+    };
+    Catalogue { effects: effects::catalogue::<f64>().iter().map(|e| effect(e.card())).collect() }
+}

@@ -1,0 +1,117 @@
+//! The gap: errors of free runs restarted every horizon, in units of the sensors' sigma.
+
+use model_core::frames::{BodyTwist, Pose};
+use model_core::plant::Plant;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
+
+use crate::simulate::{MAX_CHANNELS, Recorded, predict, start_at};
+
+/// The signal groups, in the order of their channels.
+pub const GROUPS: [&str; 3] = ["i", "w", "pose"];
+
+/// Steps of the plant in a row's step when the floor is simulated: finer than a prediction's own.
+const FINER: usize = 4;
+
+/// Errors of a model on runs.
+#[derive(Clone, Debug, Default)]
+pub struct Measured {
+    /// Per window (of all runs): Σ error² [σ²] and count, per group.
+    pub windows: Vec<[(f64, f64); 3]>,
+}
+
+/// RMS of one group, and the RMS over the groups, of sums of squares.
+fn rms(sums: &[(f64, f64); 3]) -> ([Option<f64>; 3], f64) {
+    let groups = sums.map(|(sum, n)| (n > 0.0).then(|| (sum / n).sqrt()));
+    let there: Vec<f64> = groups.iter().flatten().copied().collect();
+    let total = (there.iter().map(|x| x * x).sum::<f64>() / there.len().max(1) as f64).sqrt();
+    (groups, total)
+}
+
+impl Measured {
+    fn sums(&self, pick: impl Iterator<Item = usize>) -> [(f64, f64); 3] {
+        let mut sums = [(0.0, 0.0); 3];
+        for k in pick {
+            for (sum, part) in sums.iter_mut().zip(self.windows[k]) {
+                *sum = (sum.0 + part.0, sum.1 + part.1);
+            }
+        }
+        sums
+    }
+
+    /// RMS error of each group [σ]; `None` where it was not measured.
+    pub fn groups(&self) -> [Option<f64>; 3] {
+        rms(&self.sums(0..self.windows.len())).0
+    }
+
+    /// RMS over the groups [σ].
+    pub fn total(&self) -> f64 {
+        rms(&self.sums(0..self.windows.len())).1
+    }
+
+    /// The total of a resampling of the windows [σ].
+    pub fn total_of(&self, windows: &[usize]) -> f64 {
+        rms(&self.sums(windows.iter().copied())).1
+    }
+}
+
+/// Measures a model on runs: free runs restarted every `horizon` [s].
+pub fn measure<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], horizon: f64) -> Measured {
+    let per_run: Vec<Vec<[(f64, f64); 3]>> = runs
+        .par_iter()
+        .map(|run| {
+            let prediction = predict(plant, run, horizon);
+            let mut windows = vec![[(0.0, 0.0); 3]; prediction.restarts.len()];
+            let mut window = 0;
+            for (row, predicted) in prediction.rows.iter().enumerate() {
+                while prediction.restarts.get(window + 1).is_some_and(|next| *next <= row) {
+                    window += 1;
+                }
+                for c in (0..MAX_CHANNELS.min(2 * N + 3)).filter(|c| run.saw(row, *c)) {
+                    let group = &mut windows[window][(c / N).min(2)];
+                    *group = (group.0 + run.error(row, c, predicted[c]).powi(2), group.1 + 1.0);
+                }
+            }
+            windows
+        })
+        .collect();
+    Measured { windows: per_run.into_iter().flatten().collect() }
+}
+
+/// What the protocol would measure if the model were the truth: the same runs, simulated from it with the sensors' noise.
+pub fn floor<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], horizon: f64, seed: u64) -> Measured {
+    let replayed: Vec<Recorded<N>> =
+        runs.par_iter().enumerate().map(|(k, run)| replay(plant, run, seed.wrapping_add(k as u64))).collect();
+    measure(plant, &replayed.iter().collect::<Vec<_>>(), horizon)
+}
+
+/// A run of the same input and the same holes, simulated from the model with white noise of the sensors' sigma.
+fn replay<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, seed: u64) -> Recorded<N> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut replayed = run.clone();
+    let mut memory = vec![0.0; plant.memory_len()];
+    let rest = plant.start(0.0, Pose::default(), BodyTwist::default());
+    let mut state = start_at(run, 0).state(plant, &rest);
+    plant.restart(&state, &mut memory);
+    for row in 0..run.rows() {
+        let steps = FINER * run.steps(row);
+        let dt = run.dt[row] / steps as f64;
+        let input = run.input::<f64>(row);
+        let reading = plant.step(&mut state, &mut memory, &input, dt);
+        for _ in 1..steps {
+            plant.step(&mut state, &mut memory, &input, dt);
+        }
+        let mut says = run.row_of(&reading);
+        for (c, x) in says.iter_mut().enumerate() {
+            let noise: f64 = StandardNormal.sample(&mut random);
+            *x += run.sigma[c] * noise;
+        }
+        replayed.measured[row] = says;
+        if let Some(gyro) = &mut replayed.gyro[row] {
+            *gyro = reading.gyro;
+        }
+    }
+    replayed
+}

@@ -1,0 +1,166 @@
+//! Which measured link of the chain u → i → w → pose the gap belongs to.
+//!
+//! A link's own measured output is put in the place of what the model says of it, so that an error before it cannot
+//! come through: the measured current instead of the winding's, the measured wheel speeds instead of the drivetrain's
+//! and body's, the measured motion of the robot over its wheels instead of the contact's. A link's share is what its
+//! substitution takes off the free run's error, averaged over all orders in which the links can be substituted
+//! (Shapley), so that the shares add up to the whole.
+
+use model_core::frames::{BodyTwist, Pose};
+use model_core::plant::{Input, Plant};
+use rayon::prelude::*;
+
+use super::gap::GROUPS;
+use crate::simulate::{Recorded, Row, restart_rows, start_at};
+
+/// A link between two measured signals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Link {
+    /// Voltage to current.
+    Electrical,
+    /// Current to wheel speed: drivetrain and body.
+    Motion,
+    /// Wheel speed to pose: contact, and the camera.
+    Contact,
+}
+
+impl Link {
+    /// All links in signal order.
+    pub const ALL: [Link; 3] = [Link::Electrical, Link::Motion, Link::Contact];
+}
+
+/// The share of each link that could be told apart; shares sum to one.
+#[derive(Clone, Debug)]
+pub struct Links {
+    /// (link, share), in signal order; a link whose ends were not both measured is not listed.
+    pub shares: Vec<(Link, f64)>,
+}
+
+/// Splits the error of free runs among the links.
+pub fn links<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], horizon: f64) -> Links {
+    let seen = GROUPS.map(|group| runs.iter().any(|run| run.has_group(group)));
+    let players: Vec<usize> = (0..3).filter(|k| seen[*k]).collect();
+    // mean square error per group of each subset of substituted links
+    let parts: Vec<[[(f64, f64); 3]; 8]> = runs.par_iter().map(|run| subsets(plant, run, horizon)).collect();
+    let worth = |subset: usize| -> f64 {
+        (0..3)
+            .map(|g| {
+                let (sum, n) = parts.iter().fold((0.0, 0.0), |s, p| (s.0 + p[subset][g].0, s.1 + p[subset][g].1));
+                if n > 0.0 { sum / n } else { 0.0 }
+            })
+            .sum()
+    };
+    let mut shares = vec![0.0; 3];
+    let orders = orders(&players);
+    for order in &orders {
+        let mut subset = 0;
+        for player in order {
+            let before = worth(subset);
+            subset |= 1 << player;
+            shares[*player] += (before - worth(subset)) / orders.len() as f64;
+        }
+    }
+    let total: f64 = shares.iter().map(|s| s.max(0.0)).sum();
+    let share = |k: usize| if total > 0.0 { shares[k].max(0.0) / total } else { 1.0 / players.len().max(1) as f64 };
+    Links { shares: players.iter().map(|k| (Link::ALL[*k], share(*k))).collect() }
+}
+
+fn orders(players: &[usize]) -> Vec<Vec<usize>> {
+    if players.is_empty() {
+        return vec![Vec::new()];
+    }
+    players
+        .iter()
+        .flat_map(|first| {
+            let rest: Vec<usize> = players.iter().copied().filter(|p| p != first).collect();
+            orders(&rest).into_iter().map(move |tail| [vec![*first], tail].concat())
+        })
+        .collect()
+}
+
+/// Rows of one free run: as predicted from the recorded input, from measured currents, and from measured wheel speeds.
+struct Paths {
+    plain: Vec<Row>,
+    by_current: Vec<Row>,
+    by_speed: Vec<Row>,
+}
+
+/// Σ error² and count per group for every subset of substituted links (bit 0 electrical, 1 motion, 2 contact).
+fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon: f64) -> [[(f64, f64); 3]; 8] {
+    let paths = Paths {
+        plain: free_run(plant, run, horizon, |row| run.input(row)),
+        by_current: free_run(plant, run, horizon, |row| measured(run, row, 0).map_or(run.input(row), Input::Current)),
+        by_speed: free_run(plant, run, horizon, |row| measured(run, row, N).map_or(run.input(row), Input::Speed)),
+    };
+    let motor = &plant.robot().motor;
+    let mut sums = [[(0.0, 0.0); 3]; 8];
+    for row in 0..run.rows() {
+        let volts = match run.input::<f64>(row) {
+            Input::Voltage(u) => Some(u),
+            _ => None,
+        };
+        let speeds = measured(run, row, N);
+        for c in (0..2 * N + 3).filter(|c| run.saw(row, *c)) {
+            let error = |path: &[Row]| run.error(row, c, path[row][c]);
+            let by_speed = error(&paths.by_speed);
+            for (subset, sums) in sums.iter_mut().enumerate() {
+                let (electrical, motion, contact) = (subset & 1 != 0, subset & 2 != 0, subset & 4 != 0);
+                let e = if c < N {
+                    match (electrical, motion, volts.zip(speeds)) {
+                        (true, ..) => 0.0,
+                        (false, true, Some((u, w))) => run.error(row, c, motor.current(u[c], w[c])),
+                        _ => error(&paths.plain),
+                    }
+                } else if c < 2 * N {
+                    match (electrical, motion) {
+                        (_, true) => 0.0,
+                        (true, false) => error(&paths.by_current),
+                        (false, false) => error(&paths.plain),
+                    }
+                } else {
+                    let before = match (electrical, motion) {
+                        (_, true) => by_speed,
+                        (true, false) => error(&paths.by_current),
+                        (false, false) => error(&paths.plain),
+                    };
+                    if contact { before - by_speed } else { before }
+                };
+                let group = &mut sums[(c / N).min(2)];
+                *group = (group.0 + e * e, group.1 + 1.0);
+            }
+        }
+    }
+    sums
+}
+
+/// The measured currents (first channel 0) or wheel speeds (first channel N) of a row, if all are there.
+fn measured<const N: usize>(run: &Recorded<N>, row: usize, first: usize) -> Option<[f64; N]> {
+    let whole = (first..first + N).all(|c| run.saw(row, c)) && !(first == 0 && run.unsigned_current);
+    whole.then(|| std::array::from_fn(|j| run.measured[row][first + j]))
+}
+
+fn free_run<const N: usize>(
+    plant: &Plant<N, f64>,
+    run: &Recorded<N>,
+    horizon: f64,
+    input: impl Fn(usize) -> Input<N, f64>,
+) -> Vec<Row> {
+    let mut memory = vec![0.0; plant.memory_len()];
+    let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
+    let mut restarts = restart_rows(&run.t, horizon).into_iter().peekable();
+    (0..run.rows())
+        .map(|row| {
+            if restarts.next_if_eq(&row).is_some() {
+                state = start_at(run, row).state(plant, &state);
+                plant.restart(&state, &mut memory);
+            }
+            let steps = run.steps(row);
+            let (held, dt) = (input(row), run.dt[row] / steps as f64);
+            let reading = plant.step(&mut state, &mut memory, &held, dt);
+            for _ in 1..steps {
+                plant.step(&mut state, &mut memory, &held, dt);
+            }
+            run.row_of(&reading)
+        })
+        .collect()
+}

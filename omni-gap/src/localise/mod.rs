@@ -1,0 +1,12 @@
+//! # Localise: where the gap lies
+//!
+//! How large the gap is by the protocol ([`measure`]), which measured link of the signal path it belongs to ([`links`]),
+//! and in which regime of the motion it is largest ([`regimes`]).
+
+mod gap;
+mod links;
+mod regime;
+
+pub use gap::{GROUPS, Measured, floor, measure};
+pub use links::{Link, Links, links};
+pub use regime::{Hotspot, regimes};

@@ -1,0 +1,94 @@
+//! In which regime of the motion the error is largest: a fixed menu of features, each cut into five equal parts.
+
+use crate::simulate::{Prediction, Recorded};
+
+/// A part of a feature's range that holds more than its share of the error.
+#[derive(Clone, Debug)]
+pub struct Hotspot {
+    /// Name of the feature, for programs.
+    pub feature: &'static str,
+    /// Lower end of the part, in the feature's unit; `None` where it is open.
+    pub low: Option<f64>,
+    /// Upper end; `None` where it is open.
+    pub high: Option<f64>,
+    /// Share of the error in the part, which holds a fifth of the samples.
+    pub share: f64,
+    /// In words, to follow "where …".
+    pub text: String,
+}
+
+const PARTS: usize = 5;
+/// A fifth of the samples holding less than this of the error is no hotspot.
+const NOTABLE: f64 = 0.35;
+
+struct Feature {
+    name: &'static str,
+    words: &'static str,
+    unit: &'static str,
+}
+
+const FEATURES: [Feature; 6] = [
+    Feature { name: "wheel_speed", words: "|wheel speed|", unit: "rad/s" },
+    Feature { name: "current", words: "|current|", unit: "A" },
+    Feature { name: "wheel_acceleration", words: "|wheel acceleration|", unit: "rad/s²" },
+    Feature { name: "turning", words: "|yaw rate × speed|", unit: "m/s²" },
+    Feature { name: "heading", words: "heading modulo a turn", unit: "rad" },
+    Feature { name: "time", words: "time since the start of the run", unit: "s" },
+];
+
+/// The hotspots of a prediction's error on its wheel speeds and currents (on the pose where neither was measured), the
+/// strongest first.
+pub fn regimes<const N: usize>(runs: &[(&Recorded<N>, &Prediction)]) -> Vec<Hotspot> {
+    let mut samples: Vec<([f64; FEATURES.len()], f64)> = Vec::new();
+    for (run, prediction) in runs {
+        for row in 1..run.rows() {
+            let p = &prediction.rows[row];
+            let span = (run.t[row] - run.t[row - 1]).max(1e-6);
+            let restarted = prediction.restarts.contains(&row);
+            for j in 0..N {
+                let own: Vec<usize> = [j, N + j].into_iter().filter(|c| run.saw(row, *c)).collect();
+                if own.is_empty() {
+                    continue;
+                }
+                let error: f64 = own.iter().map(|c| run.error(row, *c, p[*c]).powi(2)).sum();
+                let before = &prediction.rows[row - 1];
+                let rate = if restarted { 0.0 } else { (p[N + j] - before[N + j]) / span };
+                let speed = ((p[2 * N] - before[2 * N]).hypot(p[2 * N + 1] - before[2 * N + 1])) / span;
+                let yaw = (p[2 * N + 2] - before[2 * N + 2]) / span;
+                let turning = if restarted { 0.0 } else { (speed * yaw).abs() };
+                let heading = p[2 * N + 2].rem_euclid(std::f64::consts::TAU);
+                samples.push(([p[N + j].abs(), p[j].abs(), rate.abs(), turning, heading, run.t[row]], error));
+            }
+        }
+    }
+    let mut found: Vec<Hotspot> = (0..FEATURES.len()).filter_map(|f| hotspot(f, &samples)).collect();
+    found.sort_by(|a, b| b.share.total_cmp(&a.share));
+    found
+}
+
+fn hotspot(f: usize, samples: &[([f64; FEATURES.len()], f64)]) -> Option<Hotspot> {
+    let total: f64 = samples.iter().map(|s| s.1).sum();
+    let mut sorted: Vec<(f64, f64)> = samples.iter().map(|(x, e)| (x[f], *e)).collect();
+    if sorted.len() < 10 * PARTS || total <= 0.0 {
+        return None;
+    }
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let size = sorted.len() / PARTS;
+    let part = |k: usize| &sorted[k * size..if k + 1 == PARTS { sorted.len() } else { (k + 1) * size }];
+    let shares: Vec<f64> = (0..PARTS).map(|k| part(k).iter().map(|s| s.1).sum::<f64>() / total).collect();
+    let (k, share) = shares.into_iter().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (low, high) = (part(k)[0].0, part(k)[part(k).len() - 1].0);
+    // a part without width (a robot at rest for most of the time) says nothing
+    if share < NOTABLE || high - low <= 1e-9 {
+        return None;
+    }
+    let Feature { name, words, unit } = FEATURES[f];
+    let low = (k > 0).then_some(low);
+    let high = (k + 1 < PARTS).then_some(high);
+    let text = match (low, high) {
+        (None, Some(high)) => format!("{words} < {high:.2} {unit}"),
+        (Some(low), None) => format!("{words} > {low:.2} {unit}"),
+        (low, high) => format!("{:.2} < {words} < {:.2} {unit}", low.unwrap_or(0.0), high.unwrap_or(0.0)),
+    };
+    Some(Hotspot { feature: name, low, high, share, text })
+}

@@ -1,0 +1,125 @@
+//! What can be the cause: every effect, on every wheel where it can sit on one, and every nominal parameter.
+
+use model_core::card::{Card, Param, Place, Role};
+use model_core::effects;
+use model_core::robot::Nominal;
+
+use crate::simulate::Carried;
+
+/// A cause that a report can name.
+#[derive(Clone, Copy, Debug)]
+pub enum Cause {
+    /// An effect of the catalogue, on one wheel or on all (or on the robot).
+    Effect(&'static Card, Option<usize>),
+    /// A nominal value that is wrong.
+    Parameter(&'static str),
+}
+
+impl Cause {
+    /// Its id in files.
+    pub fn id(&self) -> &'static str {
+        match self {
+            Cause::Effect(card, _) => card.id,
+            Cause::Parameter(id) => id,
+        }
+    }
+
+    /// The wheel that it sits on alone.
+    pub fn wheel(&self) -> Option<usize> {
+        match self {
+            Cause::Effect(_, wheel) => *wheel,
+            Cause::Parameter(_) => None,
+        }
+    }
+
+    /// True if both name the same cause, wherever it sits.
+    pub fn same_id(&self, other: &Cause) -> bool {
+        self.id() == other.id()
+    }
+}
+
+/// An effect to try, with the sizes to try it at.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// The effect and where it sits.
+    pub card: &'static Card,
+    /// The wheel, if on one alone.
+    pub wheel: Option<usize>,
+    /// Parameter sets to look at, all of them real effects.
+    pub trials: Vec<Carried>,
+}
+
+/// The ids of the parameter causes, in the order of the catalogue.
+pub fn parameter_causes() -> Vec<&'static str> {
+    let mut causes: Vec<&'static str> = Nominal::ALL.iter().map(|p| p.cause()).collect();
+    causes.dedup();
+    causes
+}
+
+/// Every effect that is not in the nominal model already.
+pub fn candidates<const N: usize>(present: &[Carried]) -> Vec<Candidate> {
+    let mut all = Vec::new();
+    for effect in effects::catalogue::<f64>() {
+        let card = effect.card();
+        let anywhere = card.place != Place::OneWheel;
+        let places = anywhere
+            .then_some(None)
+            .into_iter()
+            .chain((card.place != Place::Robot).then_some(0..N).into_iter().flatten().map(Some));
+        for wheel in places {
+            let taken = present.iter().any(|p| p.id == card.id && (p.wheel.is_none() || p.wheel == wheel));
+            if !taken {
+                all.push(Candidate { card, wheel, trials: trials(card, wheel) });
+            }
+        }
+    }
+    all
+}
+
+/// Parameter sets that span what the effect can look like: each size at half, once and twice its typical departure from
+/// absent, the others absent; each shape at a few values.
+fn trials(card: &'static Card, wheel: Option<usize>) -> Vec<Carried> {
+    let base: Vec<f64> =
+        card.params.iter().map(|p| if p.role == Role::Size { p.absent } else { p.typical }).collect();
+    let with = |changes: &[(usize, f64)]| {
+        let mut params = base.clone();
+        for (k, x) in changes {
+            params[*k] = x.clamp(card.params[*k].within.0, card.params[*k].within.1);
+        }
+        Carried { id: card.id, wheel, params }
+    };
+    let sizes: Vec<usize> = (0..card.params.len()).filter(|k| card.params[*k].role == Role::Size).collect();
+    let mut all = Vec::new();
+    for k in sizes {
+        let p = &card.params[k];
+        for share in [1.0, 0.5, 2.0] {
+            all.push(with(&[(k, p.absent + share * (p.typical - p.absent))]));
+        }
+        for (s, shape) in card.params.iter().enumerate().filter(|(_, s)| s.role == Role::Shape) {
+            all.extend(others(shape).map(|x| with(&[(k, p.typical), (s, x)])));
+        }
+    }
+    for (s, shape) in card.params.iter().enumerate().filter(|(_, s)| s.role == Role::Shape && s.absent == s.typical) {
+        // a shape that can be an effect of its own, such as a ratio: a tenth of its range away
+        let away = 0.05 * (shape.within.1 - shape.within.0);
+        all.push(with(&[(s, shape.typical + away)]));
+    }
+    if all.is_empty() {
+        all.push(Carried::typical(card, wheel));
+    }
+    all
+}
+
+fn others(shape: &Param) -> impl Iterator<Item = f64> {
+    let (lo, hi, typical) = (shape.within.0, shape.within.1, shape.typical);
+    let around = lo < 0.0;
+    [1.0, 2.0, 3.0].into_iter().map(move |k| {
+        if around {
+            // an angle: quarter turns from the typical one
+            let x = typical + k * 0.25 * (hi - lo);
+            if x > hi { x - (hi - lo) } else { x }
+        } else {
+            typical * [0.33, 2.0, 4.0][k as usize - 1]
+        }
+    })
+}

@@ -1,0 +1,177 @@
+//! From candidates to an order: fit the best, judge them on runs that no fit has seen.
+
+use model_core::card::Role;
+use model_core::robot::Nominal;
+use rayon::prelude::*;
+
+use super::candidate::{Cause, candidates, parameter_causes};
+use super::screen::{Screened, parameter_gains, screen};
+use crate::identify::{Fit, Free, Prior, Release, Windows, fit, profile};
+use crate::simulate::{Carried, Model, Recorded, Slot};
+
+/// Effects that are fitted after the screen, at the most.
+const FITTED_EFFECTS: usize = 7;
+/// Parameter causes that are fitted, at the most.
+const FITTED_PARAMETERS: usize = 3;
+/// A promise below this is not worth a fit [σ²].
+const PROMISING: f64 = 9.0;
+/// What each free number of a cause costs in the score.
+const PRICE_OF_FREEDOM: f64 = 2.0;
+/// Rounds of the fit of a candidate.
+const ROUNDS: usize = 8;
+
+/// The runs to fit on and the runs to judge by, with their windows.
+#[derive(Debug)]
+pub struct Data<'a, const N: usize> {
+    /// Runs to fit on.
+    pub fit: Vec<&'a Recorded<N>>,
+    /// Their windows.
+    pub fit_windows: Vec<Windows>,
+    /// Runs that are only predicted.
+    pub held: Vec<&'a Recorded<N>>,
+    /// Their windows.
+    pub held_windows: Vec<Windows>,
+    /// What the robot file states of its uncertainty.
+    pub prior: Prior,
+}
+
+/// A model and how well it does on held-out runs.
+#[derive(Clone, Debug)]
+pub struct Scored<const N: usize> {
+    /// The fit on the other runs.
+    pub fit: Fit<N>,
+    /// Σ error² [σ²] of each held-out window, its start free.
+    pub windows: Vec<f64>,
+    /// Numbers compared on held-out runs, less those that the starts take up.
+    pub freedom: f64,
+    /// What the model costs by what was stated.
+    pub stated: f64,
+    /// Free numbers that the causes add.
+    pub extra: usize,
+}
+
+impl<const N: usize> Scored<N> {
+    /// Σ error² on held-out runs [σ²].
+    pub fn held(&self) -> f64 {
+        self.windows.iter().sum()
+    }
+
+    /// Lower is better: held-out error in units of `scale`, what was stated, and the price of freedom.
+    pub fn score(&self, scale: f64) -> f64 {
+        self.held() / scale + self.stated + PRICE_OF_FREEDOM * self.extra as f64
+    }
+
+    /// How much better (positive) this is than another, and the standard error of that, over windows.
+    pub fn better_than(&self, other: &Self, scale: f64) -> (f64, f64) {
+        let differences: Vec<f64> = other.windows.iter().zip(&self.windows).map(|(o, s)| (o - s) / scale).collect();
+        let n = differences.len() as f64;
+        let mean = differences.iter().sum::<f64>() / n;
+        let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
+        (other.score(scale) - self.score(scale), (n * variance).sqrt())
+    }
+}
+
+/// A cause that was fitted.
+#[derive(Clone, Debug)]
+pub struct Ranked<const N: usize> {
+    /// The cause.
+    pub cause: Cause,
+    /// The model with it, and how it does.
+    pub scored: Scored<N>,
+}
+
+/// All that was tried on top of one model, best first.
+#[derive(Clone, Debug)]
+pub struct Ranking<const N: usize> {
+    /// The model that the causes were added to, its parameters re-fitted within what was stated.
+    pub base: Scored<N>,
+    /// The causes that were fitted, best first.
+    pub ranked: Vec<Ranked<N>>,
+    /// Every effect with its promise by the screen, best first; kept for the causes that were not fitted.
+    pub screened: Vec<Screened>,
+    /// Error scale: the least held-out Σ error² per number, at least one.
+    pub scale: f64,
+}
+
+fn nominal_free() -> Vec<Free> {
+    Nominal::ALL.iter().map(|p| Free { slot: Slot::Nominal(*p), within: (0.1, 4.0) }).collect()
+}
+
+/// The free numbers of a model's effects from place `first` of the list given.
+fn effect_free<const N: usize>(model: &Model<N>) -> Vec<Free> {
+    let mut free = Vec::new();
+    for (at, effect) in model.effects.iter().enumerate() {
+        for (p, param) in effect.card().params.iter().enumerate() {
+            if param.role != Role::Fixed {
+                free.push(Free { slot: Slot::Param(at, p), within: param.within });
+            }
+        }
+    }
+    free
+}
+
+impl<const N: usize> Data<'_, N> {
+    /// Fits a model (all nominal values within what `prior` states, all sizes and shapes of its effects) and judges it.
+    pub fn judge(&self, model: Model<N>, from: Option<&Fit<N>>, prior: &Prior, extra: usize) -> Scored<N> {
+        let free: Vec<Free> = nominal_free().into_iter().chain(effect_free(&model)).collect();
+        let starts = from.map(|f| f.starts.clone());
+        let rounds = if from.is_some() { ROUNDS } else { 2 * ROUNDS };
+        let fitted = fit(model, &self.fit, &self.fit_windows, starts, &free, prior, rounds);
+        let (_, windows) = profile(&fitted.model, &self.held, &self.held_windows);
+        let per_window: Vec<(f64, usize)> = windows.into_iter().flatten().collect();
+        let samples: usize = per_window.iter().map(|(_, n)| *n).sum();
+        Scored {
+            freedom: (samples as f64 - 6.0 * per_window.len() as f64).max(1.0),
+            windows: per_window.into_iter().map(|(cost, _)| cost).collect(),
+            stated: fitted.prior_cost,
+            fit: fitted,
+            extra,
+        }
+    }
+}
+
+/// Tries every cause on top of a fitted model. `released` are the statements already struck out.
+pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prior) -> Ranking<N> {
+    let linear = base.fit.linearised(&data.fit, &data.fit_windows);
+    let all = candidates::<N>(&base.fit.model.effects);
+    let mut screened = screen(&base.fit, &linear, prior, &data.fit, &data.fit_windows, all);
+    screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    let mut parameters = parameter_gains(&base.fit, &linear, prior, &parameter_causes());
+    parameters.sort_by(|a, b| b.1.total_cmp(&a.1));
+    drop(linear);
+
+    let effects = screened.iter().filter(|s| s.gain > PROMISING).take(FITTED_EFFECTS).map(|s| {
+        let cause = Cause::Effect(s.candidate.card, s.candidate.wheel);
+        (cause, Some(s.from.clone()), prior.clone())
+    });
+    let releases = parameters
+        .iter()
+        .filter(|(_, gain)| *gain > PROMISING)
+        .take(FITTED_PARAMETERS)
+        .map(|(id, _)| (Cause::Parameter(id), None, prior.without(Release(id))));
+    let jobs: Vec<(Cause, Option<Carried>, Prior)> = effects.chain(releases).collect();
+    let mut ranked: Vec<Ranked<N>> = jobs
+        .into_par_iter()
+        .map(|(cause, effect, prior)| {
+            let mut model = base.fit.model.clone();
+            let extra = match (&cause, effect) {
+                (Cause::Effect(card, _), Some(effect)) => {
+                    model.carry(effect);
+                    card.params.iter().filter(|p| p.role != Role::Fixed).count()
+                }
+                _ => prior.rows_of(cause.id()).len(),
+            };
+            let scored = data.judge(model, Some(&base.fit), &prior, base.extra + extra);
+            Ranked { cause, scored }
+        })
+        .collect();
+    let scale = ranked
+        .iter()
+        .map(|r| &r.scored)
+        .chain([&base])
+        .map(|s| s.held() / s.freedom)
+        .fold(f64::INFINITY, f64::min)
+        .max(1.0);
+    ranked.sort_by(|a, b| a.scored.score(scale).total_cmp(&b.scored.score(scale)));
+    Ranking { base, ranked, screened, scale }
+}

@@ -1,0 +1,186 @@
+//! The screen: how much of the remaining error each candidate could explain, without fitting it.
+//!
+//! ```text
+//! s = (prediction with the effect) − (prediction without),  in sigma
+//! gain = (s⊥·e)²/(s⊥·s⊥)       s⊥: s without what starts and parameters can imitate
+//! ```
+//!
+//! The gain is the drop of Σ error² that the best multiple of s would bring.
+
+use model_core::frames::{BodyTwist, Pose};
+use model_core::plant::Plant;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::candidate::Candidate;
+use crate::identify::{Fit, Linearised, Prior, Starts, Windows, run_windows};
+use crate::simulate::{Carried, Recorded, Slot};
+
+/// A candidate and what the screen says of it.
+#[derive(Clone, Debug)]
+pub struct Screened {
+    /// The candidate.
+    pub candidate: Candidate,
+    /// Drop of Σ error² [σ²] that its best trial promises.
+    pub gain: f64,
+    /// How far its typical size would move the recordings, in sigma of the whole, beyond what starts and parameters can
+    /// imitate.
+    pub visible: f64,
+    /// Its best trial, scaled to the size that fits best: where a fit should start.
+    pub from: Carried,
+}
+
+/// Screens candidates at a fit.
+pub fn screen<const N: usize>(
+    fit: &Fit<N>,
+    linear: &Linearised,
+    prior: &Prior,
+    runs: &[&Recorded<N>],
+    windows: &[Windows],
+    candidates: Vec<Candidate>,
+) -> Vec<Screened> {
+    let reduced = fit.reduced(linear, prior);
+    let Some(hess) = reduced.hess.clone().cholesky() else { return Vec::new() };
+    let toward: DVector<f64> = hess.solve(&reduced.grad);
+    let plain = predictions(&fit.model.plant(), runs, windows, &fit.starts, linear);
+    let tried: Vec<Vec<Trial>> = candidates
+        .par_iter()
+        .map(|candidate| {
+            candidate
+                .trials
+                .iter()
+                .map(|trial| {
+                    let mut model = fit.model.clone();
+                    model.carry(trial.clone());
+                    let mut signature = predictions(&model.plant(), runs, windows, &fit.starts, linear);
+                    for (with, without) in signature.iter_mut().flatten().zip(plain.iter().flatten()) {
+                        *with -= without;
+                    }
+                    let (overlap, size, shared) = linear.project(&signature);
+                    // the parameters take their share as well
+                    let own = hess.solve(&shared);
+                    let explains = overlap - shared.dot(&toward);
+                    let left = size - shared.dot(&own);
+                    let amplitude = if left > 1e-6 * size && left > 1e-9 { explains / left } else { 0.0 };
+                    Trial { effect: trial.clone(), amplitude, gain: explains * amplitude, size: left.max(0.0).sqrt() }
+                })
+                .collect()
+        })
+        .collect();
+    candidates
+        .into_iter()
+        .zip(tried)
+        .map(|(candidate, tried)| {
+            // the first trial is the typical size
+            let visible = tried[0].size;
+            let mut best = &tried[0];
+            let allowed = |t: &Trial| t.amplitude > 0.0 || both_ways(&candidate, &t.effect);
+            let gain = |t: &Trial| if allowed(t) { t.gain } else { 0.0 };
+            for trial in &tried {
+                if gain(trial) > gain(best) {
+                    best = trial;
+                }
+            }
+            let (gain, from) = (gain(best), scaled(&candidate, &best.effect, best.amplitude));
+            Screened { candidate, gain, visible, from }
+        })
+        .collect()
+}
+
+/// One parameter set of a candidate, looked at.
+struct Trial {
+    effect: Carried,
+    /// The multiple of its signature that fits best.
+    amplitude: f64,
+    /// Drop of Σ error² that this multiple brings [σ²]
+    gain: f64,
+    /// Size of what starts and parameters cannot imitate [σ]
+    size: f64,
+}
+
+/// True if the trial's own change may also go the other way: past "absent" within the bounds.
+fn both_ways(candidate: &Candidate, trial: &Carried) -> bool {
+    candidate.card.params.iter().zip(&trial.params).any(|(p, x)| {
+        *x != p.absent && p.within.0 < p.absent && p.absent < p.within.1
+    })
+}
+
+/// The trial with its departure from absent scaled, at most to half and to one and a half of it.
+fn scaled(candidate: &Candidate, trial: &Carried, amplitude: f64) -> Carried {
+    let by = amplitude.signum() * amplitude.abs().clamp(0.5, 1.5);
+    let mut from = trial.clone();
+    for (p, x) in candidate.card.params.iter().zip(&mut from.params) {
+        if p.role == model_core::card::Role::Size && (by > 0.0 || p.within.0 < p.absent) {
+            *x = (p.absent + by * (*x - p.absent)).clamp(p.within.0, p.within.1);
+        }
+    }
+    from
+}
+
+/// What a plant predicts for every number that was measured, in sigma, run by run and window by window.
+fn predictions<const N: usize>(
+    plant: &Plant<N, f64>,
+    runs: &[&Recorded<N>],
+    windows: &[Windows],
+    starts: &[Starts],
+    linear: &Linearised,
+) -> Vec<Vec<DVector<f64>>> {
+    let count = Recorded::<N>::channels().count();
+    (0..runs.len())
+        .map(|k| {
+            let run = runs[k];
+            let mut out: Vec<DVector<f64>> =
+                linear.windows[k].iter().map(|w| DVector::zeros(w.error.len())).collect();
+            let start = |w: usize| {
+                let [x, y, theta, v, vn, w] = starts[k][w];
+                (Pose { x, y, theta }, BodyTwist { v, vn, w })
+            };
+            let (mut at, mut last) = (0, usize::MAX);
+            run_windows(plant, run, &windows[k], start, |_| {}, |w, row, predicted| {
+                if w != last {
+                    (at, last) = (0, w);
+                }
+                for c in (0..count).filter(|c| run.saw(row, *c)) {
+                    out[w][at] = predicted[c] / run.sigma[c];
+                    at += 1;
+                }
+            });
+            out
+        })
+        .collect()
+}
+
+/// For every parameter cause, the drop of the whole cost that striking out its statement promises.
+///
+/// With v the violations of the statements in question and K their leverage, the drop is vᵀ(1 − K)⁻¹v.
+pub fn parameter_gains<const N: usize>(
+    fit: &Fit<N>,
+    linear: &Linearised,
+    prior: &Prior,
+    causes: &[&'static str],
+) -> Vec<(&'static str, f64)> {
+    let reduced = fit.reduced(linear, prior);
+    let Some(hess) = reduced.hess.cholesky() else { return Vec::new() };
+    let violations = prior.violations(&fit.model);
+    let n = fit.free.len();
+    causes
+        .iter()
+        .map(|cause| {
+            let rows = prior.rows_of(cause);
+            let mut c = DMatrix::zeros(rows.len(), n);
+            for (k, row) in rows.iter().enumerate() {
+                let row = &prior.rows[*row];
+                for (p, weight) in &row.terms {
+                    if let Some(at) = fit.free.iter().position(|f| f.slot == Slot::Nominal(*p)) {
+                        c[(k, at)] = weight / (row.sigma * fit.model.get(Slot::Nominal(*p)));
+                    }
+                }
+            }
+            let v = DVector::from_iterator(rows.len(), rows.iter().map(|k| violations[*k]));
+            let leverage = &c * hess.solve(&c.transpose());
+            let kept = DMatrix::identity(rows.len(), rows.len()) - leverage;
+            let gain = kept.lu().solve(&v).map_or(0.0, |x| v.dot(&x));
+            (*cause, gain.max(0.0))
+        })
+        .collect()
+}
