@@ -11,6 +11,7 @@
 //! A room imports only rooms before it; [`diagnosis`] walks through them all, [`stage`] makes recordings whose truth is
 //! known.
 
+pub mod check;
 pub mod error;
 pub mod log;
 

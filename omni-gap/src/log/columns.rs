@@ -76,6 +76,8 @@ pub(crate) struct Rule {
     pub offset: f64,
     pub counts: Option<Counts>,
     pub running_sum: bool,
+    /// A log without the source is read without the column.
+    pub optional: bool,
 }
 
 impl Default for Rule {
@@ -86,6 +88,7 @@ impl Default for Rule {
             offset: 0.0,
             counts: None,
             running_sum: false,
+            optional: false,
         }
     }
 }
@@ -120,7 +123,7 @@ const UNITS: [(&str, Quantity, f64); 16] = [
     ("deg", Quantity::Angle, std::f64::consts::PI / 180.0),
 ];
 
-const RULE_KEYS: [&str; 8] = [
+const RULE_KEYS: [&str; 9] = [
     "from",
     "unit",
     "scale",
@@ -129,6 +132,7 @@ const RULE_KEYS: [&str; 8] = [
     "counts_per_turn",
     "counts",
     "running_sum",
+    "optional",
 ];
 const TOP_KEYS: [&str; 7] = [
     "separator",
@@ -281,6 +285,7 @@ fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> 
     if counts.is_some() && s.table.contains_key("unit") {
         return Err(s.key_error("unit", "counts have no unit", "Remove `unit`, or `counts_per_turn`"));
     }
+    let optional = s.flag("optional")?.unwrap_or(false);
     let running_sum = s.flag("running_sum")?.unwrap_or(false);
     if running_sum && target != Target::Time {
         return Err(s.key_error("running_sum", "only time can be a running sum", "Remove the key"));
@@ -294,6 +299,7 @@ fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> 
             offset,
             counts,
             running_sum,
+            optional,
         },
     ))
 }

@@ -158,6 +158,17 @@ fn each_mistake_in_a_mapping_has_its_line_and_its_mend() {
 }
 
 #[test]
+fn an_optional_column_may_be_missing() {
+    let mapping = "[columns]\nt_s = { from = 1 }\nw0_rad_s = { from = 2 }\nw1_rad_s = { from = 2 }\nw2_rad_s = { from = 2 }\n\
+        gyro_rad_s = { from = \"g\", optional = true }\n";
+    let (run, notices) = read(mapping, "t,a\n0,0\n1,0\n", 3).unwrap();
+    assert!(
+        run.gyro.is_none() && notices[0].ends_with("no column `g` for gyro_rad_s"),
+        "{notices:?}"
+    );
+}
+
+#[test]
 fn a_pattern_takes_the_files_it_fits() {
     for (pattern, name, fits) in [
         ("*.csv", "a.csv", true),

@@ -80,16 +80,30 @@ fn named(table: &Table, notices: &mut Vec<String>) -> Vec<Binding> {
 fn mapped(table: &Table, columns: &Columns, notices: &mut Vec<String>) -> Result<Vec<Binding>> {
     let mut bindings = Vec::new();
     for (target, rule) in &columns.rules {
-        let column = rule.from.find(&table.names, table.width).ok_or_else(|| {
-            let there = if table.names.is_empty() {
-                format!("{} columns", table.width)
-            } else {
-                table.names.join(", ")
-            };
-            let problem = format!("the log has no column {} for {target}; it has {there}", rule.from);
-            Error::input(&table.path, problem, "Correct `from` in columns.toml")
-        })?;
-        bindings.push((*target, column, rule.clone()));
+        match rule.from.find(&table.names, table.width) {
+            Some(column) => bindings.push((*target, column, rule.clone())),
+            None if rule.optional => {
+                notices.push(format!(
+                    "{}: no column {} for {target}",
+                    table.path.display(),
+                    rule.from
+                ));
+            }
+            None => {
+                let names = || table.names.join(", ");
+                let there = if table.names.is_empty() {
+                    format!("{} columns", table.width)
+                } else {
+                    names()
+                };
+                let problem = format!("the log has no column {} for {target}; it has {there}", rule.from);
+                return Err(Error::input(
+                    &table.path,
+                    problem,
+                    "Correct `from` in columns.toml, or set optional = true",
+                ));
+            }
+        }
     }
     let unused = |column: &usize| !bindings.iter().any(|(_, used, _)| used == column);
     let ignored: Vec<String> = (0..table.width)

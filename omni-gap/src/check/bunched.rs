@@ -1,0 +1,44 @@
+//! Bunched samples: a late telegram makes one sample nothing and the next twice as much.
+
+use super::Fault;
+use super::body::row_of;
+use crate::log::{RobotFile, Run};
+
+pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
+    let group = run.w.as_ref()?;
+    let rows: Vec<Option<Vec<f64>>> = (0..run.rows()).map(|row| row_of(group, row)).collect();
+    let slow = 5.0 * robot.sensors.wheel_speed_noise_rad_s * (group.channels.len() as f64).sqrt();
+    let size = |w: &[f64]| w.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let (mut moving, mut found) = (0usize, Vec::new());
+    for row in 1..run.rows().saturating_sub(2) {
+        let (Some(before), Some(nothing), Some(twice), Some(after)) =
+            (&rows[row - 1], &rows[row], &rows[row + 1], &rows[row + 2])
+        else {
+            continue;
+        };
+        let usual: Vec<f64> = before.iter().zip(after).map(|(a, b)| 0.5 * (a + b)).collect();
+        let level = size(&usual);
+        let steady = before.iter().zip(after).map(|(a, b)| a - b).collect::<Vec<_>>();
+        if level < slow || size(&steady) > 0.5 * level {
+            continue;
+        }
+        moving += 1;
+        let apart = |w: &[f64], times: f64| size(&w.iter().zip(&usual).map(|(w, m)| w - times * m).collect::<Vec<_>>());
+        if size(nothing) < 0.25 * level && apart(twice, 2.0) < 0.5 * level {
+            found.push(row);
+        }
+    }
+    let (&first, &last) = (found.first()?, found.last()?);
+    let share = found.len() as f64 / moving.max(1) as f64;
+    let sentence = format!(
+        "In {} place(s) ({:.1} % of the moving rows) the wheels stand still for one sample and turn twice as fast in the next: samples came late.",
+        found.len(),
+        100.0 * share
+    );
+    let mend = "Stamp samples where they are taken; or leave out both rows of each pair.";
+    Some(
+        Fault::of(run, "bunched", "w", share > 0.05)
+            .at(first, last + 1)
+            .says(sentence, mend),
+    )
+}

@@ -1,0 +1,50 @@
+//! One fault of a recording.
+
+use crate::log::Run;
+
+/// What is wrong with a recording, where, and how to mend it.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Fault {
+    /// A stable name of the kind of fault.
+    pub code: &'static str,
+    /// The run's name.
+    pub run: String,
+    /// First and last row concerned; data rows counted from 0, the header not counted.
+    pub rows: (usize, usize),
+    /// The column or group concerned.
+    pub signal: String,
+    /// What was seen.
+    pub sentence: String,
+    /// How to mend it.
+    pub mend: String,
+    /// Whether nothing may be fitted on this log.
+    pub fatal: bool,
+}
+
+impl Fault {
+    /// A fault of a whole run.
+    pub(super) fn of(run: &Run, code: &'static str, signal: impl Into<String>, fatal: bool) -> Fault {
+        let rows = (0, run.rows().saturating_sub(1));
+        let (sentence, mend) = (String::new(), String::new());
+        Fault {
+            code,
+            run: run.name.clone(),
+            rows,
+            signal: signal.into(),
+            sentence,
+            mend,
+            fatal,
+        }
+    }
+
+    pub(super) fn at(mut self, first: usize, last: usize) -> Fault {
+        self.rows = (first, last);
+        self
+    }
+
+    pub(super) fn says(mut self, sentence: impl Into<String>, mend: impl Into<String>) -> Fault {
+        self.sentence = sentence.into();
+        self.mend = mend.into();
+        self
+    }
+}

@@ -1,0 +1,149 @@
+//! A channel that repeats one value while what drives it moves.
+//!
+//! A robot at rest, a stuck wheel under little voltage, and a coarse signal under a constant drive are not frozen.
+
+use super::Fault;
+use super::body::{BodyFromWheels, input, largest, row_of};
+use crate::log::{Channel, RobotFile, Run};
+
+/// A stretch of one value must be as long as this [s] and [rows] to count.
+const LONG_S: f64 = 0.5;
+const LONG_ROWS: usize = 20;
+/// What the wheels must have travelled [m], or turned [rad], while the pose stood.
+const TRAVEL_M: f64 = 0.15;
+const TURN_RAD: f64 = 0.5;
+
+pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    if let (Some(speed), Some((name, drive))) = (&run.w, input(run)) {
+        for (j, channel) in speed.channels.iter().enumerate() {
+            let moved = |a, b| {
+                drive_moves(robot, (name, &drive.channels[j]), channel.get(a) == Ok(0.0), (a, b))
+                    && others_move(&speed.channels, j, (a, b))
+            };
+            faults.extend(stretches(run, channel, moved).map(|s| told(run, &format!("w{j}_rad_s"), s)));
+        }
+    }
+    if let (Some(current), Some(_), Some(_)) = (&run.i, &run.u, &run.w) {
+        for (j, channel) in current.channels.iter().enumerate() {
+            let step = robot.sensors.current_noise_a + current.quantum.unwrap_or(0.0);
+            let moved = |a, b| current_asked(run, robot, j, (a, b)).is_some_and(|asked| asked > 10.0 * step);
+            faults.extend(stretches(run, channel, moved).map(|s| told(run, &format!("i{j}_A"), s)));
+        }
+    }
+    if let Some(pose) = &run.pose {
+        for (axis, name) in ["x_m", "y_m", "theta_rad"].iter().enumerate() {
+            let moved = |a, b| {
+                travelled(run, robot, (a, b))
+                    .is_some_and(|by| by[axis].abs() > if axis < 2 { TRAVEL_M } else { TURN_RAD })
+            };
+            faults.extend(stretches(run, &pose.channels[axis], moved).map(|s| told(run, name, s)));
+        }
+    }
+    faults
+}
+
+/// The stretches of one value that count, as one: first row, last row, and their length altogether [s].
+fn stretches(
+    run: &Run,
+    channel: &Channel,
+    moved: impl Fn(usize, usize) -> bool,
+) -> std::option::IntoIter<(usize, usize, f64)> {
+    let seen: Vec<(usize, f64)> = channel.present().collect();
+    let mut found: Option<(usize, usize, f64)> = None;
+    let mut from = 0;
+    for to in 1..=seen.len() {
+        if to < seen.len() && seen[to].1 == seen[from].1 {
+            continue;
+        }
+        let (first, last) = (seen[from].0, seen[to - 1].0);
+        let length_s = run.t_s[last] - run.t_s[first];
+        if to - from >= LONG_ROWS && length_s >= LONG_S && moved(first, last) {
+            found = Some(found.map_or((first, last, length_s), |f| (f.0, last, f.2 + length_s)));
+        }
+        from = to;
+    }
+    found.into_iter()
+}
+
+fn told(run: &Run, signal: &str, (first, last, length_s): (usize, usize, f64)) -> Fault {
+    let fatal = length_s > 0.1 * run.duration_s();
+    let sentence =
+        format!("`{signal}` repeats one value to the last digit for {length_s:.1} s while the robot is driven.");
+    let mend = "Check the sensor and its cable; leave fields empty where nothing was measured.";
+    Fault::of(run, "frozen", signal, fatal)
+        .at(first, last)
+        .says(sentence, mend)
+}
+
+fn range(channel: &Channel, (first, last): (usize, usize)) -> Option<(f64, f64, f64)> {
+    let mut all = (f64::MAX, f64::MIN, 0.0);
+    let mut rows = 0;
+    for value in (first..=last).filter_map(|row| channel.get(row).ok()) {
+        all = (f64::min(all.0, value), f64::max(all.1, value), all.2 + value * value);
+        rows += 1;
+    }
+    (rows > 0).then(|| (all.0, all.1, (all.2 / rows as f64).sqrt()))
+}
+
+/// Whether the drive of a wheel changes enough to turn it, well above what friction can hold.
+fn drive_moves(robot: &RobotFile, (name, drive): (&str, &Channel), stands: bool, rows: (usize, usize)) -> bool {
+    let Some((low, high, rms)) = range(drive, rows) else {
+        return false;
+    };
+    let top = largest(drive);
+    let f = &robot.friction;
+    // at least half of the wheels share what holds the body
+    let sharing = robot.wheel.len() as f64 / 2.0;
+    let held_nm = f.coulomb_v_n.hypot(f.coulomb_vn_n) / sharing * robot.wheel[0].radius_m;
+    let held_a = held_nm / (robot.motor.gear_ratio * robot.motor.torque_constant_nm_per_a);
+    let least = match name {
+        "u" => held_a * robot.motor.resistance_ohm + 0.5,
+        "i" => 1.5 * held_a,
+        _ => 3.0 * robot.sensors.wheel_speed_noise_rad_s,
+    };
+    high - low > 0.4 * top && rms > 0.2 * top && (rms > least || !stands)
+}
+
+/// Whether another channel of the group changes over these rows.
+fn others_move(channels: &[Channel], this: usize, rows: (usize, usize)) -> bool {
+    let moves = |channel: &Channel| {
+        range(channel, rows).is_some_and(|(low, high, _)| high - low > 0.1 * largest(channel) && high > low)
+    };
+    channels
+        .iter()
+        .enumerate()
+        .any(|(j, channel)| j != this && moves(channel))
+        || channels.iter().all(|channel| largest(channel) == 0.0)
+}
+
+/// By how much volts and speed say the current of a wheel changed [A], in RMS about its mean.
+fn current_asked(run: &Run, robot: &RobotFile, wheel: usize, (first, last): (usize, usize)) -> Option<f64> {
+    let (u, w) = (&run.u.as_ref()?.channels[wheel], &run.w.as_ref()?.channels[wheel]);
+    let asked = |row| {
+        let volts = u.get(row).ok()? - robot.volts_per_wheel_speed() * w.get(row).ok()?;
+        Some(volts / robot.motor.resistance_ohm)
+    };
+    let all: Vec<f64> = (first..=last).filter_map(asked).collect();
+    let mean = all.iter().sum::<f64>() / all.len().max(1) as f64;
+    Some((all.iter().map(|i| (i - mean) * (i - mean)).sum::<f64>() / all.len().max(1) as f64).sqrt())
+}
+
+/// How far the wheels say the robot went in the world: x [m], y [m], heading [rad].
+fn travelled(run: &Run, robot: &RobotFile, (first, last): (usize, usize)) -> Option<[f64; 3]> {
+    let speeds = run.w.as_ref().filter(|w| !w.unsigned)?;
+    let body = BodyFromWheels::new(robot)?;
+    let mut at = [0.0, 0.0, run.pose.as_ref()?.channels[2].get(first).unwrap_or(0.0)];
+    let start = at;
+    for row in first + 1..=last {
+        let Some(w) = row_of(speeds, row) else { continue };
+        let ([v, vn, yaw], length_s) = (body.twist(&w), run.t_s[row] - run.t_s[row - 1]);
+        let (sin, cos) = at[2].sin_cos();
+        at = [
+            at[0] + (cos * v - sin * vn) * length_s,
+            at[1] + (sin * v + cos * vn) * length_s,
+            at[2] + yaw * length_s,
+        ];
+    }
+    Some(std::array::from_fn(|axis| at[axis] - start[axis]))
+}
