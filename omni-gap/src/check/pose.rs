@@ -8,12 +8,14 @@ use super::body::{BodyFromWheels, row_of};
 use super::order::{self, Order};
 use super::units;
 use crate::log::{RobotFile, Run};
+use std::f64::consts::TAU;
 
 const WINDOW_S: f64 = 0.33;
 /// Below this rim speed [m/s, RMS] a run cannot tell.
 const SLOWEST_M_S: f64 = 0.04;
 
 /// One window: rim speeds [m/s], and the pose's step as world speed [m/s], yaw rate [rad/s] and middle heading [rad].
+#[derive(Clone)]
 struct Window {
     rims: Vec<f64>,
     world: [f64; 2],
@@ -109,9 +111,8 @@ fn degrees(run: &Run, sentence: String) -> Fault {
 }
 
 fn wrong_unit(run: &Run, windows: &[Window], twists: &[[f64; 3]]) -> Option<Fault> {
-    let pairs = |f: &dyn Fn(&Window, &[f64; 3]) -> (f64, f64)| {
-        windows.iter().zip(twists).map(|(w, t)| f(w, t)).collect::<Vec<_>>()
-    };
+    let pairs =
+        |f: &dyn Fn(&Window, &[f64; 3]) -> Pair| windows.iter().zip(twists).map(|(w, t)| f(w, t)).collect::<Vec<_>>();
     let turning = pairs(&|w, t| (w.yaw, t[2]));
     let going = pairs(&|w, t| (w.world[0].hypot(w.world[1]), t[0].hypot(t[1])));
     let turn = ratio(&turning)
@@ -145,8 +146,11 @@ fn wrong_unit(run: &Run, windows: &[Window], twists: &[[f64; 3]]) -> Option<Faul
     }
 }
 
+/// Two numbers that should be equal: by the pose, and by the wheels.
+type Pair = (f64, f64);
+
 /// y over x by least squares, and how well it fits (−1 to 1).
-fn ratio(pairs: &[(f64, f64)]) -> Option<(f64, f64)> {
+fn ratio(pairs: &[Pair]) -> Option<(f64, f64)> {
     let sums = pairs
         .iter()
         .fold((0.0, 0.0, 0.0), |s, (y, x)| (s.0 + y * x, s.1 + x * x, s.2 + y * y));
@@ -157,6 +161,7 @@ fn ratio(pairs: &[(f64, f64)]) -> Option<(f64, f64)> {
 #[derive(Clone)]
 enum Guess {
     Given,
+    Degrees,
     Frame {
         mirrored: bool,
         heading_negated: bool,
@@ -172,11 +177,7 @@ fn wrong_frame(run: &Run, robot: &RobotFile, windows: &[Window], twists: &[[f64;
     let mut guesses = vec![(Guess::Given, 0, true, as_given.rest(&order::all(robot.wheel.len())[0]))];
     for (mirrored, heading_negated) in [(false, false), (true, false), (false, true)] {
         let straight = twists_by_pose(windows, mirrored, heading_negated, 0.0);
-        let turn = straight.iter().zip(twists).fold((0.0, 0.0), |s, (p, w)| {
-            (s.0 + p[0] * w[0] + p[1] * w[1], s.1 + p[0] * w[1] - p[1] * w[0])
-        });
-        // the wheels' twist is the pose's turned by −offset
-        for offset in [0.0, -turn.1.atan2(turn.0)] {
+        for offset in [0.0, offset(&straight, twists)] {
             let turned = usize::from(offset != 0.0);
             let twists = twists_by_pose(windows, mirrored, heading_negated, offset);
             let rest = Moments::new(robot, windows, &twists).rest(&order::all(robot.wheel.len())[0]);
@@ -193,6 +194,7 @@ fn wrong_frame(run: &Run, robot: &RobotFile, windows: &[Window], twists: &[[f64;
             ));
         }
     }
+    guesses.extend(in_degrees(robot, windows, twists));
     for order in order::all(robot.wheel.len()) {
         let rest = as_given.rest(&order);
         guesses.push((Guess::Wheels(order.clone()), order.changes(), order.moved(), rest));
@@ -207,6 +209,11 @@ fn wrong_frame(run: &Run, robot: &RobotFile, windows: &[Window], twists: &[[f64;
     let better = (before / after.max(1e-6 * asked)).sqrt();
     let (code, signal, what, mend) = match guess {
         Guess::Given => return None,
+        Guess::Degrees => {
+            let sentence =
+                format!("Pose and wheel speeds agree {better:.0} times better if the heading is in degrees.");
+            return Some(degrees(run, sentence));
+        }
         Guess::Wheels(order) if order.is_as_given() => return None,
         Guess::Wheels(order) => {
             let code = if order.moved() { "swapped_wheels" } else { "wrong_sign" };
@@ -248,6 +255,34 @@ fn wrong_frame(run: &Run, robot: &RobotFile, windows: &[Window], twists: &[[f64;
     Some(Fault::of(run, code, signal, true).says(sentence, mend))
 }
 
+/// The guess that the heading is in degrees, where it has values that a wrapped heading in radians cannot have.
+fn in_degrees(robot: &RobotFile, windows: &[Window], twists: &[[f64; 3]]) -> Option<(Guess, usize, bool, f64)> {
+    if !windows.iter().any(|w| w.heading.abs() > TAU + 1.0) {
+        return None;
+    }
+    let radians = |w: &Window| Window {
+        heading: w.heading.to_radians(),
+        yaw: w.yaw.to_radians(),
+        ..w.clone()
+    };
+    let windows: Vec<Window> = windows.iter().map(radians).collect();
+    let offset = offset(&twists_by_pose(&windows, false, false, 0.0), twists);
+    let by_pose = twists_by_pose(&windows, false, false, offset);
+    let rest = Moments::new(robot, &windows, &by_pose).rest(&order::all(robot.wheel.len())[0]);
+    Some((Guess::Degrees, 1, true, rest))
+}
+
+/// How much further the heading must be taken [rad] for the pose's twists to lie along the wheels'.
+fn offset(by_pose: &[[f64; 3]], by_wheels: &[[f64; 3]]) -> f64 {
+    let along = |(p, w): (&[f64; 3], &[f64; 3])| (p[0] * w[0] + p[1] * w[1], p[0] * w[1] - p[1] * w[0]);
+    let turn = by_pose
+        .iter()
+        .zip(by_wheels)
+        .map(along)
+        .fold((0.0, 0.0), |s, a| (s.0 + a.0, s.1 + a.1));
+    -turn.1.atan2(turn.0)
+}
+
 /// Body twists by the pose, the heading taken `offset` further [rad].
 fn twists_by_pose(windows: &[Window], mirrored: bool, heading_negated: bool, offset: f64) -> Vec<[f64; 3]> {
     let twist = |w: &Window| {
@@ -276,8 +311,8 @@ impl Moments {
             both: vec![vec![0.0; n]; n],
         };
         for (window, twist) in windows.iter().zip(twists) {
-            for j in 0..n {
-                let rim: f64 = rows[j].iter().zip(twist).map(|(a, b)| a * b).sum();
+            for (j, row) in rows.iter().enumerate() {
+                let rim: f64 = row.iter().zip(twist).map(|(a, b)| a * b).sum();
                 m.expected[j] += rim * rim;
                 m.seen[j] += window.rims[j] * window.rims[j];
                 for k in 0..n {

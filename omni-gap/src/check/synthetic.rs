@@ -131,10 +131,10 @@ pub fn run(made: &Made) -> Run {
         }
         for _ in 0..(made.step_s / FINE).round() as usize {
             let mut force = [0.0; 3];
-            for j in 0..n {
+            for (j, row) in rows.iter().enumerate() {
                 let (_, _, pull) = motor(&twist, j);
-                for axis in 0..3 {
-                    force[axis] += rows[j][axis] * pull;
+                for (force, part) in force.iter_mut().zip(row) {
+                    *force += part * pull;
                 }
             }
             let (sin, cos) = pose[2].sin_cos();

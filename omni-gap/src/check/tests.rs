@@ -436,3 +436,15 @@ fn a_wrong_unit_is_named() {
         expect(&only_current, wheels, "wrong_unit", "i", "mA without speeds");
     }
 }
+
+#[test]
+fn a_heading_in_degrees_is_named_though_the_robot_hardly_turns() {
+    let clean = run(&Made {
+        straight: true,
+        ..Made::default()
+    });
+    let degrees = changed(&clean, "pose", |axis, c| {
+        c.map(|_, v| if axis == 2 { v.to_degrees() + 200.0 } else { v })
+    });
+    expect(&degrees, 4, "wrong_unit", "theta_rad", "deg");
+}
