@@ -3,7 +3,7 @@
 use crate::log::{Group, RobotFile, Run};
 use nalgebra::DMatrix;
 
-/// The body twist (v [m/s], vn [m/s], ω [rad/s]) from wheel speeds [rad/s], by least squares.
+/// The body twist (v (m/s), vn (m/s), ω (rad/s)) from wheel speeds (rad/s), by least squares.
 #[derive(Debug)]
 pub(super) struct BodyFromWheels {
     inverse: DMatrix<f64>,
@@ -47,7 +47,7 @@ pub(super) fn input(run: &Run) -> Option<(&'static str, &Group)> {
         .find_map(|(name, group)| group.as_ref().map(|group| (name, group)))
 }
 
-/// Body speed on each row as one number [m/s]: √(v² + vn² + (d ω)²), from the measured wheel speeds.
+/// Body speed on each row as one number (m/s): √(v² + vn² + (d ω)²), from the measured wheel speeds.
 pub(super) fn speed_from_wheels(run: &Run, robot: &RobotFile) -> Option<Vec<Option<f64>>> {
     let (group, body) = (run.w.as_ref()?, BodyFromWheels::new(robot)?);
     let lever = robot.wheel[0].distance_m;

@@ -6,10 +6,10 @@ use super::Fault;
 use super::body::{BodyFromWheels, input, largest, row_of};
 use crate::log::{Channel, RobotFile, Run};
 
-/// A stretch of one value must be as long as this [s] and [rows] to count.
+/// A stretch of one value must last as long as this (s), and over as many rows, to count.
 const LONG_S: f64 = 0.5;
 const LONG_ROWS: usize = 20;
-/// What the wheels must have travelled [m], or turned [rad], while the pose stood.
+/// What the wheels must have travelled (m), or turned (rad), while the pose stood.
 const TRAVEL_M: f64 = 0.15;
 const TURN_RAD: f64 = 0.5;
 
@@ -43,7 +43,7 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
     faults
 }
 
-/// The stretches of one value that count, as one: first row, last row, and their length altogether [s].
+/// The stretches of one value that count, as one: first row, last row, and their length altogether (s).
 fn stretches(
     run: &Run,
     channel: &Channel,
@@ -117,7 +117,7 @@ fn others_move(channels: &[Channel], this: usize, rows: (usize, usize)) -> bool 
         || channels.iter().all(|channel| largest(channel) == 0.0)
 }
 
-/// By how much volts and speed say the current of a wheel changed [A], in RMS about its mean.
+/// By how much volts and speed say the current of a wheel changed (A), in RMS about its mean.
 fn current_asked(run: &Run, robot: &RobotFile, wheel: usize, (first, last): (usize, usize)) -> Option<f64> {
     let (u, w) = (&run.u.as_ref()?.channels[wheel], &run.w.as_ref()?.channels[wheel]);
     let asked = |row| {
@@ -129,7 +129,7 @@ fn current_asked(run: &Run, robot: &RobotFile, wheel: usize, (first, last): (usi
     Some((all.iter().map(|i| (i - mean) * (i - mean)).sum::<f64>() / all.len().max(1) as f64).sqrt())
 }
 
-/// How far the wheels say the robot went in the world: x [m], y [m], heading [rad].
+/// How far the wheels say the robot went in the world: x (m), y (m), heading (rad).
 fn travelled(run: &Run, robot: &RobotFile, (first, last): (usize, usize)) -> Option<[f64; 3]> {
     let speeds = run.w.as_ref().filter(|w| !w.unsigned)?;
     let body = BodyFromWheels::new(robot)?;

@@ -26,6 +26,8 @@ mod synthetic;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_relations;
+#[cfg(test)]
 mod tests_rows;
 
 pub use fault::Fault;

@@ -14,7 +14,7 @@ const WINDOW_S: f64 = 0.33;
 /// Below this rim speed [m/s, RMS] a run cannot tell.
 const SLOWEST_M_S: f64 = 0.04;
 
-/// One window: rim speeds [m/s], and the pose's step as world speed [m/s], yaw rate [rad/s] and middle heading [rad].
+/// One window: rim speeds (m/s), and the pose's step as world speed (m/s), yaw rate (rad/s) and middle heading (rad).
 #[derive(Clone)]
 struct Window {
     rims: Vec<f64>,
@@ -272,7 +272,7 @@ fn in_degrees(robot: &RobotFile, windows: &[Window], twists: &[[f64; 3]]) -> Opt
     Some((Guess::Degrees, 1, true, rest))
 }
 
-/// How much further the heading must be taken [rad] for the pose's twists to lie along the wheels'.
+/// How much further the heading must be taken (rad) for the pose's twists to lie along the wheels'.
 fn offset(by_pose: &[[f64; 3]], by_wheels: &[[f64; 3]]) -> f64 {
     let along = |(p, w): (&[f64; 3], &[f64; 3])| (p[0] * w[0] + p[1] * w[1], p[0] * w[1] - p[1] * w[0]);
     let turn = by_pose
@@ -283,7 +283,7 @@ fn offset(by_pose: &[[f64; 3]], by_wheels: &[[f64; 3]]) -> f64 {
     -turn.1.atan2(turn.0)
 }
 
-/// Body twists by the pose, the heading taken `offset` further [rad].
+/// Body twists by the pose, the heading taken `offset` further (rad).
 fn twists_by_pose(windows: &[Window], mirrored: bool, heading_negated: bool, offset: f64) -> Vec<[f64; 3]> {
     let twist = |w: &Window| {
         let way = if heading_negated { -1.0 } else { 1.0 };

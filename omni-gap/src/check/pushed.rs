@@ -7,11 +7,11 @@ use super::Fault;
 use super::body::{input, largest, speed_from_pose, speed_from_wheels};
 use crate::log::{RobotFile, Run};
 
-/// How long the drive must have been off before growth counts [s].
+/// How long the drive must have been off before growth counts (s).
 const SETTLE_S: f64 = 0.5;
-/// By how much the speed must grow [m/s].
+/// By how much the speed must grow (m/s).
 const GROWTH_M_S: f64 = 0.1;
-/// What a slope of three degrees can do [m/s²].
+/// What a slope of three degrees can do (m/s²).
 const ROLL_M_S2: f64 = 0.5;
 
 pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {

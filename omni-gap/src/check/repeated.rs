@@ -4,7 +4,7 @@ use super::Fault;
 use super::body::speed_from_wheels;
 use crate::log::{RobotFile, Run};
 
-/// Slower than this [m/s] a robot may well repeat itself.
+/// Slower than this (m/s) a robot may well repeat itself.
 const MOVING_M_S: f64 = 0.05;
 
 pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {

@@ -17,11 +17,11 @@ pub struct Made {
     pub weak: f64,
     /// How much faster wheels turn than the body moves.
     pub slip: f64,
-    /// Camera latency [s].
+    /// Camera latency (s).
     pub latency_s: f64,
-    /// Slope's pull along world x [m/s²].
+    /// Slope's pull along world x (m/s²).
     pub slope: f64,
-    /// Offset of current sensors [A].
+    /// Offset of current sensors (A).
     pub offset_a: f64,
     /// All nominal motor parameters are off by this factor.
     pub wrong: f64,
@@ -30,7 +30,7 @@ pub struct Made {
     pub drive: f64,
     /// Only straight on.
     pub straight: bool,
-    /// A hand: start [s], length [s], acceleration [m/s²].
+    /// A hand: start (s), length (s), acceleration (m/s²).
     pub hand: Option<(f64, f64, f64)>,
 }
 

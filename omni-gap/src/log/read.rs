@@ -167,7 +167,7 @@ fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
     Ok(())
 }
 
-/// The time of each row [s], and the length of the first row's sample where the log tells it [s].
+/// The time of each row (s), and the length of the first row's sample where the log tells it (s).
 fn clock(table: &Table, rule: &Rule, raw: &Channel) -> Result<(Vec<f64>, Option<f64>)> {
     let mut t_s = Vec::with_capacity(raw.len());
     let mut first = None;

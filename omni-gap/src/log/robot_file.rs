@@ -16,21 +16,21 @@ use std::path::Path;
 /// One wheel. Wheel j rolls along (cos a, sin a) of the body axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct WheelFile {
-    /// Direction of rolling in body axes [degrees].
+    /// Direction of rolling in body axes (degrees).
     pub drive_angle_deg: f64,
-    /// From the centre of the robot to the wheel [m].
+    /// From the centre of the robot to the wheel (m).
     pub distance_m: f64,
-    /// Radius of the wheel [m].
+    /// Radius of the wheel (m).
     pub radius_m: f64,
 }
 
 impl WheelFile {
-    /// Direction of rolling in body axes [rad].
+    /// Direction of rolling in body axes (rad).
     pub fn drive_angle_rad(&self) -> f64 {
         self.drive_angle_deg.to_radians()
     }
 
-    /// Rim speed [m/s] per body twist (v [m/s], vn [m/s], ω [rad/s]): (cos a, sin a, d).
+    /// Rim speed (m/s) per body twist (v (m/s), vn (m/s), ω (rad/s)): (cos a, sin a, d).
     pub fn row(&self) -> [f64; 3] {
         let (sin, cos) = self.drive_angle_rad().sin_cos();
         [cos, sin, self.distance_m]
@@ -40,14 +40,14 @@ impl WheelFile {
 /// The motor and its gear, one model for all wheels.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MotorFile {
-    /// Motor speed over wheel speed [1].
+    /// Motor speed over wheel speed (1).
     pub gear_ratio: f64,
-    /// Winding resistance R [Ω].
+    /// Winding resistance R (Ω).
     pub resistance_ohm: f64,
-    /// Kv at the motor shaft [V/(rad/s)].
+    /// Kv at the motor shaft (V/(rad/s)).
     #[serde(rename = "emf_constant_V_s")]
     pub emf_constant_v_s: f64,
-    /// Kt at the motor shaft [N·m/A].
+    /// Kt at the motor shaft (N·m/A).
     #[serde(rename = "torque_constant_Nm_per_A")]
     pub torque_constant_nm_per_a: f64,
 }
@@ -55,31 +55,31 @@ pub struct MotorFile {
 /// The body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct BodyFile {
-    /// Mass [kg].
+    /// Mass (kg).
     pub mass_kg: f64,
-    /// Inertia about the vertical axis [kg·m²].
+    /// Inertia about the vertical axis (kg·m²).
     pub inertia_kg_m2: f64,
 }
 
 /// Viscous and Coulomb friction along v, vn and about the vertical axis.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct FrictionFile {
-    /// [N·s/m]
+    /// In N·s/m.
     #[serde(rename = "viscous_v_N_s_per_m")]
     pub viscous_v_n_s_per_m: f64,
-    /// [N·s/m]
+    /// In N·s/m.
     #[serde(rename = "viscous_vn_N_s_per_m")]
     pub viscous_vn_n_s_per_m: f64,
-    /// [N·m·s]
+    /// In N·m·s.
     #[serde(rename = "viscous_w_Nm_s")]
     pub viscous_w_nm_s: f64,
-    /// [N]
+    /// In N.
     #[serde(rename = "coulomb_v_N")]
     pub coulomb_v_n: f64,
-    /// [N]
+    /// In N.
     #[serde(rename = "coulomb_vn_N")]
     pub coulomb_vn_n: f64,
-    /// [N·m]
+    /// In N·m.
     #[serde(rename = "coulomb_w_Nm")]
     pub coulomb_w_nm: f64,
 }
@@ -87,14 +87,14 @@ pub struct FrictionFile {
 /// One-sigma noise of each measured signal.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SensorsFile {
-    /// [A]
+    /// In A.
     #[serde(rename = "current_noise_A")]
     pub current_noise_a: f64,
-    /// [rad/s]
+    /// In rad/s.
     pub wheel_speed_noise_rad_s: f64,
-    /// [m]
+    /// In m.
     pub position_noise_m: f64,
-    /// [rad]
+    /// In rad.
     pub heading_noise_rad: f64,
 }
 
@@ -113,7 +113,7 @@ impl Default for SensorsFile {
 /// The supply.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SupplyFile {
-    /// [V]
+    /// In V.
     #[serde(rename = "voltage_V")]
     pub voltage_v: f64,
 }
@@ -121,12 +121,12 @@ pub struct SupplyFile {
 /// What an experiment may ask of the robot; absent means no limit stated.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct LimitsFile {
-    /// Largest motor current [A].
+    /// Largest motor current (A).
     #[serde(rename = "current_A")]
     pub current_a: Option<f64>,
-    /// Largest body speed [m/s].
+    /// Largest body speed (m/s).
     pub speed_m_s: Option<f64>,
-    /// Side of the free floor [m].
+    /// Side of the free floor (m).
     pub field_m: Option<f64>,
 }
 
@@ -168,7 +168,7 @@ pub struct RobotFile {
     pub effects: Vec<EffectEntry>,
 }
 
-/// Relative uncertainty [1] of each nominal parameter where the file states none.
+/// Relative uncertainty (1) of each nominal parameter where the file states none.
 pub const DEFAULT_UNCERTAINTY: [(&str, f64); 13] = [
     ("mass_kg", 0.01),
     ("inertia_kg_m2", 0.10),
@@ -196,13 +196,13 @@ impl RobotFile {
         robot_read::robot(text, path, catalogue)
     }
 
-    /// One-sigma relative uncertainty [1] of a nominal parameter, by its key in the robot file; none for other keys.
+    /// One-sigma relative uncertainty (1) of a nominal parameter, by its key in the robot file; none for other keys.
     pub fn relative_uncertainty(&self, key: &str) -> Option<f64> {
         let default = DEFAULT_UNCERTAINTY.iter().find(|(known, _)| *known == key)?.1;
         Some(self.uncertainty.get(key).copied().unwrap_or(default))
     }
 
-    /// Kv times the gear ratio: volts per wheel speed [V/(rad/s)].
+    /// Kv times the gear ratio: volts per wheel speed (V/(rad/s)).
     pub fn volts_per_wheel_speed(&self) -> f64 {
         self.motor.emf_constant_v_s * self.motor.gear_ratio
     }

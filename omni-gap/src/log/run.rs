@@ -161,7 +161,7 @@ impl FromIterator<std::result::Result<f64, Missing>> for Channel {
     }
 }
 
-/// Channels of one kind: one per wheel, or x [m], y [m] and heading [rad] for the pose.
+/// Channels of one kind: one per wheel, or x (m), y (m) and heading (rad) for the pose.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Group {
     /// The channels, in wheel order.
@@ -206,21 +206,21 @@ pub struct Run {
     pub name: String,
     /// The file it came from; empty for a run made in memory.
     pub path: PathBuf,
-    /// Time of each row [s], strictly increasing.
+    /// Time of each row (s), strictly increasing.
     pub t_s: Vec<f64>,
-    /// Mean motor voltages [V], held from a row until the next.
+    /// Mean motor voltages (V), held from a row until the next.
     pub u: Option<Group>,
-    /// DC-equivalent motor currents [A].
+    /// DC-equivalent motor currents (A).
     pub i: Option<Group>,
-    /// Wheel speeds at the wheel's shaft [rad/s].
+    /// Wheel speeds at the wheel's shaft (rad/s).
     pub w: Option<Group>,
-    /// Commanded wheel speeds [rad/s].
+    /// Commanded wheel speeds (rad/s).
     pub wset: Option<Group>,
-    /// Measured pose: x [m], y [m], heading [rad], the heading unwrapped.
+    /// Measured pose: x (m), y (m), heading (rad), the heading unwrapped.
     pub pose: Option<Group>,
-    /// Supply voltage [V].
+    /// Supply voltage (V).
     pub vbat: Option<Channel>,
-    /// Yaw rate [rad/s].
+    /// Yaw rate (rad/s).
     pub gyro: Option<Channel>,
     /// When, relative to the row's voltage, its currents were measured.
     pub currents_sampled: Sampled,
@@ -232,7 +232,7 @@ impl Run {
         self.t_s.len()
     }
 
-    /// From the first row to the last [s].
+    /// From the first row to the last (s).
     pub fn duration_s(&self) -> f64 {
         self.t_s
             .last()
@@ -240,7 +240,7 @@ impl Run {
             .map_or(0.0, |(last, first)| last - first)
     }
 
-    /// The middle one of the row lengths [s]; zero for fewer than two rows.
+    /// The middle one of the row lengths (s); zero for fewer than two rows.
     pub fn median_step_s(&self) -> f64 {
         let mut steps: Vec<f64> = self.t_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
         steps.sort_by(f64::total_cmp);
@@ -290,7 +290,7 @@ impl Run {
         out.flush()
     }
 
-    /// The voltage to take as the supply [V]: the robot file's, or else the largest |u| or supply voltage seen.
+    /// The voltage to take as the supply (V): the robot file's, or else the largest |u| or supply voltage seen.
     pub fn supply_v(&self, robot: &RobotFile) -> Option<f64> {
         let seen = self.u.iter().flat_map(|group| &group.channels).chain(&self.vbat);
         let largest = seen.flat_map(|c| c.present()).map(|(_, v)| v.abs()).fold(0.0, f64::max);
