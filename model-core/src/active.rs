@@ -96,12 +96,7 @@ impl<const N: usize, T: Real> Effects<N, T> {
     ///
     /// # Errors
     /// [`Refused`] says why; the set is then as it was.
-    pub fn add(
-        &mut self,
-        effect: &'static dyn Effect<T>,
-        wheel: Option<usize>,
-        params: &[T],
-    ) -> Result<(), Refused> {
+    pub fn add(&mut self, effect: &'static dyn Effect<T>, wheel: Option<usize>, params: &[T]) -> Result<(), Refused> {
         let card = effect.card();
         if self.len == MAX_EFFECTS {
             return Err(Refused::Full);

@@ -165,7 +165,8 @@ mod tests {
     fn coupled_budgets_take_energy_and_never_give_it() {
         let h = [[2.0, 0.1, 0.05], [0.1, 2.5, -0.03], [0.05, -0.03, 0.02]];
         let energy = |x: [f64; 3]| 0.5 * dot(x, mul_mat_vec(&h, x));
-        let wheels = [([0.0, 1.0, 0.09], 0.4), ([-1.0, 0.0, 0.09], 0.2), ([0.0, -1.0, 0.09], 0.0), ([1.0, 0.0, 0.09], 3.0)];
+        let wheels =
+            [([0.0, 1.0, 0.09], 0.4), ([-1.0, 0.0, 0.09], 0.2), ([0.0, -1.0, 0.09], 0.0), ([1.0, 0.0, 0.09], 3.0)];
         for k in 0..200 {
             let a = f64::from(k) * 0.1;
             let free = [0.01 * libm::sin(a), 0.02 * libm::cos(1.3 * a), 0.1 * libm::sin(2.1 * a)];
@@ -178,7 +179,8 @@ mod tests {
     fn one_wheel_can_stick_while_the_others_turn() {
         // wheel 3 rolls along v + dω; a strong budget there leaves vn free and ties v to ω
         let h = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.02]];
-        let wheels = [([0.0, 1.0, 0.09], 0.0), ([-1.0, 0.0, 0.09], 0.0), ([0.0, -1.0, 0.09], 0.0), ([1.0, 0.0, 0.09], 1e3)];
+        let wheels =
+            [([0.0, 1.0, 0.09], 0.0), ([-1.0, 0.0, 0.09], 0.0), ([0.0, -1.0, 0.09], 0.0), ([1.0, 0.0, 0.09], 1e3)];
         let x = spend([0.3, 0.2, 0.0], &mobility(h), &[0.0; 3], Some(&wheels), 1e-3);
         assert!((x[0] + 0.09 * x[2]).abs() < 1e-9, "wheel 3 turns: {x:?}");
         assert!(x[0] > 0.1 && (x[1] - 0.2).abs() < 1e-12, "{x:?}");

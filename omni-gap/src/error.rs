@@ -41,13 +41,7 @@ pub enum Error {
 impl Error {
     /// A mistake in `file` as a whole.
     pub fn input(file: &Path, problem: impl Into<String>, mend: impl Into<String>) -> Error {
-        Error::Input {
-            file: file.into(),
-            line: None,
-            column: None,
-            problem: problem.into(),
-            mend: mend.into(),
-        }
+        Error::Input { file: file.into(), line: None, column: None, problem: problem.into(), mend: mend.into() }
     }
 
     /// The same mistake, with the line (counted from 1) where it stands.
@@ -68,11 +62,7 @@ impl Error {
 
     /// An output that cannot be written.
     pub fn output(path: &Path, reason: impl Into<String>, mend: impl Into<String>) -> Error {
-        Error::Output {
-            path: path.into(),
-            reason: reason.into(),
-            mend: mend.into(),
-        }
+        Error::Output { path: path.into(), reason: reason.into(), mend: mend.into() }
     }
 }
 
@@ -102,18 +92,12 @@ mod tests {
         let error = Error::input(Path::new("a.csv"), "found `x`, expected a number", "Correct the field.")
             .at_line(3)
             .in_column("u0_V");
-        assert_eq!(
-            error.to_string(),
-            "a.csv:3: column `u0_V`: found `x`, expected a number. Correct the field."
-        );
+        assert_eq!(error.to_string(), "a.csv:3: column `u0_V`: found `x`, expected a number. Correct the field.");
     }
 
     #[test]
     fn an_output_that_cannot_be_written_says_why() {
         let error = Error::output(Path::new("out"), "it is a folder", "Name a file.");
-        assert_eq!(
-            error.to_string(),
-            "out: cannot be written: it is a folder. Name a file."
-        );
+        assert_eq!(error.to_string(), "out: cannot be written: it is a folder. Name a file.");
     }
 }

@@ -11,8 +11,8 @@
 //! A room imports only rooms before it; [`diagnosis`] walks through them all, [`stage`] makes recordings whose truth is
 //! known.
 
-pub mod check;
 pub mod error;
+
 pub mod log;
 
 pub mod check;
@@ -28,8 +28,10 @@ pub mod rank;
 pub mod report;
 
 pub mod diagnosis;
-mod known;
+
 pub mod stage;
+
+mod known;
 
 pub use diagnosis::{Diagnosis, Options, diagnose};
 pub use error::Error;

@@ -227,8 +227,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
         let bus = if PLAIN { self.robot.supply } else { self.bus(&at, state, memory, &source, contact, &rim) };
         let gain = if PLAIN { T::one() } else { bus / self.robot.supply };
 
-        let mut truth =
-            Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
+        let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
         let mut push = Push { force: [zero; 3], rate: [[zero; 3]; 3], mass: [[zero; 3]; 3], holds: false };
         let mut held = [([zero; 3], zero); N];
         for j in 0..N {
@@ -428,12 +427,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
                 continue;
             }
             for j in (0..N).filter(|j| active.on(*j)) {
-                let at = At {
-                    wheel: j,
-                    wheel_speed: truth.wheel_speed[j],
-                    wheel_angle: state.wheel_angle[j],
-                    ..at
-                };
+                let at = At { wheel: j, wheel_speed: truth.wheel_speed[j], wheel_angle: state.wheel_angle[j], ..at };
                 let done = Turn {
                     command: source.command(j),
                     current: truth.current[j],

@@ -94,10 +94,7 @@ fn cross<T: Real>(line: &Line<T>, c: &Contact<T>, rim_speed: T) -> Grip<T> {
     // G(ω) = τ₁ − a·(ω − ω₁) − (J/Δt)·(ω − ω₀) − r·f(r·ω − v)
     let balance = |speed: T| {
         let (force, slope) = floor_force(c, r * speed - rim_speed);
-        let g = line.torque
-            - line.fall * (speed - line.speed)
-            - line.inertia * (speed - line.before)
-            - r * force;
+        let g = line.torque - line.fall * (speed - line.speed) - line.inertia * (speed - line.before) - r * force;
         (g, line.fall + line.inertia + r * r * slope, force, slope)
     };
     let rolling = (rim_speed / r).value();

@@ -13,23 +13,13 @@ pub(super) struct BodyFromWheels {
 impl BodyFromWheels {
     pub fn new(robot: &RobotFile) -> Option<BodyFromWheels> {
         let rows: Vec<f64> = robot.wheel.iter().flat_map(|wheel| wheel.row()).collect();
-        let inverse = DMatrix::from_row_slice(robot.wheel.len(), 3, &rows)
-            .pseudo_inverse(1e-9)
-            .ok()?;
-        Some(BodyFromWheels {
-            inverse,
-            radius_m: robot.wheel.iter().map(|wheel| wheel.radius_m).collect(),
-        })
+        let inverse = DMatrix::from_row_slice(robot.wheel.len(), 3, &rows).pseudo_inverse(1e-9).ok()?;
+        Some(BodyFromWheels { inverse, radius_m: robot.wheel.iter().map(|wheel| wheel.radius_m).collect() })
     }
 
     pub fn twist(&self, wheel_speeds: &[f64]) -> [f64; 3] {
         std::array::from_fn(|axis| {
-            wheel_speeds
-                .iter()
-                .zip(&self.radius_m)
-                .enumerate()
-                .map(|(j, (w, r))| self.inverse[(axis, j)] * r * w)
-                .sum()
+            wheel_speeds.iter().zip(&self.radius_m).enumerate().map(|(j, (w, r))| self.inverse[(axis, j)] * r * w).sum()
         })
     }
 }
@@ -42,9 +32,7 @@ pub(super) fn row_of(group: &Group, row: usize) -> Option<Vec<f64>> {
 /// The input that moves the robot: voltages, or set speeds, or currents.
 pub(super) fn input(run: &Run) -> Option<(&'static str, &Group)> {
     let named = [("u", &run.u), ("wset", &run.wset), ("i", &run.i)];
-    named
-        .into_iter()
-        .find_map(|(name, group)| group.as_ref().map(|group| (name, group)))
+    named.into_iter().find_map(|(name, group)| group.as_ref().map(|group| (name, group)))
 }
 
 /// Body speed on each row as one number (m/s): √(v² + vn² + (d ω)²), from the measured wheel speeds.
@@ -63,9 +51,7 @@ pub(super) fn speed_from_pose(run: &Run, robot: &RobotFile, span_s: f64) -> Opti
     let group = run.pose.as_ref()?;
     let lever = robot.wheel[0].distance_m;
     let mut speeds = vec![None; run.rows()];
-    let seen: Vec<(usize, Vec<f64>)> = (0..run.rows())
-        .filter_map(|row| Some((row, row_of(group, row)?)))
-        .collect();
+    let seen: Vec<(usize, Vec<f64>)> = (0..run.rows()).filter_map(|row| Some((row, row_of(group, row)?))).collect();
     let mut from = 0;
     for to in 1..seen.len() {
         let (row, pose) = &seen[to];

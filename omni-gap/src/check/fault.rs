@@ -26,15 +26,7 @@ impl Fault {
     pub(super) fn of(run: &Run, code: &'static str, signal: impl Into<String>, fatal: bool) -> Fault {
         let rows = (0, run.rows().saturating_sub(1));
         let (sentence, mend) = (String::new(), String::new());
-        Fault {
-            code,
-            run: run.name.clone(),
-            rows,
-            signal: signal.into(),
-            sentence,
-            mend,
-            fatal,
-        }
+        Fault { code, run: run.name.clone(), rows, signal: signal.into(), sentence, mend, fatal }
     }
 
     pub(super) fn at(mut self, first: usize, last: usize) -> Fault {

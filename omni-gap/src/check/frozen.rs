@@ -71,9 +71,7 @@ fn told(run: &Run, signal: &str, (first, last, length_s): (usize, usize, f64)) -
     let sentence =
         format!("`{signal}` repeats one value to the last digit for {length_s:.1} s while the robot is driven.");
     let mend = "Check the sensor and its cable; leave fields empty where nothing was measured.";
-    Fault::of(run, "frozen", signal, fatal)
-        .at(first, last)
-        .says(sentence, mend)
+    Fault::of(run, "frozen", signal, fatal).at(first, last).says(sentence, mend)
 }
 
 fn range(channel: &Channel, (first, last): (usize, usize)) -> Option<(f64, f64, f64)> {
@@ -110,10 +108,7 @@ fn others_move(channels: &[Channel], this: usize, rows: (usize, usize)) -> bool 
     let moves = |channel: &Channel| {
         range(channel, rows).is_some_and(|(low, high, _)| high - low > 0.1 * largest(channel) && high > low)
     };
-    channels
-        .iter()
-        .enumerate()
-        .any(|(j, channel)| j != this && moves(channel))
+    channels.iter().enumerate().any(|(j, channel)| j != this && moves(channel))
         || channels.iter().all(|channel| largest(channel) == 0.0)
 }
 
@@ -139,11 +134,7 @@ fn travelled(run: &Run, robot: &RobotFile, (first, last): (usize, usize)) -> Opt
         let Some(w) = row_of(speeds, row) else { continue };
         let ([v, vn, yaw], length_s) = (body.twist(&w), run.t_s[row] - run.t_s[row - 1]);
         let (sin, cos) = at[2].sin_cos();
-        at = [
-            at[0] + (cos * v - sin * vn) * length_s,
-            at[1] + (sin * v + cos * vn) * length_s,
-            at[2] + yaw * length_s,
-        ];
+        at = [at[0] + (cos * v - sin * vn) * length_s, at[1] + (sin * v + cos * vn) * length_s, at[2] + yaw * length_s];
     }
     Some(std::array::from_fn(|axis| at[axis] - start[axis]))
 }

@@ -34,15 +34,7 @@ impl Moments {
         let n = drive.channels.len();
         let square = || vec![vec![0.0; n]; n];
         let line = || vec![0.0; n];
-        let mut m = Moments {
-            rows: 0,
-            uu: line(),
-            uw: square(),
-            ww: line(),
-            ui: square(),
-            wi: square(),
-            ii: line(),
-        };
+        let mut m = Moments { rows: 0, uu: line(), uw: square(), ww: line(), ui: square(), wi: square(), ii: line() };
         let lag = usize::from(current.is_some() && run.currents_sampled == Sampled::Before);
         for row in lag..run.rows() {
             let (Some(u), Some(w)) = (row_of(drive, row - lag), row_of(speed, row)) else {
@@ -86,11 +78,7 @@ impl Moments {
         }
         let alone = |product: f64, square: f64| if square > 0.0 { (product / square).max(0.0) } else { 0.0 };
         let (by_speed, by_current) = (made(alone(uw, ww), 0.0), made(0.0, alone(ui, ii)));
-        if by_speed.rest <= by_current.rest {
-            by_speed
-        } else {
-            by_current
-        }
+        if by_speed.rest <= by_current.rest { by_speed } else { by_current }
     }
 }
 
@@ -113,9 +101,7 @@ impl Moments {
     }
 
     fn rest(&self, blame: Blame, order: &Order) -> f64 {
-        (0..order.place.len())
-            .map(|j| self.wheel_fit(blame, order, j).rest)
-            .sum()
+        (0..order.place.len()).map(|j| self.wheel_fit(blame, order, j).rest).sum()
     }
 }
 
@@ -134,9 +120,7 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
     if moments.rows < 20 || driven <= 0.0 || moments.ww.iter().all(|ww| *ww <= 0.0) {
         return Vec::new();
     }
-    let mut faults: Vec<Fault> = wrong_order(run, &moments, name, current.is_some())
-        .into_iter()
-        .collect();
+    let mut faults: Vec<Fault> = wrong_order(run, &moments, name, current.is_some()).into_iter().collect();
     if faults.is_empty() {
         faults.extend(wrong_unit(run, robot, &moments, (name, per_speed), current.is_some()));
     }
@@ -150,23 +134,12 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
 fn wrong_order(run: &Run, moments: &Moments, drive: &str, currents: bool) -> Option<Fault> {
     let orders = order::all(moments.uu.len());
     let given = orders[0].clone();
-    let blames: &[Blame] = if currents {
-        &[Blame::Speed, Blame::Current, Blame::Drive]
-    } else {
-        &[Blame::Speed]
-    };
+    let blames: &[Blame] = if currents { &[Blame::Speed, Blame::Current, Blame::Drive] } else { &[Blame::Speed] };
     let guess = |blame: Blame, order: &Order| {
-        (
-            (blame, order.clone()),
-            order.changes(),
-            order.moved(),
-            moments.rest(blame, order),
-        )
+        ((blame, order.clone()), order.changes(), order.moved(), moments.rest(blame, order))
     };
-    let guesses: Vec<_> = blames
-        .iter()
-        .flat_map(|&blame| orders.iter().map(move |order| guess(blame, order)))
-        .collect();
+    let guesses: Vec<_> =
+        blames.iter().flat_map(|&blame| orders.iter().map(move |order| guess(blame, order))).collect();
     let driven: f64 = moments.uu.iter().sum();
     let ((blame, order), _) = order::best(&guesses, 0.005 * driven)?;
     if order.is_as_given() {
@@ -174,12 +147,7 @@ fn wrong_order(run: &Run, moments: &Moments, drive: &str, currents: bool) -> Opt
     }
     // only the wheels that the guess changes are compared
     let changed: Vec<usize> = (0..order.place.len()).filter(|&j| order.changed(j)).collect();
-    let over = |order: &Order| {
-        changed
-            .iter()
-            .map(|&j| moments.wheel_fit(blame, order, j).rest)
-            .sum::<f64>()
-    };
+    let over = |order: &Order| changed.iter().map(|&j| moments.wheel_fit(blame, order, j).rest).sum::<f64>();
     let (as_given, otherwise) = (over(&given), over(&order));
     let moved: f64 = changed.iter().map(|&j| moments.uu[j]).sum();
     let (times, share) = if currents { (4.0, 0.15) } else { (2.5, 0.4) };
@@ -188,14 +156,7 @@ fn wrong_order(run: &Run, moments: &Moments, drive: &str, currents: bool) -> Opt
     }
     let (stem, with) = match blame {
         Blame::Speed if currents => ("w", "voltages and currents".to_string()),
-        Blame::Speed => (
-            "w",
-            if drive == "u" {
-                "voltages".into()
-            } else {
-                "set speeds".to_string()
-            },
-        ),
+        Blame::Speed => ("w", if drive == "u" { "voltages".into() } else { "set speeds".to_string() }),
         Blame::Current => ("i", "voltages and wheel speeds".to_string()),
         Blame::Drive => ("u", "wheel speeds and currents".to_string()),
     };
@@ -216,9 +177,7 @@ fn wrong_order(run: &Run, moments: &Moments, drive: &str, currents: bool) -> Opt
 
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| {
-        first.to_uppercase().collect::<String>() + letters.as_str()
-    })
+    letters.next().map_or(String::new(), |first| first.to_uppercase().collect::<String>() + letters.as_str())
 }
 
 /// A factor between groups that only a wrong unit makes.
@@ -266,8 +225,7 @@ fn wrong_unit(run: &Run, robot: &RobotFile, moments: &Moments, drive: (&str, f64
             if let Some(unit) = units::explains(&units::SPEEDS, a).filter(|_| name == "wset") {
                 return fault("wset", unit, "measured wheel speeds");
             }
-            b.and_then(|b| units::explains(&units::AMPERES, 1.0 / b))
-                .and_then(|unit| fault("i", unit, "voltages"))
+            b.and_then(|b| units::explains(&units::AMPERES, 1.0 / b)).and_then(|unit| fault("i", unit, "voltages"))
         }
         (None, Some(b)) => {
             if let Some(unit) = units::explains(&units::VOLTS, b) {
@@ -290,12 +248,7 @@ fn stall(run: &Run, robot: &RobotFile) -> Vec<Fault> {
         return Vec::new();
     };
     let stall_a = 2.0 * supply / robot.motor.resistance_ohm;
-    let mut all: Vec<f64> = group
-        .channels
-        .iter()
-        .flat_map(|c| c.present())
-        .map(|(_, i)| i.abs())
-        .collect();
+    let mut all: Vec<f64> = group.channels.iter().flat_map(|c| c.present()).map(|(_, i)| i.abs()).collect();
     all.sort_by(f64::total_cmp);
     let high = all.get(all.len() * 9 / 10).copied().unwrap_or(0.0);
     if high < 10.0 * stall_a {
@@ -305,8 +258,8 @@ fn stall(run: &Run, robot: &RobotFile) -> Vec<Fault> {
         "The `i` columns look like milliamperes: a tenth of them exceed {high:.0} A, a stalled motor draws {:.1} A.",
         stall_a / 2.0
     );
-    vec![Fault::of(run, "wrong_unit", "i", true).says(
-        sentence,
-        "Convert the columns to amperes, or state `unit` in columns.toml.",
-    )]
+    vec![
+        Fault::of(run, "wrong_unit", "i", true)
+            .says(sentence, "Convert the columns to amperes, or state `unit` in columns.toml."),
+    ]
 }

@@ -31,11 +31,7 @@ impl Order {
             let minus = if self.sign[j] < 0.0 { "minus " } else { "" };
             format!("{stem}{} is {minus}wheel {j}", self.place[j])
         };
-        (0..self.place.len())
-            .filter(|&j| self.changed(j))
-            .map(wheel)
-            .collect::<Vec<_>>()
-            .join(", ")
+        (0..self.place.len()).filter(|&j| self.changed(j)).map(wheel).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -52,13 +48,8 @@ pub(super) fn all(wheels: usize) -> Vec<Order> {
     let signs = |place: &Vec<usize>| {
         let place = place.clone();
         (0..1u32 << wheels).map(move |bits| {
-            let sign = (0..wheels)
-                .map(|j| if bits >> j & 1 == 1 { -1.0 } else { 1.0 })
-                .collect();
-            Order {
-                place: place.clone(),
-                sign,
-            }
+            let sign = (0..wheels).map(|j| if bits >> j & 1 == 1 { -1.0 } else { 1.0 }).collect();
+            Order { place: place.clone(), sign }
         })
     };
     places.iter().flat_map(signs).collect()

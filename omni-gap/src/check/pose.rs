@@ -53,9 +53,7 @@ fn windows(run: &Run, robot: &RobotFile) -> Vec<Window> {
         }
         if length < 2.0 * WINDOW_S {
             windows.push(Window {
-                rims: (0..turned.len())
-                    .map(|j| robot.wheel[j].radius_m * (turned[j] - angles[j]) / length)
-                    .collect(),
+                rims: (0..turned.len()).map(|j| robot.wheel[j].radius_m * (turned[j] - angles[j]) / length).collect(),
                 world: [(pose[0] - before[0]) / length, (pose[1] - before[1]) / length],
                 yaw: (pose[2] - before[2]) / length,
                 heading: 0.5 * (pose[2] + before[2]),
@@ -87,22 +85,15 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
 fn heading_alone(run: &Run) -> Option<Fault> {
     let heading = run.pose.as_ref()?.channels.get(2)?;
     let seen: Vec<(usize, f64)> = heading.present().collect();
-    let mut rates: Vec<f64> = seen
-        .windows(2)
-        .map(|p| ((p[1].1 - p[0].1) / (run.t_s[p[1].0] - run.t_s[p[0].0])).abs())
-        .collect();
+    let mut rates: Vec<f64> =
+        seen.windows(2).map(|p| ((p[1].1 - p[0].1) / (run.t_s[p[1].0] - run.t_s[p[0].0])).abs()).collect();
     rates.sort_by(f64::total_cmp);
     let high = rates.get(rates.len() * 4 / 5).copied()?;
-    let (low, top) = seen
-        .iter()
-        .fold((f64::MAX, f64::MIN), |(l, h), (_, v)| (l.min(*v), h.max(*v)));
+    let (low, top) = seen.iter().fold((f64::MAX, f64::MIN), |(l, h), (_, v)| (l.min(*v), h.max(*v)));
     if high < 50.0 || top - low < 30.0 || run.w.is_some() {
         return None;
     }
-    Some(degrees(
-        run,
-        format!("The heading turns at {high:.0} rad/s for a fifth of the run."),
-    ))
+    Some(degrees(run, format!("The heading turns at {high:.0} rad/s for a fifth of the run.")))
 }
 
 fn degrees(run: &Run, sentence: String) -> Fault {
@@ -115,9 +106,7 @@ fn wrong_unit(run: &Run, windows: &[Window], twists: &[[f64; 3]]) -> Option<Faul
         |f: &dyn Fn(&Window, &[f64; 3]) -> Pair| windows.iter().zip(twists).map(|(w, t)| f(w, t)).collect::<Vec<_>>();
     let turning = pairs(&|w, t| (w.yaw, t[2]));
     let going = pairs(&|w, t| (w.world[0].hypot(w.world[1]), t[0].hypot(t[1])));
-    let turn = ratio(&turning)
-        .filter(|(_, fit)| fit.abs() > 0.85)
-        .map(|(ratio, _)| ratio.abs());
+    let turn = ratio(&turning).filter(|(_, fit)| fit.abs() > 0.85).map(|(ratio, _)| ratio.abs());
     let go = ratio(&going).filter(|(_, fit)| *fit > 0.8).map(|(ratio, _)| ratio);
     let told = |signal: &str, name: &str, times: f64| {
         let sentence =
@@ -135,10 +124,7 @@ fn wrong_unit(run: &Run, windows: &[Window], twists: &[[f64; 3]]) -> Option<Faul
         }
         (go, turn) => {
             if let Some(turn) = turn.filter(|turn| units::explains(&units::ANGLES, *turn).is_some()) {
-                return Some(degrees(
-                    run,
-                    format!("The heading turns {turn:.0} times as fast as the wheels say."),
-                ));
+                return Some(degrees(run, format!("The heading turns {turn:.0} times as fast as the wheels say.")));
             }
             let unit = go.and_then(|go| units::explains(&units::LENGTHS, go))?;
             told("x_m, y_m", unit.name, unit.per_unit)
@@ -151,9 +137,7 @@ type Pair = (f64, f64);
 
 /// y over x by least squares, and how well it fits (−1 to 1).
 fn ratio(pairs: &[Pair]) -> Option<(f64, f64)> {
-    let sums = pairs
-        .iter()
-        .fold((0.0, 0.0, 0.0), |s, (y, x)| (s.0 + y * x, s.1 + x * x, s.2 + y * y));
+    let sums = pairs.iter().fold((0.0, 0.0, 0.0), |s, (y, x)| (s.0 + y * x, s.1 + x * x, s.2 + y * y));
     (sums.1 > 0.0 && sums.2 > 0.0).then(|| (sums.0 / sums.1, sums.0 / (sums.1 * sums.2).sqrt()))
 }
 
@@ -162,11 +146,7 @@ fn ratio(pairs: &[Pair]) -> Option<(f64, f64)> {
 enum Guess {
     Given,
     Degrees,
-    Frame {
-        mirrored: bool,
-        heading_negated: bool,
-        offset: f64,
-    },
+    Frame { mirrored: bool, heading_negated: bool, offset: f64 },
     Wheels(Order),
 }
 
@@ -182,16 +162,7 @@ fn wrong_frame(run: &Run, robot: &RobotFile, windows: &[Window], twists: &[[f64;
             let twists = twists_by_pose(windows, mirrored, heading_negated, offset);
             let rest = Moments::new(robot, windows, &twists).rest(&order::all(robot.wheel.len())[0]);
             let changes = usize::from(mirrored) + usize::from(heading_negated) + turned;
-            guesses.push((
-                Guess::Frame {
-                    mirrored,
-                    heading_negated,
-                    offset,
-                },
-                changes,
-                false,
-                rest,
-            ));
+            guesses.push((Guess::Frame { mirrored, heading_negated, offset }, changes, false, rest));
         }
     }
     guesses.extend(in_degrees(robot, windows, twists));
@@ -217,12 +188,7 @@ fn wrong_frame(run: &Run, robot: &RobotFile, windows: &[Window], twists: &[[f64;
         Guess::Wheels(order) if order.is_as_given() => return None,
         Guess::Wheels(order) => {
             let code = if order.moved() { "swapped_wheels" } else { "wrong_sign" };
-            (
-                code,
-                "w",
-                order.words("w"),
-                "Put the wheels into order in the log, in columns.toml, or in robot.toml.",
-            )
+            (code, "w", order.words("w"), "Put the wheels into order in the log, in columns.toml, or in robot.toml.")
         }
         Guess::Frame { mirrored: true, .. } => (
             "wrong_sign",
@@ -230,9 +196,7 @@ fn wrong_frame(run: &Run, robot: &RobotFile, windows: &[Window], twists: &[[f64;
             "the pose's frame is mirrored".to_string(),
             "Turn the sign of y_m (or x_m), or swap them, in columns.toml.",
         ),
-        Guess::Frame {
-            heading_negated: true, ..
-        } => (
+        Guess::Frame { heading_negated: true, .. } => (
             "wrong_sign",
             "theta_rad",
             "the heading counts the wrong way round".to_string(),
@@ -260,11 +224,7 @@ fn in_degrees(robot: &RobotFile, windows: &[Window], twists: &[[f64; 3]]) -> Opt
     if !windows.iter().any(|w| w.heading.abs() > TAU + 1.0) {
         return None;
     }
-    let radians = |w: &Window| Window {
-        heading: w.heading.to_radians(),
-        yaw: w.yaw.to_radians(),
-        ..w.clone()
-    };
+    let radians = |w: &Window| Window { heading: w.heading.to_radians(), yaw: w.yaw.to_radians(), ..w.clone() };
     let windows: Vec<Window> = windows.iter().map(radians).collect();
     let offset = offset(&twists_by_pose(&windows, false, false, 0.0), twists);
     let by_pose = twists_by_pose(&windows, false, false, offset);
@@ -275,11 +235,7 @@ fn in_degrees(robot: &RobotFile, windows: &[Window], twists: &[[f64; 3]]) -> Opt
 /// How much further the heading must be taken (rad) for the pose's twists to lie along the wheels'.
 fn offset(by_pose: &[[f64; 3]], by_wheels: &[[f64; 3]]) -> f64 {
     let along = |(p, w): (&[f64; 3], &[f64; 3])| (p[0] * w[0] + p[1] * w[1], p[0] * w[1] - p[1] * w[0]);
-    let turn = by_pose
-        .iter()
-        .zip(by_wheels)
-        .map(along)
-        .fold((0.0, 0.0), |s, a| (s.0 + a.0, s.1 + a.1));
+    let turn = by_pose.iter().zip(by_wheels).map(along).fold((0.0, 0.0), |s, a| (s.0 + a.0, s.1 + a.1));
     -turn.1.atan2(turn.0)
 }
 
@@ -305,11 +261,7 @@ impl Moments {
     fn new(robot: &RobotFile, windows: &[Window], twists: &[[f64; 3]]) -> Moments {
         let n = robot.wheel.len();
         let rows: Vec<[f64; 3]> = robot.wheel.iter().map(|wheel| wheel.row()).collect();
-        let mut m = Moments {
-            expected: vec![0.0; n],
-            seen: vec![0.0; n],
-            both: vec![vec![0.0; n]; n],
-        };
+        let mut m = Moments { expected: vec![0.0; n], seen: vec![0.0; n], both: vec![vec![0.0; n]; n] };
         for (window, twist) in windows.iter().zip(twists) {
             for (j, row) in rows.iter().enumerate() {
                 let rim: f64 = row.iter().zip(twist).map(|(a, b)| a * b).sum();
@@ -328,11 +280,7 @@ impl Moments {
         let n = self.expected.len();
         let both: f64 = (0..n).map(|j| order.sign[j] * self.both[j][order.place[j]]).sum();
         let (expected, seen): (f64, f64) = (self.expected.iter().sum(), self.seen.iter().sum());
-        let factor = if expected > 0.0 {
-            (both / expected).clamp(0.4, 2.5)
-        } else {
-            1.0
-        };
+        let factor = if expected > 0.0 { (both / expected).clamp(0.4, 2.5) } else { 1.0 };
         (seen - 2.0 * factor * both + factor * factor * expected).max(0.0)
     }
 }

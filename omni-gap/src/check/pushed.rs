@@ -25,13 +25,7 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
             _ => 0.01 * largest(channel),
         })
         .collect();
-    let off = |row: usize| {
-        drive
-            .channels
-            .iter()
-            .zip(&none)
-            .all(|(c, none)| c.get(row).is_ok_and(|v| v.abs() <= *none))
-    };
+    let off = |row: usize| drive.channels.iter().zip(&none).all(|(c, none)| c.get(row).is_ok_and(|v| v.abs() <= *none));
     if name == "i" && run.w.is_none() {
         return None;
     }
@@ -65,11 +59,7 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
         run.t_s[first]
     );
     let mend = "Leave the robot alone while it records, or cut these rows out.";
-    Some(
-        Fault::of(run, "pushed", "w", steep && share > 0.2)
-            .at(first, last)
-            .says(sentence, mend),
-    )
+    Some(Fault::of(run, "pushed", "w", steep && share > 0.2).at(first, last).says(sentence, mend))
 }
 
 /// The largest growth of a speed within rows without drive: from the lowest to the highest after it.
@@ -78,9 +68,7 @@ fn growth(run: &Run, speed: &[Option<f64>], (first, last): (usize, usize)) -> Op
     let smooth = smoothed(run, speed, (first, last));
     let mut low: Option<(usize, f64)> = None;
     let mut best: Option<(usize, usize, f64)> = None;
-    for &(row, now) in smooth
-        .iter()
-        .filter(|(row, _)| run.t_s[*row] >= start_s && run.t_s[*row] <= run.t_s[last] - 0.1)
+    for &(row, now) in smooth.iter().filter(|(row, _)| run.t_s[*row] >= start_s && run.t_s[*row] <= run.t_s[last] - 0.1)
     {
         if low.is_none_or(|(_, least)| now < least) {
             low = Some((row, now));
@@ -93,19 +81,12 @@ fn growth(run: &Run, speed: &[Option<f64>], (first, last): (usize, usize)) -> Op
     // the motion lasts until the speed has fallen to half again, or the drive is back
     best.map(|(from, at, growth)| {
         let gone = |row: &usize| speed[*row].is_some_and(|s| s < 0.5 * growth);
-        let least = smooth
-            .iter()
-            .find(|(row, _)| *row == from)
-            .map_or(0.0, |(_, least)| *least);
-        let begun = smooth
-            .iter()
-            .rfind(|(row, now)| *row < at && *now < least + 0.2 * growth)
-            .map_or(from, |(row, _)| *row);
+        let least = smooth.iter().find(|(row, _)| *row == from).map_or(0.0, |(_, least)| *least);
+        let begun =
+            smooth.iter().rfind(|(row, now)| *row < at && *now < least + 0.2 * growth).map_or(from, |(row, _)| *row);
         let begun = begun.max(from);
-        let grown = smooth
-            .iter()
-            .find(|(row, now)| *row > begun && *now > least + 0.8 * growth)
-            .map_or(at, |(row, _)| *row);
+        let grown =
+            smooth.iter().find(|(row, now)| *row > begun && *now > least + 0.8 * growth).map_or(at, |(row, _)| *row);
         let rate = 0.6 * growth / (run.t_s[grown] - run.t_s[begun]).max(0.05);
         (begun, (at..=last).find(gone).unwrap_or(last), growth, rate)
     })
@@ -115,9 +96,8 @@ fn growth(run: &Run, speed: &[Option<f64>], (first, last): (usize, usize)) -> Op
 fn smoothed(run: &Run, speed: &[Option<f64>], (first, last): (usize, usize)) -> Vec<(usize, f64)> {
     let half = ((0.05 / run.median_step_s()) as usize).max(2);
     let middle = |row: usize| {
-        let mut near: Vec<f64> = (row.saturating_sub(half).max(first)..=(row + half).min(last))
-            .filter_map(|r| speed[r])
-            .collect();
+        let mut near: Vec<f64> =
+            (row.saturating_sub(half).max(first)..=(row + half).min(last)).filter_map(|r| speed[r]).collect();
         near.sort_by(f64::total_cmp);
         Some((row, *near.get(near.len() / 2)?))
     };

@@ -65,9 +65,7 @@ fn extremes(group: &Group, channel: &Channel, noise: f64, asked: impl Fn(usize) 
             }
         }
         let asked: Vec<f64> = at.iter().filter_map(|&row| asked(row)).map(|a| a * extreme).collect();
-        let (low, high) = asked
-            .iter()
-            .fold((f64::MAX, f64::MIN), |(l, h), a| (l.min(*a), h.max(*a)));
+        let (low, high) = asked.iter().fold((f64::MAX, f64::MIN), |(l, h), a| (l.min(*a), h.max(*a)));
         // a plateau under a constant drive is no limit: what is asked must differ, and go beyond
         if at.len() >= 10 && at.len() > 3 * near && high - low > (0.15 * limit).max(6.0 * noise) && high > 1.1 * limit {
             rows.extend(at);
@@ -94,7 +92,5 @@ fn told(run: &Run, signal: &str, found: Found) -> Fault {
         100.0 * found.share
     );
     let mend = "Widen the sensor's range, or drive more gently; leave saturated fields empty.";
-    Fault::of(run, "saturated", signal, fatal)
-        .at(found.rows.0, found.rows.1)
-        .says(sentence, mend)
+    Fault::of(run, "saturated", signal, fatal).at(found.rows.0, found.rows.1).says(sentence, mend)
 }

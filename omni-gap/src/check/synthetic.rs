@@ -56,11 +56,7 @@ impl Default for Made {
 }
 
 pub fn robot(wheels: usize) -> RobotFile {
-    let angles: &[f64] = if wheels == 3 {
-        &[150.0, 270.0, 30.0]
-    } else {
-        &[90.0, 180.0, 270.0, 0.0]
-    };
+    let angles: &[f64] = if wheels == 3 { &[150.0, 270.0, 30.0] } else { &[90.0, 180.0, 270.0, 0.0] };
     let mut text = String::from("name = \"r\"\n");
     for angle in angles {
         text += &format!("[[wheel]]\ndrive_angle_deg = {angle}\ndistance_m = 0.089\nradius_m = 0.0325\n");
@@ -98,21 +94,14 @@ pub fn run(made: &Made) -> Run {
     let mut noise = move |sigma: f64| made.noise * sigma * ((0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0);
     let (mut twist, mut pose) = ([0.0f64; 3], [0.3f64, -0.2, 0.4]);
     let mut poses: Vec<[f64; 3]> = Vec::new();
-    let (mut t_s, mut u, mut i, mut w) = (
-        Vec::new(),
-        vec![Vec::new(); n],
-        vec![Vec::new(); n],
-        vec![Vec::new(); n],
-    );
+    let (mut t_s, mut u, mut i, mut w) = (Vec::new(), vec![Vec::new(); n], vec![Vec::new(); n], vec![Vec::new(); n]);
     let mut seen = vec![Vec::new(); 3];
     const FINE: f64 = 0.001;
     for row in 0..(made.seconds / made.step_s) as usize {
         let t = row as f64 * made.step_s;
         let want = wanted(made, t);
-        let volts: Vec<f64> = rows
-            .iter()
-            .map(|a| made.drive * (a[0] * want[0] + a[1] * want[1] + want[2] * 0.8))
-            .collect();
+        let volts: Vec<f64> =
+            rows.iter().map(|a| made.drive * (a[0] * want[0] + a[1] * want[1] + want[2] * 0.8)).collect();
         let rim = |twist: &[f64; 3], j: usize| rows[j].iter().zip(twist).map(|(a, b)| a * b).sum::<f64>();
         let motor = |twist: &[f64; 3], j: usize| {
             let weak = if j == 1 { made.weak } else { 1.0 };
@@ -147,21 +136,14 @@ pub fn run(made: &Made) -> Run {
             for (axis, (mass, hold)) in [(2.34, 1.9), (2.34, 2.2), (0.0228, 0.14)].into_iter().enumerate() {
                 let free = twist[axis] + force[axis] / mass * FINE;
                 let stop = hold / mass * FINE;
-                twist[axis] = if free.abs() < stop {
-                    0.0
-                } else {
-                    free - free.signum() * stop
-                };
+                twist[axis] = if free.abs() < stop { 0.0 } else { free - free.signum() * stop };
             }
             pose[0] += (cos * twist[0] - sin * twist[1]) * FINE;
             pose[1] += (sin * twist[0] + cos * twist[1]) * FINE;
             pose[2] += twist[2] * FINE;
             poses.push(pose);
         }
-        let late = poses
-            .len()
-            .saturating_sub(1 + (made.latency_s / FINE) as usize)
-            .min(poses.len() - 1);
+        let late = poses.len().saturating_sub(1 + (made.latency_s / FINE) as usize).min(poses.len() - 1);
         for (axis, sigma) in [0.003, 0.003, 0.01].into_iter().enumerate() {
             seen[axis].push((row % 3 == 0).then(|| poses[late][axis] + noise(sigma)));
         }

@@ -4,79 +4,24 @@ use crate::log::{Channel, Group};
 
 pub(super) fn fatal(run: &Run, wheels: usize) -> Vec<String> {
     let faults = check_run(run, &robot(wheels));
-    faults
-        .iter()
-        .filter(|f| f.fatal)
-        .map(|f| format!("{} {}: {}", f.code, f.signal, f.sentence))
-        .collect()
+    faults.iter().filter(|f| f.fatal).map(|f| format!("{} {}: {}", f.code, f.signal, f.sentence)).collect()
 }
 
 pub(super) fn any(run: &Run, wheels: usize) -> Vec<String> {
-    check_run(run, &robot(wheels))
-        .iter()
-        .map(|f| format!("{} {}: {}", f.code, f.signal, f.sentence))
-        .collect()
+    check_run(run, &robot(wheels)).iter().map(|f| format!("{} {}: {}", f.code, f.signal, f.sentence)).collect()
 }
 
 /// Each way of logging: which groups are there.
 fn with_and_without(whole: &Run) -> Vec<(&'static str, Run)> {
     vec![
         ("all", whole.clone()),
-        (
-            "no pose",
-            Run {
-                pose: None,
-                ..whole.clone()
-            },
-        ),
-        (
-            "no current",
-            Run {
-                i: None,
-                ..whole.clone()
-            },
-        ),
-        (
-            "no voltage",
-            Run {
-                u: None,
-                ..whole.clone()
-            },
-        ),
-        (
-            "no speed",
-            Run {
-                w: None,
-                ..whole.clone()
-            },
-        ),
-        (
-            "only pose",
-            Run {
-                u: None,
-                i: None,
-                w: None,
-                ..whole.clone()
-            },
-        ),
-        (
-            "only speed",
-            Run {
-                u: None,
-                i: None,
-                pose: None,
-                ..whole.clone()
-            },
-        ),
-        (
-            "only current",
-            Run {
-                u: None,
-                w: None,
-                pose: None,
-                ..whole.clone()
-            },
-        ),
+        ("no pose", Run { pose: None, ..whole.clone() }),
+        ("no current", Run { i: None, ..whole.clone() }),
+        ("no voltage", Run { u: None, ..whole.clone() }),
+        ("no speed", Run { w: None, ..whole.clone() }),
+        ("only pose", Run { u: None, i: None, w: None, ..whole.clone() }),
+        ("only speed", Run { u: None, i: None, pose: None, ..whole.clone() }),
+        ("only current", Run { u: None, w: None, pose: None, ..whole.clone() }),
     ]
 }
 
@@ -84,17 +29,9 @@ fn with_and_without(whole: &Run) -> Vec<(&'static str, Run)> {
 fn clean_runs_raise_nothing_with_any_groups_missing() {
     for wheels in [3, 4] {
         for straight in [false, true] {
-            let whole = run(&Made {
-                wheels,
-                straight,
-                ..Made::default()
-            });
+            let whole = run(&Made { wheels, straight, ..Made::default() });
             for (name, run) in with_and_without(&whole) {
-                assert_eq!(
-                    any(&run, wheels),
-                    [""; 0],
-                    "{wheels} wheels, {name}, straight {straight}"
-                );
+                assert_eq!(any(&run, wheels), [""; 0], "{wheels} wheels, {name}, straight {straight}");
             }
         }
     }
@@ -103,11 +40,7 @@ fn clean_runs_raise_nothing_with_any_groups_missing() {
 #[test]
 fn a_robot_at_rest_raises_nothing_with_noise_or_without() {
     for noise in [0.0, 1.0] {
-        let rest = run(&Made {
-            drive: 0.0,
-            noise,
-            ..Made::default()
-        });
+        let rest = run(&Made { drive: 0.0, noise, ..Made::default() });
         for (name, run) in with_and_without(&rest) {
             assert_eq!(any(&run, 4), [""; 0], "{name}, noise {noise}");
         }
@@ -117,11 +50,7 @@ fn a_robot_at_rest_raises_nothing_with_noise_or_without() {
 #[test]
 fn a_robot_too_weakly_driven_to_move_raises_nothing() {
     for noise in [0.0, 1.0] {
-        let stuck = run(&Made {
-            drive: 0.8,
-            noise,
-            ..Made::default()
-        });
+        let stuck = run(&Made { drive: 0.8, noise, ..Made::default() });
         assert_eq!(any(&stuck, 4), [""; 0], "noise {noise}");
     }
 }
@@ -130,97 +59,19 @@ fn a_robot_too_weakly_driven_to_move_raises_nothing() {
 fn effects_and_wrong_parameters_are_no_faults_of_the_log() {
     let made = Made::default();
     let cases = [
-        (
-            "dead zone",
-            Made {
-                dead_volts: 0.5,
-                ..made.clone()
-            },
-        ),
-        (
-            "weak motor",
-            Made {
-                weak: 0.7,
-                ..made.clone()
-            },
-        ),
-        (
-            "slip",
-            Made {
-                slip: 1.35,
-                ..made.clone()
-            },
-        ),
-        (
-            "latency",
-            Made {
-                latency_s: 0.1,
-                ..made.clone()
-            },
-        ),
-        (
-            "slope",
-            Made {
-                slope: 0.3,
-                ..made.clone()
-            },
-        ),
-        (
-            "offset",
-            Made {
-                offset_a: 0.1,
-                ..made.clone()
-            },
-        ),
-        (
-            "30 % more",
-            Made {
-                wrong: 1.3,
-                ..made.clone()
-            },
-        ),
-        (
-            "30 % less",
-            Made {
-                wrong: 0.7,
-                ..made.clone()
-            },
-        ),
-        (
-            "noisy",
-            Made {
-                noise: 5.0,
-                ..made.clone()
-            },
-        ),
-        (
-            "noiseless",
-            Made {
-                noise: 0.0,
-                ..made.clone()
-            },
-        ),
-        (
-            "slow log",
-            Made {
-                step_s: 0.03,
-                ..made.clone()
-            },
-        ),
-        (
-            "fast log",
-            Made {
-                step_s: 0.002,
-                ..made.clone()
-            },
-        ),
-        (
-            "gentle",
-            Made {
-                drive: 3.0,
-                ..made.clone()
-            },
-        ),
+        ("dead zone", Made { dead_volts: 0.5, ..made.clone() }),
+        ("weak motor", Made { weak: 0.7, ..made.clone() }),
+        ("slip", Made { slip: 1.35, ..made.clone() }),
+        ("latency", Made { latency_s: 0.1, ..made.clone() }),
+        ("slope", Made { slope: 0.3, ..made.clone() }),
+        ("offset", Made { offset_a: 0.1, ..made.clone() }),
+        ("30 % more", Made { wrong: 1.3, ..made.clone() }),
+        ("30 % less", Made { wrong: 0.7, ..made.clone() }),
+        ("noisy", Made { noise: 5.0, ..made.clone() }),
+        ("noiseless", Made { noise: 0.0, ..made.clone() }),
+        ("slow log", Made { step_s: 0.03, ..made.clone() }),
+        ("fast log", Made { step_s: 0.002, ..made.clone() }),
+        ("gentle", Made { drive: 3.0, ..made.clone() }),
         (
             "everything",
             Made {
@@ -238,17 +89,9 @@ fn effects_and_wrong_parameters_are_no_faults_of_the_log() {
     for (name, made) in cases {
         for wheels in [3, 4] {
             for straight in [false, true] {
-                let whole = run(&Made {
-                    wheels,
-                    straight,
-                    ..made.clone()
-                });
+                let whole = run(&Made { wheels, straight, ..made.clone() });
                 for (groups, run) in with_and_without(&whole) {
-                    assert_eq!(
-                        fatal(&run, wheels),
-                        [""; 0],
-                        "{name}, {wheels} wheels, {groups}, straight {straight}"
-                    );
+                    assert_eq!(fatal(&run, wheels), [""; 0], "{name}, {wheels} wheels, {groups}, straight {straight}");
                 }
             }
         }
@@ -284,13 +127,7 @@ pub(super) fn swapped(run: &Run, group: &str, a: usize, b: usize) -> Run {
 /// A fatal fault of this code and signal, and no other fatal one.
 pub(super) fn expect(run: &Run, wheels: usize, code: &str, signal: &str, what: &str) {
     let faults = check_run(run, &robot(wheels));
-    let fatal: Vec<_> = faults
-        .iter()
-        .filter(|f| f.fatal)
-        .map(|f| (f.code, f.signal.as_str(), f.sentence.as_str()))
-        .collect();
-    assert!(
-        !fatal.is_empty() && fatal.iter().all(|f| f.0 == code && f.1.contains(signal)),
-        "{what}: {fatal:?}"
-    );
+    let fatal: Vec<_> =
+        faults.iter().filter(|f| f.fatal).map(|f| (f.code, f.signal.as_str(), f.sentence.as_str())).collect();
+    assert!(!fatal.is_empty() && fatal.iter().all(|f| f.0 == code && f.1.contains(signal)), "{what}: {fatal:?}");
 }

@@ -152,7 +152,9 @@ fn settle_by(cause: &Cause, alike: &[Cause]) -> Option<String> {
             "mass" | "inertia" => "add a known mass and repeat the runs",
             "resistance" => "measure the winding with a multimeter",
             "torque_constant" | "kt_over_kv" => "pull the robot with a spring scale at a known current",
-            "wheel_radius" | "center_distance" => "drive a straight line along a tape measure and count turns on the spot",
+            "wheel_radius" | "center_distance" => {
+                "drive a straight line along a tape measure and count turns on the spot"
+            }
             "viscous_friction" | "coulomb_friction" => "let the robot coast with the bridges open",
             _ => "repeat the runs with stronger motion on all three axes",
         };
@@ -165,9 +167,11 @@ fn settle_by(cause: &Cause, alike: &[Cause]) -> Option<String> {
 /// The best fitted cause that is neither found nor a look-alike of one that was.
 pub(super) fn runner_up<const N: usize>(verdict: &Verdict<N>) -> Option<&Ranked<N>> {
     let first = verdict.found.first()?;
-    first.ranking.ranked.iter().find(|r| {
-        !r.cause.same_id(&first.cause) && !first.not_told_apart_from.iter().any(|c| c.same_id(&r.cause))
-    })
+    first
+        .ranking
+        .ranked
+        .iter()
+        .find(|r| !r.cause.same_id(&first.cause) && !first.not_told_apart_from.iter().any(|c| c.same_id(&r.cause)))
 }
 
 /// The robot file's numbers before and after.
@@ -210,8 +214,7 @@ pub(super) fn changes<const N: usize>(verdict: &Verdict<N>, robot: &RobotFile) -
     let mut changes: Vec<Change> =
         NOMINAL_KEYS.iter().flat_map(|key| key.scaled(robot, key.factor(&model.factor))).collect();
     for effect in &model.effects {
-        let params =
-            effect.card().params.iter().zip(&effect.params).map(|(p, x)| (p.key.to_owned(), *x)).collect();
+        let params = effect.card().params.iter().zip(&effect.params).map(|(p, x)| (p.key.to_owned(), *x)).collect();
         changes.push(Change::Effect(EffectEntry { id: effect.id.to_owned(), wheel: effect.wheel, params }));
     }
     changes
@@ -238,10 +241,8 @@ pub(super) fn not_seen<const N: usize>(verdict: &Verdict<N>, data: &Data<'_, N>)
         let tried = screened.iter().any(|s| s.candidate.card.id == card.id);
         if tried && best < VISIBLE && !named.contains(&card.id) {
             named.push(card.id);
-            lines.push(format!(
-                "{}: at its typical size it would move these recordings by {best:.1} σ in all",
-                card.id
-            ));
+            lines
+                .push(format!("{}: at its typical size it would move these recordings by {best:.1} σ in all", card.id));
         }
     }
     lines

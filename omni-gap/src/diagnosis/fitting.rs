@@ -103,8 +103,7 @@ pub(super) fn fitted<const N: usize>(session: &Session, options: &Options) -> Di
         report.notices.push(format!("no usable voltage: the model is driven by {}", driven(data.fit[0].chain)));
     }
     let changes = if known { causes::changes(&verdict, &session.robot) } else { Vec::new() };
-    let corrected_robot =
-        corrected(&session.robot_text, &changes).unwrap_or_else(|_| session.robot_text.clone());
+    let corrected_robot = corrected(&session.robot_text, &changes).unwrap_or_else(|_| session.robot_text.clone());
     let pictures = pictures::pictures(&plants.0, &plants.1, data.held[0], options.horizon_s);
     Diagnosis { report, pictures, corrected_robot }
 }

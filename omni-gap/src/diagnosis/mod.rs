@@ -6,8 +6,8 @@
 mod causes;
 mod distances;
 mod fitting;
-mod places;
 mod pictures;
+mod places;
 
 use crate::check::check;
 use crate::log::Session;

@@ -24,7 +24,8 @@ pub(super) fn places<const N: usize>(
 ) -> Vec<Where> {
     // what lies within stated uncertainty is not where an effect sits; a wrong parameter is all there is to see
     let effect = verdict.found.iter().any(|f| matches!(f.cause, Cause::Effect(..)));
-    let model = if effect || matches!(verdict.outcome, Outcome::Unknown) { &verdict.refitted.fit.model } else { nominal };
+    let model =
+        if effect || matches!(verdict.outcome, Outcome::Unknown) { &verdict.refitted.fit.model } else { nominal };
     let plant = model.plant();
     let split = links(&plant, &data.held, horizon);
     let weights = stage_weights(verdict);
@@ -51,7 +52,8 @@ pub(super) fn places<const N: usize>(
     }
     places.sort_by(|a, b| b.share.total_cmp(&a.share));
     if let Some(first) = places.first_mut() {
-        first.wheel = verdict.found.first().and_then(|f| f.cause.wheel()).or(wheel.filter(|_| verdict.found.is_empty()));
+        first.wheel =
+            verdict.found.first().and_then(|f| f.cause.wheel()).or(wheel.filter(|_| verdict.found.is_empty()));
         first.axis = if first.wheel.is_none() { axis } else { None };
         first.regime = hot.map(told);
     }
@@ -65,7 +67,9 @@ fn told(spot: Hotspot) -> Regime {
 fn belongs(stage: Stage, link: Link) -> bool {
     match link {
         Link::Electrical => matches!(stage, Stage::Electrical | Stage::Sensing),
-        Link::Motion => matches!(stage, Stage::Electrical | Stage::Drivetrain | Stage::Contact | Stage::Body | Stage::Sensing),
+        Link::Motion => {
+            matches!(stage, Stage::Electrical | Stage::Drivetrain | Stage::Contact | Stage::Body | Stage::Sensing)
+        }
         Link::Contact => matches!(stage, Stage::Contact | Stage::Sensing),
     }
 }
@@ -83,8 +87,8 @@ fn stage_weights<const N: usize>(verdict: &Verdict<N>) -> [f64; 5] {
     }
     for found in &verdict.found {
         let ranking = &found.ranking;
-        let gain = ranking.base.score(ranking.scale)
-            - ranking.ranked.first().map_or(0.0, |r| r.scored.score(ranking.scale));
+        let gain =
+            ranking.base.score(ranking.scale) - ranking.ranked.first().map_or(0.0, |r| r.scored.score(ranking.scale));
         weights[at(stage_of(found.cause.id()))] += gain.max(0.0);
     }
     weights

@@ -154,11 +154,18 @@ fn cost_of<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>], windows: &[W
                 (Pose { x, y, theta }, BodyTwist { v, vn, w })
             };
             let mut sum = 0.0;
-            run_windows(&plant, run, &windows[k], start, |_| {}, |_, row, predicted| {
-                for c in (0..count).filter(|c| run.saw(row, *c)) {
-                    sum += run.error(row, c, predicted[c]).powi(2);
-                }
-            });
+            run_windows(
+                &plant,
+                run,
+                &windows[k],
+                start,
+                |_| {},
+                |_, row, predicted| {
+                    for c in (0..count).filter(|c| run.saw(row, *c)) {
+                        sum += run.error(row, c, predicted[c]).powi(2);
+                    }
+                },
+            );
             sum
         })
         .collect();
@@ -166,7 +173,12 @@ fn cost_of<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>], windows: &[W
 }
 
 /// Adds what was stated; and holds each number loosely to its bounds' width, so that the equations stay regular.
-pub(crate) fn with_prior<const N: usize>(mut reduced: Reduced, model: &Model<N>, free: &[Free], prior: &Prior) -> Reduced {
+pub(crate) fn with_prior<const N: usize>(
+    mut reduced: Reduced,
+    model: &Model<N>,
+    free: &[Free],
+    prior: &Prior,
+) -> Reduced {
     let at = |p| free.iter().position(|f| f.slot == Slot::Nominal(p));
     for (row, violation) in prior.rows.iter().zip(prior.violations(model)) {
         for (p, c) in &row.terms {

@@ -210,8 +210,7 @@ impl Linearised {
     /// The equations of the parameters alone.
     pub fn reduced(&self) -> Reduced {
         let n = self.free;
-        let mut sum =
-            Reduced { hess: DMatrix::zeros(n, n), grad: DVector::zeros(n), meat: DMatrix::zeros(n, n) };
+        let mut sum = Reduced { hess: DMatrix::zeros(n, n), grad: DVector::zeros(n), meat: DMatrix::zeros(n, n) };
         for block in self.blocks.iter().flatten() {
             let (x, z) = block.eliminate();
             let hpz = block.hess.view((START, 0), (n, START));

@@ -46,10 +46,7 @@ impl Prior {
                 one(Nominal::Inertia, "inertia_kg_m2"),
                 one(Nominal::Resistance, "resistance_ohm"),
                 one(Nominal::TorqueConstant, "emf_constant_V_s"),
-                row(
-                    &[(Nominal::TorqueConstant, 1.0), (Nominal::KtOverKv, 1.0)],
-                    s("torque_constant_Nm_per_A"),
-                ),
+                row(&[(Nominal::TorqueConstant, 1.0), (Nominal::KtOverKv, 1.0)], s("torque_constant_Nm_per_A")),
                 one(Nominal::ViscousV, "viscous_v_N_s_per_m"),
                 one(Nominal::ViscousVn, "viscous_vn_N_s_per_m"),
                 one(Nominal::ViscousW, "viscous_w_Nm_s"),
@@ -92,8 +89,7 @@ impl Prior {
         self.rows
             .iter()
             .map(|row| {
-                let sum: f64 =
-                    row.terms.iter().map(|(p, c)| c * model.get(Slot::Nominal(*p)).ln()).sum();
+                let sum: f64 = row.terms.iter().map(|(p, c)| c * model.get(Slot::Nominal(*p)).ln()).sum();
                 sum / row.sigma
             })
             .collect()

@@ -74,9 +74,6 @@ mod tests {
 
     #[test]
     fn distance_counts_letters() {
-        assert_eq!(
-            (distance("abc", "abc"), distance("abc", "abd"), distance("abc", "ab")),
-            (0, 1, 1)
-        );
+        assert_eq!((distance("abc", "abc"), distance("abc", "abd"), distance("abc", "ab")), (0, 1, 1));
     }
 }

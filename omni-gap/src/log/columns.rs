@@ -82,14 +82,7 @@ pub(crate) struct Rule {
 
 impl Default for Rule {
     fn default() -> Self {
-        Rule {
-            from: From::Itself,
-            factor: 1.0,
-            offset: 0.0,
-            counts: None,
-            running_sum: false,
-            optional: false,
-        }
+        Rule { from: From::Itself, factor: 1.0, offset: 0.0, counts: None, running_sum: false, optional: false }
     }
 }
 
@@ -123,26 +116,9 @@ const UNITS: [(&str, Quantity, f64); 16] = [
     ("deg", Quantity::Angle, std::f64::consts::PI / 180.0),
 ];
 
-const RULE_KEYS: [&str; 9] = [
-    "from",
-    "unit",
-    "scale",
-    "sign",
-    "offset",
-    "counts_per_turn",
-    "counts",
-    "running_sum",
-    "optional",
-];
-const TOP_KEYS: [&str; 7] = [
-    "separator",
-    "skip_lines",
-    "header",
-    "currents_sampled",
-    "files",
-    "columns",
-    "groups",
-];
+const RULE_KEYS: [&str; 9] =
+    ["from", "unit", "scale", "sign", "offset", "counts_per_turn", "counts", "running_sum", "optional"];
+const TOP_KEYS: [&str; 7] = ["separator", "skip_lines", "header", "currents_sampled", "files", "columns", "groups"];
 
 impl Columns {
     /// Reads and checks a mapping.
@@ -157,11 +133,7 @@ impl Columns {
         let top = Section::of(source, "columns.toml", document.as_table(), None);
         top.only_keys(&TOP_KEYS)?;
         let header = top.flag("header")?.unwrap_or(true);
-        let layout = Layout {
-            separator: separator(&top)?,
-            skip_lines: top.whole("skip_lines")?.unwrap_or(0),
-            header,
-        };
+        let layout = Layout { separator: separator(&top)?, skip_lines: top.whole("skip_lines")?.unwrap_or(0), header };
         let currents_sampled = match top.text("currents_sampled")? {
             None | Some("after") => Sampled::After,
             Some("before") => Sampled::Before,
@@ -174,36 +146,23 @@ impl Columns {
             }
         };
         let Some(item) = top.table.get("columns") else {
-            return Err(top.error(
-                "[columns] is missing: no column is mapped",
-                "Add [columns] with t_s and the signals",
-            ));
+            return Err(
+                top.error("[columns] is missing: no column is mapped", "Add [columns] with t_s and the signals")
+            );
         };
         let columns = Section::new(source, "[columns]", item)?;
-        let rules = columns
+        let rules =
+            columns.table.iter().map(|(name, item)| rule(&columns, name, item, header)).collect::<Result<_>>()?;
+        let groups = top
             .table
-            .iter()
-            .map(|(name, item)| rule(&columns, name, item, header))
-            .collect::<Result<_>>()?;
-        let groups = top.table.get("groups").map_or(Ok(BTreeMap::new()), |item| {
-            groups(&Section::new(source, "[groups]", item)?)
-        })?;
-        Ok(Columns {
-            currents_sampled,
-            files: files(&top)?,
-            layout,
-            rules,
-            groups,
-        })
+            .get("groups")
+            .map_or(Ok(BTreeMap::new()), |item| groups(&Section::new(source, "[groups]", item)?))?;
+        Ok(Columns { currents_sampled, files: files(&top)?, layout, rules, groups })
     }
 
     /// Whether a file of this name is a run.
     pub fn takes(&self, name: &str) -> bool {
-        self.files.is_empty()
-            || self
-                .files
-                .iter()
-                .any(|pattern| matches(pattern.as_bytes(), name.as_bytes()))
+        self.files.is_empty() || self.files.iter().any(|pattern| matches(pattern.as_bytes(), name.as_bytes()))
     }
 }
 
@@ -211,11 +170,7 @@ fn separator(top: &Section) -> Result<u8> {
     match top.text("separator")?.map(str::as_bytes) {
         None => Ok(b','),
         Some([one]) if one.is_ascii() => Ok(*one),
-        Some(_) => Err(top.key_error(
-            "separator",
-            "expected one ASCII character",
-            "Write \",\", \";\" or \"\\t\"",
-        )),
+        Some(_) => Err(top.key_error("separator", "expected one ASCII character", "Write \",\", \";\" or \"\\t\"")),
     }
 }
 
@@ -223,35 +178,16 @@ fn files(top: &Section) -> Result<Vec<String>> {
     let Some(item) = top.table.get("files") else {
         return Ok(Vec::new());
     };
-    let list = item
-        .as_array()
-        .and_then(|list| list.iter().map(|v| v.as_str().map(str::to_string)).collect());
-    list.ok_or_else(|| {
-        top.key_error(
-            "files",
-            "expected a list of file name patterns",
-            "Write files = [\"*.csv\"]",
-        )
-    })
+    let list = item.as_array().and_then(|list| list.iter().map(|v| v.as_str().map(str::to_string)).collect());
+    list.ok_or_else(|| top.key_error("files", "expected a list of file name patterns", "Write files = [\"*.csv\"]"))
 }
 
 fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> Result<(Target, Rule)> {
     let Some(target) = Target::named(name) else {
-        let known = [
-            "t_s",
-            "u0_V",
-            "i0_A",
-            "w0_rad_s",
-            "wset0_rad_s",
-            "x_m",
-            "y_m",
-            "theta_rad",
-            "vbat_V",
-            "gyro_rad_s",
-        ];
-        let mend = nearest(name, known).map_or(format!("Known are {}", known.join(", ")), |near| {
-            format!("Did you mean `{near}`?")
-        });
+        let known =
+            ["t_s", "u0_V", "i0_A", "w0_rad_s", "wset0_rad_s", "x_m", "y_m", "theta_rad", "vbat_V", "gyro_rad_s"];
+        let mend = nearest(name, known)
+            .map_or(format!("Known are {}", known.join(", ")), |near| format!("Did you mean `{near}`?"));
         return Err(columns.key_error(name, "this is not a column of the run log", mend));
     };
     let title = format!("[columns] {name}");
@@ -271,9 +207,7 @@ fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> 
             ));
         }
         _ => {
-            return Err(s
-                .error("`from` is missing", "Name the source column, or give its position")
-                .in_column(name));
+            return Err(s.error("`from` is missing", "Name the source column, or give its position").in_column(name));
         }
     };
     let sign = s.number("sign")?.unwrap_or(1.0);
@@ -291,17 +225,7 @@ fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> 
         return Err(s.key_error("running_sum", "only time can be a running sum", "Remove the key"));
     }
     let offset = s.number("offset")?.unwrap_or(0.0);
-    Ok((
-        target,
-        Rule {
-            from,
-            factor: sign * scale * unit,
-            offset,
-            counts,
-            running_sum,
-            optional,
-        },
-    ))
+    Ok((target, Rule { from, factor: sign * scale * unit, offset, counts, running_sum, optional }))
 }
 
 fn unit(s: &Section, target: Target) -> Result<f64> {
@@ -322,35 +246,17 @@ fn counts(s: &Section, target: Target) -> Result<Option<Counts>> {
     if !s.table.contains_key("counts_per_turn") {
         return match kind {
             None => Ok(None),
-            Some(_) => Err(s.key_error(
-                "counts",
-                "`counts_per_turn` is missing",
-                "Say how many counts make a turn",
-            )),
+            Some(_) => Err(s.key_error("counts", "`counts_per_turn` is missing", "Say how many counts make a turn")),
         };
     }
     let per_turn = s.positive("counts_per_turn")?;
     if target.quantity() != Quantity::Rate {
-        return Err(s.key_error(
-            "counts_per_turn",
-            format!("{target} is not a speed"),
-            "Use `scale` instead",
-        ));
+        return Err(s.key_error("counts_per_turn", format!("{target} is not a speed"), "Use `scale` instead"));
     }
     match kind {
-        None | Some("per_sample") => Ok(Some(Counts {
-            per_turn,
-            position: false,
-        })),
-        Some("position") => Ok(Some(Counts {
-            per_turn,
-            position: true,
-        })),
-        Some(_) => Err(s.key_error(
-            "counts",
-            "expected \"per_sample\" or \"position\"",
-            "Write one of the two",
-        )),
+        None | Some("per_sample") => Ok(Some(Counts { per_turn, position: false })),
+        Some("position") => Ok(Some(Counts { per_turn, position: true })),
+        Some(_) => Err(s.key_error("counts", "expected \"per_sample\" or \"position\"", "Write one of the two")),
     }
 }
 
@@ -361,13 +267,7 @@ fn groups(all: &Section) -> Result<BTreeMap<String, Flags>> {
         let s = Section::new(all.source, &title, item)?;
         s.only_keys(&["unsigned", "quantum"])?;
         let quantum = s.number("quantum")?.map(|_| s.positive("quantum")).transpose()?;
-        Ok((
-            name.to_string(),
-            Flags {
-                unsigned: s.flag("unsigned")?.unwrap_or(false),
-                quantum,
-            },
-        ))
+        Ok((name.to_string(), Flags { unsigned: s.flag("unsigned")?.unwrap_or(false), quantum }))
     };
     all.table.iter().map(read).collect()
 }

@@ -5,11 +5,7 @@ fn read(mapping: &str, log: &str, wheels: usize) -> Result<(Run, Vec<String>)> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("exp.any");
     std::fs::write(&path, log).unwrap();
-    Run::load(
-        &path,
-        wheels,
-        Some(&Columns::parse(mapping, Path::new("columns.toml"))?),
-    )
+    Run::load(&path, wheels, Some(&Columns::parse(mapping, Path::new("columns.toml"))?))
 }
 
 const ROBOTINO: &str = include_str!("../../../examples/robotino/columns.toml");
@@ -17,11 +13,7 @@ const SSL2018: &str = include_str!("../../../examples/ssl2018/columns.toml");
 
 /// The TOML blocks of the page above.
 fn blocks() -> Vec<&'static str> {
-    include_str!("columns.md")
-        .split("```toml\n")
-        .skip(1)
-        .map(|rest| rest.split("```").next().unwrap())
-        .collect()
+    include_str!("columns.md").split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect()
 }
 
 #[test]
@@ -51,14 +43,8 @@ fn a_semicolon_table_with_three_header_lines_and_a_camera_is_read() {
     let moved_m = pose.channels[1].get(1).unwrap() - pose.channels[1].get(0).unwrap();
     assert!((moved_m - 0.18372).abs() < 1e-9, "up the picture is +y");
     let turned_rad = pose.channels[2].get(1).unwrap() - pose.channels[2].get(0).unwrap();
-    assert!(
-        (turned_rad - 20f64.to_radians()).abs() < 1e-9,
-        "350 degrees to 10 degrees is 20 degrees on"
-    );
-    assert!(
-        notices.contains(&"columns that the mapping leaves out: `m1pos`".to_string()),
-        "{notices:?}"
-    );
+    assert!((turned_rad - 20f64.to_radians()).abs() < 1e-9, "350 degrees to 10 degrees is 20 degrees on");
+    assert!(notices.contains(&"columns that the mapping leaves out: `m1pos`".to_string()), "{notices:?}");
 }
 
 #[test]
@@ -92,20 +78,11 @@ fn a_running_count_is_differenced_over_the_last_row_that_has_one() {
 fn each_mistake_in_a_mapping_has_its_line_and_its_mend() {
     let t = "[columns]\nt_s = { from = 1 }\n";
     let mistakes = [
-        (
-            "separator = \"ab\"\n".to_string() + t,
-            "columns.toml:1: column `separator`: expected one ASCII character",
-        ),
+        ("separator = \"ab\"\n".to_string() + t, "columns.toml:1: column `separator`: expected one ASCII character"),
         ("seperator = \";\"\n".to_string() + t, "Did you mean `separator`?"),
         ("header = 1\n".to_string() + t, "expected true or false"),
-        (
-            "currents_sampled = \"during\"\n".to_string() + t,
-            "expected \"before\" or \"after\"",
-        ),
-        (
-            "files = \"*.csv\"\n".to_string() + t,
-            "expected a list of file name patterns",
-        ),
+        ("currents_sampled = \"during\"\n".to_string() + t, "expected \"before\" or \"after\""),
+        ("files = \"*.csv\"\n".to_string() + t, "expected a list of file name patterns"),
         ("header = true\n".to_string(), "[columns] is missing"),
         (
             format!("{t}u0_mV = {{ from = 2 }}\n"),
@@ -113,42 +90,15 @@ fn each_mistake_in_a_mapping_has_its_line_and_its_mend() {
         ),
         (format!("{t}u0_V = {{ scale = 2 }}\n"), "`from` is missing"),
         (format!("{t}u0_V = {{ from = 0 }}\n"), "Positions are counted from 1"),
-        (
-            format!("header = false\n{t}u0_V = {{ from = \"a\" }}\n"),
-            "but the log has no header",
-        ),
-        (
-            format!("{t}u0_V = {{ from = 2, unit = \"mA\" }}\n"),
-            "`mA` is not a unit for u0_V. Known here: V, mV",
-        ),
-        (
-            format!("{t}u0_V = {{ from = 2, sign = 2 }}\n"),
-            "found 2, expected 1 or -1",
-        ),
-        (
-            format!("{t}u0_V = {{ from = 2, scale = 0 }}\n"),
-            "expected a factor other than zero",
-        ),
-        (
-            format!("{t}u0_V = {{ from = 2, counts_per_turn = 9 }}\n"),
-            "u0_V is not a speed",
-        ),
-        (
-            format!("{t}w0_rad_s = {{ from = 2, counts = \"position\" }}\n"),
-            "`counts_per_turn` is missing",
-        ),
-        (
-            format!("{t}w0_rad_s = {{ from = 2, running_sum = true }}\n"),
-            "only time can be a running sum",
-        ),
-        (
-            format!("{t}[groups]\nw = {{ quantum = -1 }}\n"),
-            "found -1, expected a number above zero",
-        ),
-        (
-            format!("{t}x_m = {{ from = \"xpos\" }}\n"),
-            "the log has no column `xpos` for x_m; it has t, a",
-        ),
+        (format!("header = false\n{t}u0_V = {{ from = \"a\" }}\n"), "but the log has no header"),
+        (format!("{t}u0_V = {{ from = 2, unit = \"mA\" }}\n"), "`mA` is not a unit for u0_V. Known here: V, mV"),
+        (format!("{t}u0_V = {{ from = 2, sign = 2 }}\n"), "found 2, expected 1 or -1"),
+        (format!("{t}u0_V = {{ from = 2, scale = 0 }}\n"), "expected a factor other than zero"),
+        (format!("{t}u0_V = {{ from = 2, counts_per_turn = 9 }}\n"), "u0_V is not a speed"),
+        (format!("{t}w0_rad_s = {{ from = 2, counts = \"position\" }}\n"), "`counts_per_turn` is missing"),
+        (format!("{t}w0_rad_s = {{ from = 2, running_sum = true }}\n"), "only time can be a running sum"),
+        (format!("{t}[groups]\nw = {{ quantum = -1 }}\n"), "found -1, expected a number above zero"),
+        (format!("{t}x_m = {{ from = \"xpos\" }}\n"), "the log has no column `xpos` for x_m; it has t, a"),
         (format!("{t}x_m = {{ from = 3 }}\n"), "the log has no column 3 for x_m"),
     ];
     for (mapping, expected) in mistakes {
@@ -162,20 +112,14 @@ fn an_optional_column_may_be_missing() {
     let mapping = "[columns]\nt_s = { from = 1 }\nw0_rad_s = { from = 2 }\nw1_rad_s = { from = 2 }\nw2_rad_s = { from = 2 }\n\
         gyro_rad_s = { from = \"g\", optional = true }\n";
     let (run, notices) = read(mapping, "t,a\n0,0\n1,0\n", 3).unwrap();
-    assert!(
-        run.gyro.is_none() && notices[0].ends_with("no column `g` for gyro_rad_s"),
-        "{notices:?}"
-    );
+    assert!(run.gyro.is_none() && notices[0].ends_with("no column `g` for gyro_rad_s"), "{notices:?}");
 }
 
 #[test]
 fn a_pattern_takes_the_files_it_fits() {
-    for (pattern, name, fits) in [
-        ("*.csv", "a.csv", true),
-        ("exp??.*", "exp00.txt", true),
-        ("a*", "ba", false),
-        ("*", "", true),
-    ] {
+    for (pattern, name, fits) in
+        [("*.csv", "a.csv", true), ("exp??.*", "exp00.txt", true), ("a*", "ba", false), ("*", "", true)]
+    {
         assert_eq!(matches(pattern.as_bytes(), name.as_bytes()), fits, "{pattern} {name}");
     }
 }

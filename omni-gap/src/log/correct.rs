@@ -133,18 +133,11 @@ mod tests {
     use super::*;
 
     fn effect(id: &str, wheel: Option<usize>, key: &str, number: f64) -> Change {
-        Change::Effect(EffectEntry {
-            id: id.into(),
-            wheel,
-            params: [(key.to_string(), number)].into(),
-        })
+        Change::Effect(EffectEntry { id: id.into(), wheel, params: [(key.to_string(), number)].into() })
     }
 
     fn number(path: &str, value: f64) -> Change {
-        Change::Number {
-            path: path.into(),
-            value,
-        }
+        Change::Number { path: path.into(), value }
     }
 
     const TEXT: &str = "# my robot\nname = \"r\"\n\n[[wheel]]\nradius_m = 0.03 # measured\n[[wheel]]\nradius_m = 0.04\n\n[body] # heavy\nmass_kg = 2 # on a kitchen scale\n";
@@ -158,10 +151,7 @@ mod tests {
     #[test]
     fn a_number_in_a_table_that_was_not_there_makes_the_table() {
         let after = corrected(TEXT, &[number("friction.coulomb_v_N", 1.0)]).unwrap();
-        assert!(
-            after.starts_with(TEXT) && after.ends_with("[friction]\ncoulomb_v_N = 1.0\n"),
-            "{after}"
-        );
+        assert!(after.starts_with(TEXT) && after.ends_with("[friction]\ncoulomb_v_N = 1.0\n"), "{after}");
     }
 
     #[test]
@@ -175,11 +165,7 @@ mod tests {
         let added = "\n[effects.coriolis]\nfactor = 1.0\n\n[[effects.motor_mismatch]]\nwheel = 2\n\
                      torque_constant_ratio = 0.88\n\n[[effects.motor_mismatch]]\nwheel = 0\ntorque_constant_ratio = 0.9\n";
         assert_eq!(after, format!("{TEXT}{added}"));
-        assert_eq!(
-            corrected(&after, &changes).unwrap(),
-            after,
-            "writing the same again changes nothing"
-        );
+        assert_eq!(corrected(&after, &changes).unwrap(), after, "writing the same again changes nothing");
     }
 
     #[test]

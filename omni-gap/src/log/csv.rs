@@ -19,11 +19,7 @@ pub(crate) struct Layout {
 
 impl Default for Layout {
     fn default() -> Self {
-        Layout {
-            separator: b',',
-            skip_lines: 0,
-            header: true,
-        }
+        Layout { separator: b',', skip_lines: 0, header: true }
     }
 }
 
@@ -72,18 +68,12 @@ impl Table {
         let mut record = csv::ByteRecord::new();
         let mut reader = table.reader();
         if !reader.read_byte_record(&mut record).map_err(|e| table.broken(&e))? {
-            return Err(Error::input(
-                path,
-                "there are no rows below the lines to skip",
-                "Check skip_lines",
-            ));
+            return Err(Error::input(path, "there are no rows below the lines to skip", "Check skip_lines"));
         }
         let end = reader.position().byte() as usize;
         let lines = reader.position().line() as usize - 1;
         drop(reader);
-        let last_is_empty = record
-            .get(record.len() - 1)
-            .is_some_and(|last| last.trim_ascii().is_empty());
+        let last_is_empty = record.get(record.len() - 1).is_some_and(|last| last.trim_ascii().is_empty());
         table.width = record.len() - usize::from(last_is_empty && record.len() > 1);
         if layout.header {
             let text = |field: &[u8]| String::from_utf8_lossy(field.trim_ascii()).into_owned();
@@ -105,17 +95,10 @@ impl Table {
             )
             .at_line(line));
         }
-        let twice = self
-            .names
-            .iter()
-            .enumerate()
-            .find(|(at, name)| self.names[..*at].contains(name) && !name.is_empty());
+        let twice =
+            self.names.iter().enumerate().find(|(at, name)| self.names[..*at].contains(name) && !name.is_empty());
         twice.map_or(Ok(()), |(_, name)| {
-            let error = Error::input(
-                &self.path,
-                "the column stands twice in the header",
-                "Keep one of the two",
-            );
+            let error = Error::input(&self.path, "the column stands twice in the header", "Keep one of the two");
             Err(error.at_line(line).in_column(name))
         })
     }
@@ -131,10 +114,7 @@ impl Table {
 
     /// What a column is called in messages: its name, or its position counted from 1.
     pub fn title(&self, column: usize) -> String {
-        self.names
-            .get(column)
-            .cloned()
-            .unwrap_or_else(|| format!("{}", column + 1))
+        self.names.get(column).cloned().unwrap_or_else(|| format!("{}", column + 1))
     }
 
     /// Reads the wanted columns.
@@ -156,10 +136,7 @@ impl Table {
                     channel.push_missing(Missing::Blank);
                     continue;
                 }
-                match std::str::from_utf8(field)
-                    .ok()
-                    .and_then(|text| text.parse::<f64>().ok())
-                {
+                match std::str::from_utf8(field).ok().and_then(|text| text.parse::<f64>().ok()) {
                     Some(value) if value.is_finite() => channel.push(value),
                     _ => return Err(self.not_a_number(&record, column)),
                 }
@@ -171,13 +148,9 @@ impl Table {
     fn not_a_number(&self, record: &csv::ByteRecord, column: usize) -> Error {
         let field = String::from_utf8_lossy(record[column].trim_ascii());
         let problem = format!("found `{field}`, expected a finite number");
-        Error::input(
-            &self.path,
-            problem,
-            "Correct the field, or leave it empty where the sample is missing",
-        )
-        .at_line(self.line(record))
-        .in_column(self.title(column))
+        Error::input(&self.path, problem, "Correct the field, or leave it empty where the sample is missing")
+            .at_line(self.line(record))
+            .in_column(self.title(column))
     }
 
     fn first_row_length(&self) -> usize {
@@ -202,11 +175,7 @@ impl Table {
     }
 
     fn broken(&self, reason: &csv::Error) -> Error {
-        Error::input(
-            &self.path,
-            format!("cannot be read as a table: {reason}"),
-            "Check separators and quotes",
-        )
+        Error::input(&self.path, format!("cannot be read as a table: {reason}"), "Check separators and quotes")
     }
 }
 
@@ -216,8 +185,5 @@ fn count_lines(bytes: &[u8]) -> usize {
 
 /// Where the line that starts here ends, its line feed included.
 fn line_end(bytes: &[u8]) -> usize {
-    bytes
-        .iter()
-        .position(|byte| *byte == b'\n')
-        .map_or(bytes.len(), |at| at + 1)
+    bytes.iter().position(|byte| *byte == b'\n').map_or(bytes.len(), |at| at + 1)
 }

@@ -31,11 +31,8 @@ impl Run {
                 "Record the run again",
             ));
         }
-        let mut raw: Vec<(Target, Rule, Channel)> = bindings
-            .into_iter()
-            .zip(raw)
-            .map(|((target, _, rule), channel)| (target, rule, channel))
-            .collect();
+        let mut raw: Vec<(Target, Rule, Channel)> =
+            bindings.into_iter().zip(raw).map(|((target, _, rule), channel)| (target, rule, channel)).collect();
         raw.sort_by_key(|(target, ..)| *target);
         let (_, rule, time) = raw.remove(0);
         let (t_s, first_step_s) = clock(&table, &rule, &time)?;
@@ -67,11 +64,7 @@ fn named(table: &Table, notices: &mut Vec<String>) -> Vec<Binding> {
         }
     }
     if !ignored.is_empty() {
-        notices.push(format!(
-            "{}: columns left out: {}",
-            table.path.display(),
-            ignored.join(", ")
-        ));
+        notices.push(format!("{}: columns left out: {}", table.path.display(), ignored.join(", ")));
     }
     bindings
 }
@@ -83,19 +76,11 @@ fn mapped(table: &Table, columns: &Columns, notices: &mut Vec<String>) -> Result
         match rule.from.find(&table.names, table.width) {
             Some(column) => bindings.push((*target, column, rule.clone())),
             None if rule.optional => {
-                notices.push(format!(
-                    "{}: no column {} for {target}",
-                    table.path.display(),
-                    rule.from
-                ));
+                notices.push(format!("{}: no column {} for {target}", table.path.display(), rule.from));
             }
             None => {
                 let names = || table.names.join(", ");
-                let there = if table.names.is_empty() {
-                    format!("{} columns", table.width)
-                } else {
-                    names()
-                };
+                let there = if table.names.is_empty() { format!("{} columns", table.width) } else { names() };
                 let problem = format!("the log has no column {} for {target}; it has {there}", rule.from);
                 return Err(Error::input(
                     &table.path,
@@ -106,10 +91,8 @@ fn mapped(table: &Table, columns: &Columns, notices: &mut Vec<String>) -> Result
         }
     }
     let unused = |column: &usize| !bindings.iter().any(|(_, used, _)| used == column);
-    let ignored: Vec<String> = (0..table.width)
-        .filter(unused)
-        .map(|column| format!("`{}`", table.title(column)))
-        .collect();
+    let ignored: Vec<String> =
+        (0..table.width).filter(unused).map(|column| format!("`{}`", table.title(column))).collect();
     if !ignored.is_empty() {
         notices.push(format!("columns that the mapping leaves out: {}", ignored.join(", ")));
     }
@@ -130,17 +113,11 @@ fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
     if !has(Target::Time) {
         return missing(Target::Time, "every run needs a clock");
     }
-    if let Some((target, ..)) = bindings
-        .iter()
-        .find(|(target, ..)| target.wheel().is_some_and(|wheel| wheel >= wheels))
+    if let Some((target, ..)) = bindings.iter().find(|(target, ..)| target.wheel().is_some_and(|wheel| wheel >= wheels))
     {
         let problem = format!("a column for a wheel that the robot file does not have; it has {wheels} wheels");
-        return Err(Error::input(
-            &table.path,
-            problem,
-            "Describe the wheel in robot.toml, or remove the column",
-        )
-        .in_column(target.to_string()));
+        return Err(Error::input(&table.path, problem, "Describe the wheel in robot.toml, or remove the column")
+            .in_column(target.to_string()));
     }
     for group in [Target::U, Target::I, Target::W, Target::Wset] {
         let there = (0..wheels).filter(|wheel| has(group(*wheel))).count();
@@ -149,10 +126,7 @@ fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
         }
     }
     let pose = [Target::X, Target::Y, Target::Theta];
-    if let Some(absent) = pose
-        .into_iter()
-        .find(|target| !has(*target) && pose.iter().any(|other| has(*other)))
-    {
+    if let Some(absent) = pose.into_iter().find(|target| !has(*target) && pose.iter().any(|other| has(*other))) {
         return missing(absent, "a pose is x_m, y_m and theta_rad");
     }
     let signal = |target: &Target| target.wheel().is_some() || *target == Target::X;
@@ -173,17 +147,11 @@ fn clock(table: &Table, rule: &Rule, raw: &Channel) -> Result<(Vec<f64>, Option<
     let mut first = None;
     let mut last = f64::NEG_INFINITY;
     let told = |row: usize, problem: String, mend: &str| {
-        Err(Error::input(&table.path, problem, mend)
-            .at_line(table.line_of(row))
-            .in_column("t_s"))
+        Err(Error::input(&table.path, problem, mend).at_line(table.line_of(row)).in_column("t_s"))
     };
     for (row, value) in raw.iter().enumerate() {
         let Ok(value) = value else {
-            return told(
-                row,
-                "the time is missing".into(),
-                "Every row needs its time; remove rows without one",
-            );
+            return told(row, "the time is missing".into(), "Every row needs its time; remove rows without one");
         };
         let value = rule.linear(value);
         let now = match (rule.running_sum, row) {
@@ -195,11 +163,7 @@ fn clock(table: &Table, rule: &Rule, raw: &Channel) -> Result<(Vec<f64>, Option<
             (true, _) => last + value,
         };
         if now <= last {
-            let found = if now == last {
-                "repeated time"
-            } else {
-                "time that runs back"
-            };
+            let found = if now == last { "repeated time" } else { "time that runs back" };
             return told(
                 row,
                 format!("found {now} s after {last} s, a {found}; expected time to increase from row to row"),
@@ -215,11 +179,7 @@ fn clock(table: &Table, rule: &Rule, raw: &Channel) -> Result<(Vec<f64>, Option<
 /// One channel in its contract unit.
 fn convert(raw: &Channel, rule: &Rule, t_s: &[f64], first_step_s: Option<f64>) -> Channel {
     let Some(counts) = rule.counts else {
-        return if rule.is_plain() {
-            raw.clone()
-        } else {
-            raw.map(|_, v| rule.linear(v))
-        };
+        return if rule.is_plain() { raw.clone() } else { raw.map(|_, v| rule.linear(v)) };
     };
     let turn = TAU / counts.per_turn;
     let mut last: Option<(usize, f64)> = None;
@@ -230,11 +190,7 @@ fn convert(raw: &Channel, rule: &Rule, t_s: &[f64], first_step_s: Option<f64>) -
             let (earlier, position) = before.ok_or(Missing::Blank)?;
             (value - position, t_s[row] - t_s[earlier])
         } else {
-            let length = if row == 0 {
-                first_step_s
-            } else {
-                Some(t_s[row] - t_s[row - 1])
-            };
+            let length = if row == 0 { first_step_s } else { Some(t_s[row] - t_s[row - 1]) };
             (value, length.ok_or(Missing::Blank)?)
         };
         Ok(rule.linear(counted * turn / length_s))
@@ -260,22 +216,12 @@ fn place(run: &mut Run, target: Target, channel: Channel) {
 /// Drops what is blank throughout, and sets what the mapping says of whole groups.
 fn finish(run: &mut Run, columns: Option<&Columns>, notices: &mut Vec<String>) -> Result<()> {
     let place = run.path.display().to_string();
-    let groups = [
-        ("u", &mut run.u),
-        ("i", &mut run.i),
-        ("w", &mut run.w),
-        ("wset", &mut run.wset),
-        ("pose", &mut run.pose),
-    ];
+    let groups =
+        [("u", &mut run.u), ("i", &mut run.i), ("w", &mut run.w), ("wset", &mut run.wset), ("pose", &mut run.pose)];
     let mut any = false;
     for (name, group) in groups {
-        if group
-            .as_ref()
-            .is_some_and(|group| group.channels.iter().all(Channel::is_blank))
-        {
-            notices.push(format!(
-                "{place}: every field of group `{name}` is empty; it counts as absent"
-            ));
+        if group.as_ref().is_some_and(|group| group.channels.iter().all(Channel::is_blank)) {
+            notices.push(format!("{place}: every field of group `{name}` is empty; it counts as absent"));
             *group = None;
         }
         if let (Some(group), Some(flags)) = (group.as_mut(), columns.and_then(|columns| columns.groups.get(name))) {
@@ -284,29 +230,19 @@ fn finish(run: &mut Run, columns: Option<&Columns>, notices: &mut Vec<String>) -
         }
         if let Some(group) = group {
             any = true;
-            let blank = group
-                .channels
-                .iter()
-                .enumerate()
-                .filter(|(_, channel)| channel.is_blank());
+            let blank = group.channels.iter().enumerate().filter(|(_, channel)| channel.is_blank());
             notices.extend(blank.map(|(at, _)| format!("{place}: channel {at} of group `{name}` is empty throughout")));
         }
     }
     for (name, channel) in [("vbat_V", &mut run.vbat), ("gyro_rad_s", &mut run.gyro)] {
         if channel.as_ref().is_some_and(Channel::is_blank) {
-            notices.push(format!(
-                "{place}: every field of `{name}` is empty; it counts as absent"
-            ));
+            notices.push(format!("{place}: every field of `{name}` is empty; it counts as absent"));
             *channel = None;
         }
     }
     match any {
         true => Ok(()),
-        false => Err(Error::input(
-            &run.path,
-            "every signal is empty throughout",
-            "Record the run again",
-        )),
+        false => Err(Error::input(&run.path, "every signal is empty throughout", "Record the run again")),
     }
 }
 

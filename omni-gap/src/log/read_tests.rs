@@ -20,10 +20,7 @@ fn a_log_of_the_contract_is_read_with_its_holes() {
         (Ok(1.0), Err(Missing::Blank), Ok(3.0))
     );
     assert_eq!(run.pose.unwrap().channels[2].get(1), Err(Missing::Blank));
-    assert!(
-        notices.len() == 1 && notices[0].ends_with("columns left out: `note`"),
-        "{notices:?}"
-    );
+    assert!(notices.len() == 1 && notices[0].ends_with("columns left out: `note`"), "{notices:?}");
 }
 
 #[test]
@@ -40,10 +37,7 @@ fn what_is_written_is_read_again() {
 fn a_group_that_is_empty_throughout_counts_as_absent() {
     let text = format!("{HEADER}0,1,2,3,,,,7\n0.01,1,2,3,,,,7\n");
     let (run, notices) = read(text.as_bytes(), 3).unwrap();
-    assert!(
-        run.pose.is_none() && notices[1].contains("group `pose` is empty; it counts as absent"),
-        "{notices:?}"
-    );
+    assert!(run.pose.is_none() && notices[1].contains("group `pose` is empty; it counts as absent"), "{notices:?}");
 }
 
 #[test]
@@ -54,56 +48,23 @@ fn each_mistake_in_a_log_has_its_line_and_column() {
         (b" \n\n".to_vec(), "the file is empty"),
         (rows(""), "there is a header and no rows"),
         (rows("0,1,2,3,0,0,0,0\n"), "there is a header and one row"),
-        (
-            rows("0,1,2,3,0,0,0,0\n0.01,1,2,x,0,0,0,0\n"),
-            "a.csv:3: column `u2_V`: found `x`, expected a finite number",
-        ),
-        (
-            rows("0,1,2,3,0,0,0,0\n\n0.01,1,2,NaN,0,0,0,0\n"),
-            "a.csv:4: column `u2_V`: found `NaN`",
-        ),
+        (rows("0,1,2,3,0,0,0,0\n0.01,1,2,x,0,0,0,0\n"), "a.csv:3: column `u2_V`: found `x`, expected a finite number"),
+        (rows("0,1,2,3,0,0,0,0\n\n0.01,1,2,NaN,0,0,0,0\n"), "a.csv:4: column `u2_V`: found `NaN`"),
         (rows("0,1,2,3,0,0,0,0\n0.01,1,2,inf,0,0,0,0\n"), "found `inf`"),
         (rows("0,1,2,3,0,0,0,0\n0.01,1,2,1e999,0,0,0,0\n"), "found `1e999`"),
-        (
-            rows("0,1,2,3,0,0,0,0\n0.01,1,2\n"),
-            "a.csv:3: found 3 fields, expected 8",
-        ),
-        (
-            rows("0,1,2,3,0,0,0,0\n0.01,1,2,3,4,5,6,7,8\n"),
-            "a.csv:3: found 9 fields, expected 8",
-        ),
-        (
-            rows("0,1,2,3,0,0,0,0\n0,1,2,3,0,0,0,0\n"),
-            "a.csv:3: column `t_s`: found 0 s after 0 s, a repeated time",
-        ),
-        (
-            rows("1,1,2,3,0,0,0,0\n0.5,1,2,3,0,0,0,0\n"),
-            "found 0.5 s after 1 s, a time that runs back",
-        ),
-        (
-            rows(",1,2,3,0,0,0,0\n0.5,1,2,3,0,0,0,0\n"),
-            "a.csv:2: column `t_s`: the time is missing",
-        ),
-        (
-            b"t_s,u0_V,u1_V\n0,1,2\n".to_vec(),
-            "column `u2_V`: the column is missing: 2 of 3 wheels have one",
-        ),
+        (rows("0,1,2,3,0,0,0,0\n0.01,1,2\n"), "a.csv:3: found 3 fields, expected 8"),
+        (rows("0,1,2,3,0,0,0,0\n0.01,1,2,3,4,5,6,7,8\n"), "a.csv:3: found 9 fields, expected 8"),
+        (rows("0,1,2,3,0,0,0,0\n0,1,2,3,0,0,0,0\n"), "a.csv:3: column `t_s`: found 0 s after 0 s, a repeated time"),
+        (rows("1,1,2,3,0,0,0,0\n0.5,1,2,3,0,0,0,0\n"), "found 0.5 s after 1 s, a time that runs back"),
+        (rows(",1,2,3,0,0,0,0\n0.5,1,2,3,0,0,0,0\n"), "a.csv:2: column `t_s`: the time is missing"),
+        (b"t_s,u0_V,u1_V\n0,1,2\n".to_vec(), "column `u2_V`: the column is missing: 2 of 3 wheels have one"),
         (
             b"t_s,u0_V,u1_V,u2_V,u3_V\n0,1,2,3,4\n".to_vec(),
             "column `u3_V`: a column for a wheel that the robot file does not have",
         ),
-        (
-            b"u0_V,u1_V,u2_V\n1,2,3\n".to_vec(),
-            "column `t_s`: the column is missing",
-        ),
-        (
-            b"t_s,a,b\n0,1,2\n".to_vec(),
-            "found no signal, expected at least one of",
-        ),
-        (
-            b"0,1,2\n0,1,2\n".to_vec(),
-            "a.csv:1: found a line of numbers, expected a header line",
-        ),
+        (b"u0_V,u1_V,u2_V\n1,2,3\n".to_vec(), "column `t_s`: the column is missing"),
+        (b"t_s,a,b\n0,1,2\n".to_vec(), "found no signal, expected at least one of"),
+        (b"0,1,2\n0,1,2\n".to_vec(), "a.csv:1: found a line of numbers, expected a header line"),
     ];
     for (text, expected) in mistakes {
         let told = read(&text, 3).expect_err(expected).to_string();

@@ -11,19 +11,8 @@ use toml_edit::{Item, TableLike};
 /// The newest form of the robot file that this program knows.
 const NEWEST_SCHEMA: usize = 1;
 
-const TOP: [&str; 11] = [
-    "schema",
-    "name",
-    "wheel",
-    "motor",
-    "body",
-    "friction",
-    "sensors",
-    "uncertainty",
-    "supply",
-    "limits",
-    "effects",
-];
+const TOP: [&str; 11] =
+    ["schema", "name", "wheel", "motor", "body", "friction", "sensors", "uncertainty", "supply", "limits", "effects"];
 
 pub(super) fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
     let source = Source { path, text };
@@ -32,19 +21,10 @@ pub(super) fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<Ro
     let schema = top.whole("schema")?;
     if let Some(newer) = schema.filter(|schema| *schema > NEWEST_SCHEMA) {
         let problem = format!("the robot file has form {newer}, this program knows forms up to {NEWEST_SCHEMA}");
-        return Err(top.key_error(
-            "schema",
-            problem,
-            "Use a newer program, or write the file in the older form",
-        ));
+        return Err(top.key_error("schema", problem, "Use a newer program, or write the file in the older form"));
     }
     top.only_keys(&TOP)?;
-    let section = |key, title| {
-        top.table
-            .get(key)
-            .map(|item| Section::new(source, title, item))
-            .transpose()
-    };
+    let section = |key, title| top.table.get(key).map(|item| Section::new(source, title, item)).transpose();
     let needed = |key, title: &'static str| {
         section(key, title)?.ok_or_else(|| Error::input(path, format!("{title} is missing"), format!("Add {title}")))
     };
@@ -69,20 +49,15 @@ pub(super) fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<Ro
 fn tables(item: &Item) -> Option<Vec<&dyn TableLike>> {
     match item {
         Item::ArrayOfTables(list) => Some(list.iter().map(|table| table as &dyn TableLike).collect()),
-        Item::Value(value) => value
-            .as_array()?
-            .iter()
-            .map(|v| v.as_inline_table().map(|table| table as &dyn TableLike))
-            .collect(),
+        Item::Value(value) => {
+            value.as_array()?.iter().map(|v| v.as_inline_table().map(|table| table as &dyn TableLike)).collect()
+        }
         _ => None,
     }
 }
 
 fn span_of(table: &dyn TableLike) -> Option<std::ops::Range<usize>> {
-    table
-        .iter()
-        .next()
-        .and_then(|(key, _)| table.get_key_value(key)?.0.span())
+    table.iter().next().and_then(|(key, _)| table.get_key_value(key)?.0.span())
 }
 
 fn wheels(source: Source, top: &dyn TableLike) -> Result<Vec<WheelFile>> {
@@ -93,21 +68,12 @@ fn wheels(source: Source, top: &dyn TableLike) -> Result<Vec<WheelFile>> {
             "Add one [[wheel]] per wheel",
         ));
     };
-    let expected = || {
-        source.error(
-            item.span(),
-            "`wheel` is not a list of tables",
-            "Write [[wheel]] once per wheel",
-        )
-    };
+    let expected = || source.error(item.span(), "`wheel` is not a list of tables", "Write [[wheel]] once per wheel");
     let list = tables(item).ok_or_else(expected)?;
     let mut wheels = Vec::new();
     for (number, table) in list.iter().enumerate() {
         let title = format!("[[wheel]] {number}");
-        let span = item
-            .as_array_of_tables()
-            .and_then(|list| list.get(number)?.span())
-            .or_else(|| span_of(*table));
+        let span = item.as_array_of_tables().and_then(|list| list.get(number)?.span()).or_else(|| span_of(*table));
         let section = Section::of(source, &title, *table, span);
         section.only_keys(&["drive_angle_deg", "distance_m", "radius_m"])?;
         wheels.push(WheelFile {
@@ -116,25 +82,16 @@ fn wheels(source: Source, top: &dyn TableLike) -> Result<Vec<WheelFile>> {
             radius_m: section.positive("radius_m")?,
         });
     }
-    let first = item
-        .as_array_of_tables()
-        .and_then(|list| list.get(0)?.span())
-        .or_else(|| item.span());
+    let first = item.as_array_of_tables().and_then(|list| list.get(0)?.span()).or_else(|| item.span());
     if !(3..=4).contains(&wheels.len()) {
-        let found = ["no wheels", "one wheel", "two wheels"]
-            .get(wheels.len())
-            .map(|s| s.to_string());
+        let found = ["no wheels", "one wheel", "two wheels"].get(wheels.len()).map(|s| s.to_string());
         let found = found.unwrap_or_else(|| format!("{} wheels", wheels.len()));
         let problem = format!("{found} in the robot file, expected three or four");
         return Err(source.error(first, problem, "Describe each wheel in its own [[wheel]] table"));
     }
     if !tells_the_motion(&wheels) {
         let problem = "the drive angles cannot tell the body's motion: a direction moves no wheel";
-        return Err(source.error(
-            first,
-            problem,
-            "Correct drive_angle_deg; wheels must not all roll along one line",
-        ));
+        return Err(source.error(first, problem, "Correct drive_angle_deg; wheels must not all roll along one line"));
     }
     Ok(wheels)
 }
@@ -152,12 +109,7 @@ fn tells_the_motion(wheels: &[WheelFile]) -> bool {
 }
 
 fn motor(s: &Section) -> Result<MotorFile> {
-    s.only_keys(&[
-        "gear_ratio",
-        "resistance_ohm",
-        "emf_constant_V_s",
-        "torque_constant_Nm_per_A",
-    ])?;
+    s.only_keys(&["gear_ratio", "resistance_ohm", "emf_constant_V_s", "torque_constant_Nm_per_A"])?;
     Ok(MotorFile {
         gear_ratio: s.positive("gear_ratio")?,
         resistance_ohm: s.positive("resistance_ohm")?,
@@ -168,10 +120,7 @@ fn motor(s: &Section) -> Result<MotorFile> {
 
 fn body(s: &Section) -> Result<BodyFile> {
     s.only_keys(&["mass_kg", "inertia_kg_m2"])?;
-    Ok(BodyFile {
-        mass_kg: s.positive("mass_kg")?,
-        inertia_kg_m2: s.positive("inertia_kg_m2")?,
-    })
+    Ok(BodyFile { mass_kg: s.positive("mass_kg")?, inertia_kg_m2: s.positive("inertia_kg_m2")? })
 }
 
 fn friction(s: &Section) -> Result<FrictionFile> {
@@ -188,21 +137,11 @@ fn friction(s: &Section) -> Result<FrictionFile> {
 }
 
 fn sensors(s: &Section) -> Result<SensorsFile> {
-    s.only_keys(&[
-        "current_noise_A",
-        "wheel_speed_noise_rad_s",
-        "position_noise_m",
-        "heading_noise_rad",
-    ])?;
+    s.only_keys(&["current_noise_A", "wheel_speed_noise_rad_s", "position_noise_m", "heading_noise_rad"])?;
     let default = SensorsFile::default();
     let noise = |key, default| {
         let sigma = s.number(key)?.unwrap_or(default);
-        s.checked(
-            key,
-            sigma,
-            sigma > 0.0,
-            "a noise above zero (gaps are measured in units of it)",
-        )
+        s.checked(key, sigma, sigma > 0.0, "a noise above zero (gaps are measured in units of it)")
     };
     Ok(SensorsFile {
         current_noise_a: noise("current_noise_A", default.current_noise_a)?,
@@ -214,27 +153,18 @@ fn sensors(s: &Section) -> Result<SensorsFile> {
 
 fn uncertainty(s: &Section) -> Result<BTreeMap<String, f64>> {
     s.only_keys(&DEFAULT_UNCERTAINTY.map(|(key, _)| key))?;
-    s.table
-        .iter()
-        .map(|(key, _)| Ok((key.to_string(), s.not_negative(key, 0.0)?)))
-        .collect()
+    s.table.iter().map(|(key, _)| Ok((key.to_string(), s.not_negative(key, 0.0)?))).collect()
 }
 
 fn supply(s: &Section) -> Result<SupplyFile> {
     s.only_keys(&["voltage_V"])?;
-    Ok(SupplyFile {
-        voltage_v: s.positive("voltage_V")?,
-    })
+    Ok(SupplyFile { voltage_v: s.positive("voltage_V")? })
 }
 
 fn limits(s: &Section) -> Result<LimitsFile> {
     s.only_keys(&["current_A", "speed_m_s", "field_m"])?;
     let limit = |key| s.number(key)?.map(|_| s.positive(key)).transpose();
-    Ok(LimitsFile {
-        current_a: limit("current_A")?,
-        speed_m_s: limit("speed_m_s")?,
-        field_m: limit("field_m")?,
-    })
+    Ok(LimitsFile { current_a: limit("current_A")?, speed_m_s: limit("speed_m_s")?, field_m: limit("field_m")? })
 }
 
 fn effects(s: &Section, catalogue: &Catalogue, wheels: usize) -> Result<Vec<EffectEntry>> {
@@ -255,16 +185,10 @@ fn effects(s: &Section, catalogue: &Catalogue, wheels: usize) -> Result<Vec<Effe
             return Err(s.key_error(id, problem, format!("Write [effects.{id}] and its parameters below it")));
         };
         for (number, table) in list.into_iter().enumerate() {
-            let span = item
-                .as_array_of_tables()
-                .and_then(|list| list.get(number)?.span())
-                .or_else(|| item.span());
+            let span = item.as_array_of_tables().and_then(|list| list.get(number)?.span()).or_else(|| item.span());
             let title = format!("[effects.{id}]");
             let entry = effect(&Section::of(s.source, &title, table, span), id, catalogue, wheels)?;
-            if all
-                .iter()
-                .any(|other| other.id == entry.id && other.wheel == entry.wheel)
-            {
+            if all.iter().any(|other| other.id == entry.id && other.wheel == entry.wheel) {
                 let place = entry.wheel.map_or(String::new(), |wheel| format!(" on wheel {wheel}"));
                 let error = Section::of(s.source, &title, table, item.span());
                 return Err(error.error(format!("`{id}`{place} stands twice"), "Keep one of the two tables"));
@@ -276,10 +200,7 @@ fn effects(s: &Section, catalogue: &Catalogue, wheels: usize) -> Result<Vec<Effe
 }
 
 fn effect(s: &Section, id: &str, catalogue: &Catalogue, wheels: usize) -> Result<EffectEntry> {
-    let params = catalogue
-        .find(id)
-        .map(|known| known.params.as_slice())
-        .unwrap_or_default();
+    let params = catalogue.find(id).map(|known| known.params.as_slice()).unwrap_or_default();
     let mut keys: Vec<&str> = params.iter().map(|param| param.key.as_str()).collect();
     keys.push("wheel");
     s.only_keys(&keys)?;
@@ -290,21 +211,13 @@ fn effect(s: &Section, id: &str, catalogue: &Catalogue, wheels: usize) -> Result
     }
     let mut given = BTreeMap::new();
     for param in params {
-        let value = if param.required {
-            Some(s.needed(&param.key)?)
-        } else {
-            s.number(&param.key)?
-        };
+        let value = if param.required { Some(s.needed(&param.key)?) } else { s.number(&param.key)? };
         let Some(value) = value else { continue };
         let expected = format!("a value from {} to {}", param.low, param.high);
         s.checked(&param.key, value, (param.low..=param.high).contains(&value), &expected)?;
         given.insert(param.key.clone(), value);
     }
-    Ok(EffectEntry {
-        id: id.to_string(),
-        wheel,
-        params: given,
-    })
+    Ok(EffectEntry { id: id.to_string(), wheel, params: given })
 }
 
 #[cfg(test)]

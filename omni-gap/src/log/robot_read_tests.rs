@@ -26,26 +26,10 @@ inertia_kg_m2 = 0.0169
 "#;
 
 fn catalogue() -> Catalogue {
-    let param = |key: &str, low, high, required| KnownParam {
-        key: key.into(),
-        low,
-        high,
-        required,
-    };
+    let param = |key: &str, low, high, required| KnownParam { key: key.into(), low, high, required };
     let ratio = param("torque_constant_ratio", 0.1, 2.0, true);
-    let coriolis = KnownEffect {
-        id: "coriolis".into(),
-        params: vec![param("factor", 0.0, 2.0, false)],
-    };
-    Catalogue {
-        effects: vec![
-            coriolis,
-            KnownEffect {
-                id: "motor_mismatch".into(),
-                params: vec![ratio],
-            },
-        ],
-    }
+    let coriolis = KnownEffect { id: "coriolis".into(), params: vec![param("factor", 0.0, 2.0, false)] };
+    Catalogue { effects: vec![coriolis, KnownEffect { id: "motor_mismatch".into(), params: vec![ratio] }] }
 }
 
 fn read(text: &str) -> Result<RobotFile> {
@@ -77,18 +61,8 @@ fn effects_are_read_in_order_as_tables_and_as_lists() {
          [[effects.motor_mismatch]]\nwheel = 1\ntorque_constant_ratio = 0.9\n[effects.coriolis]\n"
     );
     let effects = read(&text).unwrap().effects;
-    let seen: Vec<_> = effects
-        .iter()
-        .map(|e| (e.id.as_str(), e.wheel, e.params.len()))
-        .collect();
-    assert_eq!(
-        seen,
-        [
-            ("motor_mismatch", Some(2), 1),
-            ("motor_mismatch", Some(1), 1),
-            ("coriolis", None, 0)
-        ]
-    );
+    let seen: Vec<_> = effects.iter().map(|e| (e.id.as_str(), e.wheel, e.params.len())).collect();
+    assert_eq!(seen, [("motor_mismatch", Some(2), 1), ("motor_mismatch", Some(1), 1), ("coriolis", None, 0)]);
 }
 
 #[test]
@@ -98,61 +72,29 @@ fn each_mistake_has_its_line_and_its_mend() {
             GOOD.replace("mass_kg = 1.944", "mass_kg = -1"),
             "robot.toml:20: column `mass_kg`: found -1, expected a number above zero",
         ),
-        (
-            GOOD.replace("mass_kg = 1.944", "mass_kg = 0"),
-            "found 0, expected a number above zero",
-        ),
-        (
-            GOOD.replace("mass_kg = 1.944", "mass_kg = nan"),
-            "found NaN, expected a finite number",
-        ),
-        (
-            GOOD.replace("mass_kg = 1.944", "mass_kg = \"2\""),
-            "found string, expected a number",
-        ),
-        (
-            GOOD.replace("mass_kg", "mas_kg"),
-            "unknown key in [body]. Did you mean `mass_kg`?",
-        ),
+        (GOOD.replace("mass_kg = 1.944", "mass_kg = 0"), "found 0, expected a number above zero"),
+        (GOOD.replace("mass_kg = 1.944", "mass_kg = nan"), "found NaN, expected a finite number"),
+        (GOOD.replace("mass_kg = 1.944", "mass_kg = \"2\""), "found string, expected a number"),
+        (GOOD.replace("mass_kg", "mas_kg"), "unknown key in [body]. Did you mean `mass_kg`?"),
         (GOOD.replace("mass_kg = 1.944\n", ""), "[body] lacks `mass_kg`"),
         (GOOD.replace("[body]", "[boddy]"), "Did you mean `body`?"),
         (
-            GOOD.replace(
-                "[[wheel]]\ndrive_angle_deg = 30\ndistance_m = 0.089\nradius_m = 0.0325\n",
-                "",
-            ),
+            GOOD.replace("[[wheel]]\ndrive_angle_deg = 30\ndistance_m = 0.089\nradius_m = 0.0325\n", ""),
             "robot.toml:2: two wheels in the robot file, expected three or four",
         ),
-        (
-            GOOD.replace("150.0", "0")
-                .replace("270.0", "180")
-                .replace("= 30", "= 0"),
-            "cannot tell the body's motion",
-        ),
+        (GOOD.replace("150.0", "0").replace("270.0", "180").replace("= 30", "= 0"), "cannot tell the body's motion"),
         (
             format!("schema = 2\n{GOOD}"),
             "robot.toml:1: column `schema`: the robot file has form 2, this program knows forms up to 1",
         ),
-        (
-            format!("{GOOD}[friction]\ncoulomb_v_N = -0.1\n"),
-            "found -0.1, expected zero or a number above it",
-        ),
-        (
-            format!("{GOOD}[uncertainty]\nmass = 0.1\n"),
-            "unknown key in [uncertainty]. Did you mean `mass_kg`?",
-        ),
+        (format!("{GOOD}[friction]\ncoulomb_v_N = -0.1\n"), "found -0.1, expected zero or a number above it"),
+        (format!("{GOOD}[uncertainty]\nmass = 0.1\n"), "unknown key in [uncertainty]. Did you mean `mass_kg`?"),
         (
             format!("{GOOD}[effects.coriolois]\n"),
             "robot.toml:22: column `coriolois`: unknown effect `coriolois`. Did you mean `coriolis`?",
         ),
-        (
-            format!("{GOOD}[effects.coriolis]\nfactor = 3\n"),
-            "found 3, expected a value from 0 to 2",
-        ),
-        (
-            format!("{GOOD}[effects.coriolis]\nfaktor = 1\n"),
-            "Did you mean `factor`?",
-        ),
+        (format!("{GOOD}[effects.coriolis]\nfactor = 3\n"), "found 3, expected a value from 0 to 2"),
+        (format!("{GOOD}[effects.coriolis]\nfaktor = 1\n"), "Did you mean `factor`?"),
         (
             format!("{GOOD}[effects.motor_mismatch]\nwheel = 1\n"),
             "robot.toml:22: column `torque_constant_ratio`: [effects.motor_mismatch] lacks",
@@ -161,10 +103,7 @@ fn each_mistake_has_its_line_and_its_mend() {
             format!("{GOOD}[effects.motor_mismatch]\nwheel = 3\ntorque_constant_ratio = 0.9\n"),
             "found wheel 3, the robot has wheels 0 to 2",
         ),
-        (
-            format!("{GOOD}[effects]\ncoriolis = 1\n"),
-            "found integer, expected a table of parameters",
-        ),
+        (format!("{GOOD}[effects]\ncoriolis = 1\n"), "found integer, expected a table of parameters"),
         (format!("{GOOD}[motor\n"), "robot.toml:22: this is not valid TOML"),
         (String::new(), "no [[wheel]] found"),
     ];
@@ -179,8 +118,6 @@ fn a_missing_file_and_a_folder_are_told_apart() {
     let folder = tempfile::tempdir().unwrap();
     let told = RobotFile::load(folder.path(), &catalogue()).unwrap_err().to_string();
     assert!(told.contains("this is a folder, expected a robot file"), "{told}");
-    let told = RobotFile::load(&folder.path().join("robot.toml"), &catalogue())
-        .unwrap_err()
-        .to_string();
+    let told = RobotFile::load(&folder.path().join("robot.toml"), &catalogue()).unwrap_err().to_string();
     assert!(told.contains("no such file"), "{told}");
 }

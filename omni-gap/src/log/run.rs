@@ -21,13 +21,7 @@ pub enum Missing {
     BadCrc,
 }
 
-const REASONS: [Missing; 5] = [
-    Missing::Blank,
-    Missing::Lost,
-    Missing::Saturated,
-    Missing::Stale,
-    Missing::BadCrc,
-];
+const REASONS: [Missing; 5] = [Missing::Blank, Missing::Lost, Missing::Saturated, Missing::Stale, Missing::BadCrc];
 
 /// One signal over the rows of a run. Values are finite; a hole has a reason.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -40,10 +34,7 @@ pub struct Channel {
 impl Channel {
     /// An empty channel with room for `rows`.
     pub fn with_capacity(rows: usize) -> Channel {
-        Channel {
-            values: Vec::with_capacity(rows),
-            holes: Vec::new(),
-        }
+        Channel { values: Vec::with_capacity(rows), holes: Vec::new() }
     }
 
     /// A channel of numbers in SI units; one that is not finite becomes a hole, [`Missing::Lost`].
@@ -120,10 +111,7 @@ impl Channel {
 
     /// The same channel with each sample changed by `f(row, value)`; holes stay.
     pub fn map(&self, mut f: impl FnMut(usize, f64) -> f64) -> Channel {
-        self.iter()
-            .enumerate()
-            .map(|(row, sample)| sample.map(|value| f(row, value)))
-            .collect()
+        self.iter().enumerate().map(|(row, sample)| sample.map(|value| f(row, value))).collect()
     }
 
     /// Takes 2π jumps out of a heading in radians.
@@ -132,9 +120,7 @@ impl Channel {
     /// is a wrap. One that spans more was never wrapped, and is left as it is.
     pub fn unwrapped(&self) -> Channel {
         use std::f64::consts::{PI, TAU};
-        let (low, high) = self
-            .present()
-            .fold((f64::MAX, f64::MIN), |(l, h), (_, v)| (l.min(v), h.max(v)));
+        let (low, high) = self.present().fold((f64::MAX, f64::MIN), |(l, h), (_, v)| (l.min(v), h.max(v)));
         if high - low < PI || high - low > TAU + 1.0 {
             return self.clone();
         }
@@ -175,11 +161,7 @@ pub struct Group {
 impl Group {
     /// A signed group without a coarse step.
     pub fn new(channels: Vec<Channel>) -> Group {
-        Group {
-            channels,
-            unsigned: false,
-            quantum: None,
-        }
+        Group { channels, unsigned: false, quantum: None }
     }
 
     /// A group from columns of numbers in SI units.
@@ -234,10 +216,7 @@ impl Run {
 
     /// From the first row to the last (s).
     pub fn duration_s(&self) -> f64 {
-        self.t_s
-            .last()
-            .zip(self.t_s.first())
-            .map_or(0.0, |(last, first)| last - first)
+        self.t_s.last().zip(self.t_s.first()).map_or(0.0, |(last, first)| last - first)
     }
 
     /// The middle one of the row lengths (s); zero for fewer than two rows.
@@ -254,12 +233,7 @@ impl Run {
             all.extend(per_wheel(stem, unit, group));
         }
         if let Some(pose) = &self.pose {
-            all.extend(
-                ["x_m", "y_m", "theta_rad"]
-                    .iter()
-                    .zip(&pose.channels)
-                    .map(|(n, c)| (n.to_string(), c)),
-            );
+            all.extend(["x_m", "y_m", "theta_rad"].iter().zip(&pose.channels).map(|(n, c)| (n.to_string(), c)));
         }
         all.extend(per_wheel("wset", "rad_s", &self.wset));
         all.extend(self.vbat.iter().map(|c| ("vbat_V".to_string(), c)));
@@ -294,18 +268,13 @@ impl Run {
     pub fn supply_v(&self, robot: &RobotFile) -> Option<f64> {
         let seen = self.u.iter().flat_map(|group| &group.channels).chain(&self.vbat);
         let largest = seen.flat_map(|c| c.present()).map(|(_, v)| v.abs()).fold(0.0, f64::max);
-        robot
-            .supply
-            .map(|supply| supply.voltage_v)
-            .or((largest > 0.0).then_some(largest))
+        robot.supply.map(|supply| supply.voltage_v).or((largest > 0.0).then_some(largest))
     }
 }
 
 fn per_wheel<'a>(stem: &str, unit: &str, group: &'a Option<Group>) -> Vec<(String, &'a Channel)> {
     let channels = group.iter().flat_map(|group| &group.channels).enumerate();
-    channels
-        .map(|(wheel, channel)| (format!("{stem}{wheel}_{unit}"), channel))
-        .collect()
+    channels.map(|(wheel, channel)| (format!("{stem}{wheel}_{unit}"), channel)).collect()
 }
 
 #[cfg(test)]
@@ -342,11 +311,7 @@ mod tests {
     fn a_run_is_written_with_empty_fields_for_holes() {
         let mut i0 = Channel::from_values([0.5]);
         i0.push_missing(Missing::Lost);
-        let run = Run {
-            t_s: vec![0.0, 0.01],
-            i: Some(Group::new(vec![i0])),
-            ..Run::default()
-        };
+        let run = Run { t_s: vec![0.0, 0.01], i: Some(Group::new(vec![i0])), ..Run::default() };
         let mut text = Vec::new();
         run.write_csv(&mut text).unwrap();
         assert_eq!(String::from_utf8(text).unwrap(), "t_s,i0_A\n0,0.5\n0.01,\n");

@@ -28,26 +28,15 @@ impl Session {
     /// `runs/` and, if there is one, `heldout/`.
     pub fn load(folder: &Path, columns: Option<&Path>, catalogue: &Catalogue) -> Result<Session> {
         if !folder.is_dir() {
-            let found = if folder.exists() {
-                "this is a file, expected a session folder"
-            } else {
-                "no such folder"
-            };
+            let found = if folder.exists() { "this is a file, expected a session folder" } else { "no such folder" };
             return Err(Error::input(folder, found, "Give a folder with robot.toml and runs/"));
         }
         let own = folder.join("columns.toml");
-        let columns = columns
-            .or_else(|| own.exists().then_some(&*own))
-            .map(Columns::load)
-            .transpose()?;
+        let columns = columns.or_else(|| own.exists().then_some(&*own)).map(Columns::load).transpose()?;
         let mut session = Session::of_robot(&folder.join("robot.toml"), catalogue)?;
         let runs = folder.join("runs");
         if !runs.is_dir() {
-            return Err(Error::input(
-                &runs,
-                "there is no such folder",
-                "Put the run logs into a folder named runs",
-            ));
+            return Err(Error::input(&runs, "there is no such folder", "Put the run logs into a folder named runs"));
         }
         let paths = session.files_in(&runs, columns.as_ref())?;
         session.runs = session.read(&paths, columns.as_ref())?;
@@ -77,13 +66,7 @@ impl Session {
     fn of_robot(path: &Path, catalogue: &Catalogue) -> Result<Session> {
         let robot_text = read_text(path, "a robot file")?;
         let robot = RobotFile::parse(&robot_text, path, catalogue)?;
-        Ok(Session {
-            robot,
-            robot_text,
-            runs: Vec::new(),
-            heldout: Vec::new(),
-            notices: Vec::new(),
-        })
+        Ok(Session { robot, robot_text, runs: Vec::new(), heldout: Vec::new(), notices: Vec::new() })
     }
 
     /// The run logs in a folder, by name. Without a mapping they are the `.csv` files.
@@ -97,15 +80,11 @@ impl Session {
             if name.starts_with('.') {
                 continue;
             }
-            let fits = columns.map_or_else(
-                || name.to_ascii_lowercase().ends_with(".csv"),
-                |columns| columns.takes(&name),
-            );
+            let fits =
+                columns.map_or_else(|| name.to_ascii_lowercase().ends_with(".csv"), |columns| columns.takes(&name));
             match fits && !path.is_dir() {
                 true => paths.push(path),
-                false => self
-                    .notices
-                    .push(format!("{}: not a run log, left out", path.display())),
+                false => self.notices.push(format!("{}: not a run log, left out", path.display())),
             }
         }
         self.notices.sort();
@@ -141,12 +120,7 @@ fn tell_apart(runs: &mut [Run]) {
     let names: Vec<String> = runs.iter().map(|run| run.name.clone()).collect();
     for run in runs {
         if names.iter().filter(|name| **name == run.name).count() > 1 {
-            let folder = run
-                .path
-                .parent()
-                .and_then(Path::file_name)
-                .unwrap_or_default()
-                .to_string_lossy();
+            let folder = run.path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
             let file = run.path.file_name().unwrap_or_default().to_string_lossy();
             run.name = format!("{folder}/{file}");
         }

@@ -27,12 +27,7 @@ fn a_folder_is_read_in_the_order_of_names() {
         ("heldout/c.csv", LOG),
     ];
     let session = load(&files).unwrap();
-    let names: Vec<&str> = session
-        .runs
-        .iter()
-        .chain(&session.heldout)
-        .map(|run| run.name.as_str())
-        .collect();
+    let names: Vec<&str> = session.runs.iter().chain(&session.heldout).map(|run| run.name.as_str()).collect();
     assert_eq!(names, ["a", "b", "c"]);
     assert_eq!(session.robot_text, GOOD);
     assert!(session.notices.len() == 1 && session.notices[0].ends_with("notes.txt: not a run log, left out"));
@@ -55,13 +50,8 @@ fn a_mapping_in_the_folder_is_used() {
 fn parts_may_lie_anywhere_and_equal_names_are_told_apart() {
     let folder = session(&[("nominal.toml", GOOD), ("x/a.csv", LOG), ("y/a.csv", LOG)]);
     let at = |name: &str| folder.path().join(name);
-    let session = Session::load_from(
-        &at("nominal.toml"),
-        None,
-        &[at("x"), at("y/a.csv")],
-        &Catalogue::default(),
-    )
-    .unwrap();
+    let session =
+        Session::load_from(&at("nominal.toml"), None, &[at("x"), at("y/a.csv")], &Catalogue::default()).unwrap();
     let names: Vec<&str> = session.runs.iter().map(|run| run.name.as_str()).collect();
     assert_eq!(names, ["x/a.csv", "y/a.csv"]);
 }
@@ -72,14 +62,10 @@ fn what_is_missing_is_named() {
     assert!(told(&[("runs/a.csv", LOG)]).contains("robot.toml: no such file, expected a robot file"));
     assert!(told(&[("robot.toml", GOOD)]).contains("runs: there is no such folder"));
     assert!(told(&[("robot.toml", GOOD), ("runs/a.txt", LOG)]).contains("runs: there is no run log in the folder"));
-    let nowhere = Session::load(Path::new("no/such/folder"), None, &Catalogue::default())
-        .unwrap_err()
-        .to_string();
+    let nowhere = Session::load(Path::new("no/such/folder"), None, &Catalogue::default()).unwrap_err().to_string();
     assert!(nowhere.contains("no such folder"));
     let folder = session(&[("file", "")]);
-    let file = Session::load(&folder.path().join("file"), None, &Catalogue::default())
-        .unwrap_err()
-        .to_string();
+    let file = Session::load(&folder.path().join("file"), None, &Catalogue::default()).unwrap_err().to_string();
     assert!(file.contains("this is a file, expected a session folder"));
 }
 

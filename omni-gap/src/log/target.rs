@@ -97,18 +97,9 @@ mod tests {
 
     #[test]
     fn every_name_is_read_as_it_is_written() {
-        for name in [
-            "t_s",
-            "u0_V",
-            "i3_A",
-            "w2_rad_s",
-            "wset1_rad_s",
-            "x_m",
-            "y_m",
-            "theta_rad",
-            "vbat_V",
-            "gyro_rad_s",
-        ] {
+        for name in
+            ["t_s", "u0_V", "i3_A", "w2_rad_s", "wset1_rad_s", "x_m", "y_m", "theta_rad", "vbat_V", "gyro_rad_s"]
+        {
             assert_eq!(Target::named(name).map(|t| t.to_string()).as_deref(), Some(name));
         }
         for name in ["u_V", "u0_mV", "time", "", "w0", "q0_V"] {

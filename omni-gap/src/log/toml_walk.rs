@@ -18,35 +18,20 @@ pub(crate) fn read_text(path: &Path, what: &str) -> Result<String> {
     String::from_utf8(read_bytes(path, what)?).map_err(|broken| {
         let start = broken.utf8_error().valid_up_to();
         let line = 1 + broken.as_bytes()[..start].iter().filter(|b| **b == b'\n').count();
-        Error::input(
-            path,
-            "found bytes that are not UTF-8, expected text",
-            "Save the file as UTF-8 text",
-        )
-        .at_line(line)
+        Error::input(path, "found bytes that are not UTF-8, expected text", "Save the file as UTF-8 text").at_line(line)
     })
 }
 
 /// Reads a file, with one clear message where that cannot be done.
 pub(crate) fn read_bytes(path: &Path, what: &str) -> Result<Vec<u8>> {
     if path.is_dir() {
-        return Err(Error::input(
-            path,
-            format!("this is a folder, expected {what}"),
-            "Name a file inside it",
-        ));
+        return Err(Error::input(path, format!("this is a folder, expected {what}"), "Name a file inside it"));
     }
     std::fs::read(path).map_err(|reason| match reason.kind() {
-        std::io::ErrorKind::NotFound => Error::input(
-            path,
-            format!("no such file, expected {what}"),
-            "Check the path, or put the file there",
-        ),
-        _ => Error::input(
-            path,
-            format!("cannot be read: {reason}"),
-            "Check the file's permissions",
-        ),
+        std::io::ErrorKind::NotFound => {
+            Error::input(path, format!("no such file, expected {what}"), "Check the path, or put the file there")
+        }
+        _ => Error::input(path, format!("cannot be read: {reason}"), "Check the file's permissions"),
     })
 }
 
@@ -55,11 +40,7 @@ impl<'a> Source<'a> {
     pub fn parse(self) -> Result<Document<&'a str>> {
         Document::parse(self.text).map_err(|broken| {
             let told = broken.message().lines().collect::<Vec<_>>().join(", ");
-            self.error(
-                broken.span(),
-                format!("this is not valid TOML: {told}"),
-                "Correct the line",
-            )
+            self.error(broken.span(), format!("this is not valid TOML: {told}"), "Correct the line")
         })
     }
 
@@ -87,36 +68,23 @@ impl<'a> Section<'a> {
     pub fn new(source: Source<'a>, title: &'a str, item: &'a Item) -> Result<Section<'a>> {
         let table = item.as_table_like().ok_or_else(|| {
             let found = item.type_name();
-            source.error(
-                item.span(),
-                format!("found {found} for {title}, expected a table"),
-                "Write it as a table",
-            )
+            source.error(item.span(), format!("found {found} for {title}, expected a table"), "Write it as a table")
         })?;
         Ok(Section::of(source, title, table, item.span()))
     }
 
     pub fn of(source: Source<'a>, title: &'a str, table: &'a dyn TableLike, span: Option<Range<usize>>) -> Section<'a> {
-        Section {
-            source,
-            title,
-            table,
-            span: span.map(|s| (s.start, s.end)),
-        }
+        Section { source, title, table, span: span.map(|s| (s.start, s.end)) }
     }
 
     /// A mistake about the table as a whole.
     pub fn error(&self, problem: impl Into<String>, mend: impl Into<String>) -> Error {
-        self.source
-            .error(self.span.map(|(start, end)| start..end), problem, mend)
+        self.source.error(self.span.map(|(start, end)| start..end), problem, mend)
     }
 
     /// A mistake about one of its keys.
     pub fn key_error(&self, key: &str, problem: impl Into<String>, mend: impl Into<String>) -> Error {
-        let span = self
-            .table
-            .get_key_value(key)
-            .and_then(|(k, item)| k.span().or_else(|| item.span()));
+        let span = self.table.get_key_value(key).and_then(|(k, item)| k.span().or_else(|| item.span()));
         self.source.error(span, problem, mend).in_column(key)
     }
 
@@ -140,11 +108,9 @@ impl<'a> Section<'a> {
         let number = item.as_float().or_else(|| item.as_integer().map(|whole| whole as f64));
         match number {
             Some(number) if number.is_finite() => Ok(Some(number)),
-            Some(number) => Err(self.key_error(
-                key,
-                format!("found {number}, expected a finite number"),
-                "Give a finite number",
-            )),
+            Some(number) => {
+                Err(self.key_error(key, format!("found {number}, expected a finite number"), "Give a finite number"))
+            }
             None => {
                 let found = item.type_name();
                 Err(self.key_error(key, format!("found {found}, expected a number"), "Write a plain number"))
@@ -155,8 +121,7 @@ impl<'a> Section<'a> {
     /// A finite number that must be there.
     pub fn needed(&self, key: &str) -> Result<f64> {
         self.number(key)?.ok_or_else(|| {
-            self.error(format!("{} lacks `{key}`", self.title), format!("Add `{key} = …`"))
-                .in_column(key)
+            self.error(format!("{} lacks `{key}`", self.title), format!("Add `{key} = …`")).in_column(key)
         })
     }
 
@@ -198,13 +163,7 @@ impl<'a> Section<'a> {
         let Some(item) = self.table.get(key) else {
             return Ok(None);
         };
-        let problem = || {
-            self.key_error(
-                key,
-                format!("found {}, expected text", item.type_name()),
-                "Put it in quotes",
-            )
-        };
+        let problem = || self.key_error(key, format!("found {}, expected text", item.type_name()), "Put it in quotes");
         item.as_str().map(Some).ok_or_else(problem)
     }
 
@@ -214,11 +173,7 @@ impl<'a> Section<'a> {
             return Ok(None);
         };
         let problem = || {
-            self.key_error(
-                key,
-                format!("found {}, expected true or false", item.type_name()),
-                "Write true or false",
-            )
+            self.key_error(key, format!("found {}, expected true or false", item.type_name()), "Write true or false")
         };
         item.as_bool().map(Some).ok_or_else(problem)
     }

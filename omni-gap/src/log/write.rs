@@ -19,23 +19,12 @@ pub fn write_whole_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> std::i
         _ => Path::new("."),
     };
     if !folder.is_dir() {
-        return Err(Error::output(
-            path,
-            format!("there is no folder {}", folder.display()),
-            "Make the folder first",
-        ));
+        return Err(Error::output(path, format!("there is no folder {}", folder.display()), "Make the folder first"));
     }
     let told = |reason: std::io::Error| {
-        Error::output(
-            path,
-            reason.to_string(),
-            "Check the permissions of the folder and the space left",
-        )
+        Error::output(path, reason.to_string(), "Check the permissions of the folder and the space left")
     };
-    let mut file = tempfile::Builder::new()
-        .prefix(".omni-gap-")
-        .tempfile_in(folder)
-        .map_err(told)?;
+    let mut file = tempfile::Builder::new().prefix(".omni-gap-").tempfile_in(folder).map_err(told)?;
     {
         let mut out = std::io::BufWriter::with_capacity(1 << 16, file.as_file_mut());
         fill(&mut out).and_then(|()| out.flush()).map_err(told)?;
@@ -87,18 +76,8 @@ mod tests {
     #[test]
     fn a_folder_in_place_of_the_file_or_no_folder_at_all_is_told() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(
-            write_whole(folder.path(), b"")
-                .unwrap_err()
-                .to_string()
-                .contains("it is a folder")
-        );
+        assert!(write_whole(folder.path(), b"").unwrap_err().to_string().contains("it is a folder"));
         let nowhere = folder.path().join("no/report.json");
-        assert!(
-            write_whole(&nowhere, b"")
-                .unwrap_err()
-                .to_string()
-                .contains("there is no folder")
-        );
+        assert!(write_whole(&nowhere, b"").unwrap_err().to_string().contains("there is no folder"));
     }
 }

@@ -79,8 +79,7 @@ pub fn candidates<const N: usize>(present: &[Carried]) -> Vec<Candidate> {
 /// Parameter sets that span what the effect can look like: each size at half, once and twice its typical departure from
 /// absent, the others absent; each shape at a few values.
 fn trials(card: &'static Card, wheel: Option<usize>) -> Vec<Carried> {
-    let base: Vec<f64> =
-        card.params.iter().map(|p| if p.role == Role::Size { p.absent } else { p.typical }).collect();
+    let base: Vec<f64> = card.params.iter().map(|p| if p.role == Role::Size { p.absent } else { p.typical }).collect();
     let with = |changes: &[(usize, f64)]| {
         let mut params = base.clone();
         for (k, x) in changes {

@@ -100,9 +100,12 @@ struct Trial {
 
 /// True if the trial's own change may also go the other way: past "absent" within the bounds.
 fn both_ways(candidate: &Candidate, trial: &Carried) -> bool {
-    candidate.card.params.iter().zip(&trial.params).any(|(p, x)| {
-        *x != p.absent && p.within.0 < p.absent && p.absent < p.within.1
-    })
+    candidate
+        .card
+        .params
+        .iter()
+        .zip(&trial.params)
+        .any(|(p, x)| *x != p.absent && p.within.0 < p.absent && p.absent < p.within.1)
 }
 
 /// The trial with its departure from absent scaled, at most to half and to one and a half of it.
@@ -129,22 +132,28 @@ fn predictions<const N: usize>(
     (0..runs.len())
         .map(|k| {
             let run = runs[k];
-            let mut out: Vec<DVector<f64>> =
-                linear.windows[k].iter().map(|w| DVector::zeros(w.error.len())).collect();
+            let mut out: Vec<DVector<f64>> = linear.windows[k].iter().map(|w| DVector::zeros(w.error.len())).collect();
             let start = |w: usize| {
                 let [x, y, theta, v, vn, w] = starts[k][w];
                 (Pose { x, y, theta }, BodyTwist { v, vn, w })
             };
             let (mut at, mut last) = (0, usize::MAX);
-            run_windows(plant, run, &windows[k], start, |_| {}, |w, row, predicted| {
-                if w != last {
-                    (at, last) = (0, w);
-                }
-                for c in (0..count).filter(|c| run.saw(row, *c)) {
-                    out[w][at] = predicted[c] / run.sigma[c];
-                    at += 1;
-                }
-            });
+            run_windows(
+                plant,
+                run,
+                &windows[k],
+                start,
+                |_| {},
+                |w, row, predicted| {
+                    if w != last {
+                        (at, last) = (0, w);
+                    }
+                    for c in (0..count).filter(|c| run.saw(row, *c)) {
+                        out[w][at] = predicted[c] / run.sigma[c];
+                        at += 1;
+                    }
+                },
+            );
             out
         })
         .collect()

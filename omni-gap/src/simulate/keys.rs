@@ -34,13 +34,9 @@ pub const NOMINAL_KEYS: [NominalKey; 13] = [
     key("radius_m", "wheel", "m", &[Nominal::WheelRadius], |f| f.wheel[0].radius_m),
     key("resistance_ohm", "motor", "Ω", &[Nominal::Resistance], |f| f.motor.resistance_ohm),
     key("emf_constant_V_s", "motor", "V·s", &[Nominal::TorqueConstant], |f| f.motor.emf_constant_v_s),
-    key(
-        "torque_constant_Nm_per_A",
-        "motor",
-        "N·m/A",
-        &[Nominal::TorqueConstant, Nominal::KtOverKv],
-        |f| f.motor.torque_constant_nm_per_a,
-    ),
+    key("torque_constant_Nm_per_A", "motor", "N·m/A", &[Nominal::TorqueConstant, Nominal::KtOverKv], |f| {
+        f.motor.torque_constant_nm_per_a
+    }),
     key("mass_kg", "body", "kg", &[Nominal::Mass], |f| f.body.mass_kg),
     key("inertia_kg_m2", "body", "kg·m²", &[Nominal::Inertia], |f| f.body.inertia_kg_m2),
     key("viscous_v_N_s_per_m", "friction", "N·s/m", &[Nominal::ViscousV], |f| f.friction.viscous_v_n_s_per_m),

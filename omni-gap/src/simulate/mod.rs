@@ -18,5 +18,5 @@ pub use keys::{NOMINAL_KEYS, NominalKey};
 pub use model::{Carried, Model, Slot, robot_of};
 pub use predict::{Prediction, predict, restart_rows};
 pub use record::{Recording, record};
-pub use recorded::{Channels, Chain, MAX_CHANNELS, Recorded, Row};
+pub use recorded::{Chain, Channels, MAX_CHANNELS, Recorded, Row};
 pub use start::{Start, start_at};

@@ -87,12 +87,12 @@ impl<const N: usize> Model<N> {
     /// The nominal model of a robot file: factors of one and the effects that the file names.
     pub fn nominal(file: &RobotFile, supply: f64) -> Self {
         let robot = robot_of(file, supply);
-        let mut model = Self { file: Arc::new(file.clone()), robot, factor: [1.0; Nominal::COUNT], effects: Vec::new() };
+        let mut model =
+            Self { file: Arc::new(file.clone()), robot, factor: [1.0; Nominal::COUNT], effects: Vec::new() };
         for entry in &file.effects {
             let Some(effect) = effects::find::<f64>(&entry.id) else { continue };
             let card = effect.card();
-            let params =
-                card.params.iter().map(|p| entry.params.get(p.key).copied().unwrap_or(p.typical)).collect();
+            let params = card.params.iter().map(|p| entry.params.get(p.key).copied().unwrap_or(p.typical)).collect();
             model.carry(Carried { id: card.id, wheel: entry.wheel, params });
         }
         model
@@ -138,8 +138,7 @@ impl<const N: usize> Model<N> {
         let robot = robot_of::<N, T>(&self.file, self.robot.supply).scaled(&factor);
         let mut carried = Effects::default();
         for (at, effect) in self.effects.iter().enumerate() {
-            let params: Vec<T> =
-                effect.params.iter().enumerate().map(|(p, x)| lift(Slot::Param(at, p), *x)).collect();
+            let params: Vec<T> = effect.params.iter().enumerate().map(|(p, x)| lift(Slot::Param(at, p), *x)).collect();
             let hooks = effects::find::<T>(effect.id).expect("the id of a carried effect is one of the catalogue");
             match carried.add(hooks, effect.wheel, &params) {
                 Ok(()) => {}

@@ -72,10 +72,7 @@ pub fn start_at<const N: usize>(run: &Recorded<N>, row: usize) -> Start<N> {
         wheel_speed = Some(run.input[row]);
     }
     let axis = |a: usize| channel(2 * N + a, POSE_HALF_S);
-    let pose = axis(0)
-        .zip(axis(1))
-        .zip(axis(2))
-        .map(|((x, y), theta)| ([x.0, y.0, theta.0], [x.1, y.1, theta.1]));
+    let pose = axis(0).zip(axis(1)).zip(axis(2)).map(|((x, y), theta)| ([x.0, y.0, theta.0], [x.1, y.1, theta.1]));
     let gyro = smooth(t, row, SPEED_HALF_S, |k| run.gyro[k]).map(|g| g.0);
     Start { time: t[row], wheel_speed, pose, gyro }
 }

@@ -56,8 +56,14 @@ pub const CARD: Card = Card {
     needs_current: true,
     signature: "current short of (u − K_v·ω)/R by V_d/R, against its own sign, at all speeds; wheels do not start at small voltages",
     look_alikes: &[
-        LookAlike { with: "resistance", settled_by: "lock a wheel and ramp its voltage slowly: dead time leaves a flat spot, resistance does not" },
-        LookAlike { with: "coulomb_friction", settled_by: "compare current with voltage at standstill: friction leaves u = R·i, dead time does not" },
+        LookAlike {
+            with: "resistance",
+            settled_by: "lock a wheel and ramp its voltage slowly: dead time leaves a flat spot, resistance does not",
+        },
+        LookAlike {
+            with: "coulomb_friction",
+            settled_by: "compare current with voltage at standstill: friction leaves u = R·i, dead time does not",
+        },
     ],
 };
 
