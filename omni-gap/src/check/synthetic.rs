@@ -129,8 +129,7 @@ pub fn run(made: &Made) -> Run {
             let (sin, cos) = pose[2].sin_cos();
             force[0] += 2.34 * made.slope * cos;
             force[1] -= 2.34 * made.slope * sin;
-            if let Some((start, length, push)) = made.hand.filter(|hand| t >= hand.0 && t < hand.0 + hand.1) {
-                let _ = (start, length);
+            if let Some((_, _, push)) = made.hand.filter(|hand| t >= hand.0 && t < hand.0 + hand.1) {
                 force[0] += 2.34 * push + 1.9;
             }
             for (axis, (mass, hold)) in [(2.34, 1.9), (2.34, 2.2), (0.0228, 0.14)].into_iter().enumerate() {
