@@ -20,7 +20,13 @@ pub struct Active<T: Real> {
     /// On which wheel alone; `None`: on all, or on the robot.
     pub wheel: Option<usize>,
     params: [T; MAX_PARAMS],
+    count: usize,
     memory_at: usize,
+    /// Numbers of memory from one wheel's block to the next; zero where there is but one
+    stride: usize,
+    memory_len: usize,
+    /// True for an effect of the robot.
+    whole: bool,
 }
 
 impl<T: Real> core::fmt::Debug for Active<T> {
@@ -37,7 +43,13 @@ impl<T: Real> Active<T> {
     /// The parameters, in the card's order.
     #[inline]
     pub fn params(&self) -> &[T] {
-        &self.params[..self.effect.card().params.len()]
+        &self.params[..self.count]
+    }
+
+    /// True if it sits on the robot as a whole, not on wheels.
+    #[inline]
+    pub fn whole(&self) -> bool {
+        self.whole
     }
 
     /// True if it acts on this wheel.
@@ -49,10 +61,8 @@ impl<T: Real> Active<T> {
     /// Its memory for this wheel; for an effect of the robot the wheel does not matter.
     #[inline]
     pub fn memory(&self, wheel: usize) -> Range<usize> {
-        let card = self.effect.card();
-        let block = if card.place == Place::Robot || self.wheel.is_some() { 0 } else { wheel };
-        let start = self.memory_at + block * card.memory;
-        start..start + card.memory
+        let start = self.memory_at + wheel * self.stride;
+        start..start + self.memory_len
     }
 }
 
@@ -74,6 +84,7 @@ pub struct Effects<const N: usize, T: Real> {
     len: usize,
     memory: usize,
     at_seam: [u16; Seam::ALL.len()],
+    on_wheel: [u16; N],
     with_memory: u16,
     needs_current: bool,
 }
@@ -85,6 +96,7 @@ impl<const N: usize, T: Real> Default for Effects<N, T> {
             len: 0,
             memory: 0,
             at_seam: [0; Seam::ALL.len()],
+            on_wheel: [0; N],
             with_memory: 0,
             needs_current: false,
         }
@@ -111,11 +123,24 @@ impl<const N: usize, T: Real> Effects<N, T> {
         }
         let mut held = [T::zero(); MAX_PARAMS];
         held[..params.len()].copy_from_slice(params);
-        self.items[self.len] = Some(Active { effect, wheel, params: held, memory_at: self.memory });
-        let blocks = if card.place == Place::Robot || wheel.is_some() { 1 } else { N };
+        let one = card.place == Place::Robot || wheel.is_some();
+        let (blocks, stride) = if one { (1, 0) } else { (N, card.memory) };
+        self.items[self.len] = Some(Active {
+            effect,
+            wheel,
+            params: held,
+            count: params.len(),
+            memory_at: self.memory,
+            stride,
+            memory_len: card.memory,
+            whole: card.place == Place::Robot,
+        });
         self.memory += blocks * card.memory;
         for seam in card.seams {
             self.at_seam[*seam as usize] |= 1 << self.len;
+        }
+        for j in (0..N).filter(|j| wheel.is_none_or(|w| w == *j)) {
+            self.on_wheel[j] |= 1 << self.len;
         }
         if card.memory > 0 {
             self.with_memory |= 1 << self.len;
@@ -157,6 +182,18 @@ impl<const N: usize, T: Real> Effects<N, T> {
     #[inline]
     pub fn at(&self, seam: Seam) -> impl Iterator<Item = &Active<T>> {
         self.pick(self.at_seam[seam as usize])
+    }
+
+    /// Those at a seam that act on a wheel.
+    #[inline]
+    pub fn on(&self, seam: Seam, wheel: usize) -> impl Iterator<Item = &Active<T>> {
+        self.pick(self.at_seam[seam as usize] & self.on_wheel[wheel])
+    }
+
+    /// True if no effect acts on this wheel at any of these seams.
+    #[inline]
+    pub fn none_on(&self, seams: &[Seam], wheel: usize) -> bool {
+        seams.iter().all(|seam| self.at_seam[*seam as usize] & self.on_wheel[wheel] == 0)
     }
 
     /// Those that remember.

@@ -79,59 +79,77 @@ pub fn spend<const N: usize, T: Real>(
             }
             x
         }
-        _ => spend_together(free, mobility, budget, wheels, dt),
+        _ => slide(free, mobility, budget, wheels, dt)
+            .unwrap_or_else(|| sweep(free, mobility, budget, wheels, dt)),
     }
 }
 
-fn spend_together<const N: usize, T: Real>(
+/// The twist if every direction slides on as it did: the whole budget of each, against its motion. `None` if that would
+/// stop one or turn it round.
+#[inline]
+fn slide<const N: usize, T: Real>(
+    free: [T; 3],
+    mobility: &Mobility<T>,
+    budget: &[T; 3],
+    wheels: Option<&[([T; 3], T); N]>,
+    dt: T,
+) -> Option<[T; 3]> {
+    let zero = T::zero();
+    let against = |along: T, most: T| if along > zero { -most } else { most };
+    let mut force: [T; 3] = core::array::from_fn(|axis| against(free[axis], budget[axis]));
+    for (row, most) in wheels.into_iter().flatten() {
+        let f = against(dot(*row, free), *most);
+        for axis in 0..3 {
+            force[axis] += row[axis] * f;
+        }
+    }
+    // x⁺ = x − H⁻¹·Σ d_k·sign(d_k·x)·b_k·Δt
+    let change = mobility.of([force[0] * dt, force[1] * dt, force[2] * dt]);
+    let x = [free[0] + change[0], free[1] + change[1], free[2] + change[2]];
+    let goes_on = |before: T, after: T, most: T| most <= zero || before * after > zero;
+    let body = (0..3).all(|axis| goes_on(free[axis], x[axis], budget[axis]));
+    let shafts = wheels.into_iter().flatten().all(|(row, most)| goes_on(dot(*row, free), dot(*row, x), *most));
+    (body && shafts).then_some(x)
+}
+
+/// Projected Gauss–Seidel.
+#[inline(never)]
+fn sweep<const N: usize, T: Real>(
     free: [T; 3],
     mobility: &Mobility<T>,
     budget: &[T; 3],
     wheels: Option<&[([T; 3], T); N]>,
     dt: T,
 ) -> [T; 3] {
-    const AXES: usize = 3;
-    const MOST: usize = AXES + 4;
-    let none = [T::zero(); 3];
-    let mut direction = [none; MOST];
-    let mut pushed = [none; MOST];
-    let mut most = [T::zero(); MOST];
+    /// The body's axes and the wheels.
+    const MOST: usize = 3 + 4;
+    let (zero, one) = (T::zero(), T::one());
+    let axes = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+    let bodies = axes.into_iter().zip(*budget);
+    // (direction d, H⁻¹·d, 1/(dᵀH⁻¹d), most impulse)
+    let mut holds = [([zero; 3], [zero; 3], zero, zero); MOST];
     let mut count = 0;
-    for axis in 0..AXES {
-        direction[count][axis] = T::one();
-        most[count] = budget[axis] * dt;
+    for (direction, most) in bodies.chain(wheels.into_iter().flatten().copied()).filter(|(_, most)| *most > zero) {
+        let pushed = mobility.of(direction);
+        holds[count] = (direction, pushed, one / dot(direction, pushed), most * dt);
         count += 1;
-    }
-    for (row, holds) in wheels.into_iter().flatten() {
-        direction[count] = *row;
-        most[count] = *holds * dt;
-        count += 1;
-    }
-    let mut weight = [T::zero(); MOST];
-    for k in 0..count {
-        pushed[k] = mobility.of(direction[k]);
-        weight[k] = dot(direction[k], pushed[k]);
     }
     let mut x = free;
-    let mut impulse = [T::zero(); MOST];
+    let mut impulse = [zero; MOST];
     for _ in 0..SWEEPS {
-        let mut moved = T::zero();
-        for k in 0..count {
-            if most[k] <= T::zero() {
-                continue;
-            }
+        let mut moved = zero;
+        for ((direction, pushed, stiffness, most), impulse) in holds[..count].iter().zip(&mut impulse) {
             // λ ← clamp(λ − d·x / (dᵀH⁻¹d), ±b·Δt)
-            let wanted = impulse[k] - dot(direction[k], x) / weight[k];
-            let given = wanted.clamp(-most[k], most[k]);
-            let change = given - impulse[k];
-            impulse[k] = given;
-            for axis in 0..AXES {
-                x[axis] += pushed[k][axis] * change;
+            let given = (*impulse - dot(*direction, x) * *stiffness).clamp(-*most, *most);
+            let change = given - *impulse;
+            *impulse = given;
+            for axis in 0..3 {
+                x[axis] += pushed[axis] * change;
             }
-            moved = moved.max(change.abs().value() * weight[k].value());
+            moved = moved.max((change / *stiffness).abs().value());
         }
-        // nothing moves by more than a thousandth of a millimetre a second any more
-        if moved < T::lit(1e-6) {
+        // nothing moves by more than a hundredth of a millimetre a second any more
+        if moved < T::lit(1e-5) {
             break;
         }
     }

@@ -94,6 +94,16 @@ impl Nominal {
         Nominal::CenterDistance,
     ];
 
+    /// The body axis (v, vn, ω: 0, 1, 2) that a friction belongs to.
+    pub const fn axis(self) -> Option<usize> {
+        match self {
+            Nominal::ViscousV | Nominal::CoulombV => Some(0),
+            Nominal::ViscousVn | Nominal::CoulombVn => Some(1),
+            Nominal::ViscousW | Nominal::CoulombW => Some(2),
+            _ => None,
+        }
+    }
+
     /// The cause that a report names for it.
     pub const fn cause(self) -> &'static str {
         match self {

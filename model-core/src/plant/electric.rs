@@ -30,6 +30,15 @@ pub(super) struct Electric<T> {
     pub after: T,
 }
 
+/// What bridge and winding say at a current.
+#[derive(Clone, Copy)]
+struct Look<T> {
+    voltage: T,
+    sampled: T,
+    winding: Winding<T>,
+    per_resistance: T,
+}
+
 impl<const N: usize, T: Real> Plant<N, T> {
     /// The motor of wheel `j` at the wheel speed `at.wheel_speed`; `gain` is bus voltage over nominal.
     #[inline]
@@ -69,16 +78,22 @@ impl<const N: usize, T: Real> Plant<N, T> {
             }
             Source::Voltage(command) => {
                 let u = command[j] * gain;
-                if self.effects.none_at(Seam::Drive) && self.effects.none_at(Seam::Winding) {
+                if self.effects.none_on(&[Seam::Drive, Seam::Winding], j) {
                     return self.plain_motor(u, at.wheel_speed);
                 }
+                let turned = !self.effects.none_on(&[Seam::Winding], j);
+                let drive = Drive { command: command[j], bus: self.robot.supply * gain, current: zero, voltage: u, sampled: u };
                 let look = |current: T| {
-                    let mut drive =
-                        Drive { command: command[j], bus: self.robot.supply * gain, current, voltage: u, sampled: u };
-                    for active in self.effects.at(Seam::Drive).filter(|a| a.on(j)) {
+                    let mut drive = Drive { current, ..drive };
+                    for active in self.effects.on(Seam::Drive, j) {
                         active.effect.drive(active.params(), &memory[active.memory(j)], at, &mut drive);
                     }
-                    (drive, self.winding(at, memory, Winding { current, ..bare }))
+                    let winding = if turned { self.winding(at, memory, Winding { current, ..bare }) } else { bare };
+                    let per_resistance =
+                        if turned { T::one() / winding.resistance } else { self.per_resistance };
+                    // i = (u_eff − l·K_v·ω)/R
+                    let steady = (drive.voltage - winding.emf_constant * winding.speed) * per_resistance;
+                    (steady, Look { voltage: drive.voltage, sampled: drive.sampled, winding, per_resistance })
                 };
                 self.solve_winding(state.current[j], at.dt, look)
             }
@@ -100,48 +115,49 @@ impl<const N: usize, T: Real> Plant<N, T> {
     }
 
     fn winding(&self, at: &At<T>, memory: &[T], mut winding: Winding<T>) -> Winding<T> {
-        for active in self.effects.at(Seam::Winding).filter(|a| a.on(at.wheel)) {
+        for active in self.effects.on(Seam::Winding, at.wheel) {
             active.effect.winding(active.params(), &memory[active.memory(at.wheel)], at, &mut winding);
         }
         winding
     }
 
-    fn solve_winding(&self, last: T, dt: T, look: impl Fn(T) -> (Drive<T>, Winding<T>)) -> Electric<T> {
-        let steady = |current: T| {
-            let (drive, winding) = look(current);
-            (drive.voltage - winding.emf_constant * winding.speed) * (T::one() / winding.resistance)
+    #[inline]
+    fn solve_winding(&self, last: T, dt: T, look: impl Fn(T) -> (T, Look<T>)) -> Electric<T> {
+        let Solved { x: current, stretch, look } = if self.effects.needs_current() {
+            solve(last, look)
+        } else {
+            let (x, look) = look(last);
+            Solved { x, stretch: T::one(), look }
         };
-        let (current, stretch) =
-            if self.effects.needs_current() { solve(last, steady) } else { (steady(last), T::one()) };
-        let (drive, w) = look(current);
+        let w = look.winding;
         // −∂i/∂ω = (l·K_v/R)/(1 − ∂(steady)/∂i)
-        let current_slope = w.emf_constant * (T::one() / w.resistance) / stretch;
+        let current_slope = w.emf_constant * look.per_resistance / stretch;
         let inductive = w.inductance > T::zero();
         let sampled = if inductive {
             last
-        } else if drive.sampled == drive.voltage {
+        } else if look.sampled == look.voltage {
             current
         } else {
-            (drive.sampled - w.emf_constant * w.speed) / w.resistance
-        };
-        // the winding at the wheel's shaft, with the constants and the voltage found above
-        let motor = Motor {
-            gear_ratio: T::one(),
-            resistance: w.resistance,
-            emf_constant: w.emf_constant,
-            torque_constant: w.torque_constant,
+            (look.sampled - w.emf_constant * w.speed) * look.per_resistance
         };
         let (mean, after) = if inductive {
+            // the winding at the wheel's shaft, with the constants and the voltage found above
+            let motor = Motor {
+                gear_ratio: T::one(),
+                resistance: w.resistance,
+                emf_constant: w.emf_constant,
+                torque_constant: w.torque_constant,
+            };
             (
-                motor.mean_current(last, drive.voltage, w.speed, w.inductance, dt),
-                motor.current_after(last, drive.voltage, w.speed, w.inductance, dt),
+                motor.mean_current(last, look.voltage, w.speed, w.inductance, dt),
+                motor.current_after(last, look.voltage, w.speed, w.inductance, dt),
             )
         } else {
             (current, current)
         };
         Electric {
             torque: w.torque_constant * mean,
-            slope: w.torque_constant * w.emf_constant * (T::one() / w.resistance) / stretch,
+            slope: w.torque_constant * w.emf_constant * look.per_resistance / stretch,
             current_slope,
             sampled,
             after,
@@ -177,48 +193,59 @@ impl<const N: usize, T: Real> Plant<N, T> {
             for active in self.effects.at(Seam::Supply) {
                 active.effect.supply(active.params(), &memory[active.memory(0)], at, &mut supply);
             }
-            supply.voltage
+            (supply.voltage, ())
         };
-        solve(state.bus, supplied).0
+        solve(state.bus, supplied).x
     }
 }
 
-/// The fixed point x = g(x) of a falling (or slowly rising) g, and 1 − g′ there; `guess` is where to look first.
+/// A fixed point that was found.
+struct Solved<T, L> {
+    x: T,
+    /// 1 − g′(x)
+    stretch: T,
+    /// What the law said there.
+    look: L,
+}
+
+/// The fixed point x = g(x) of a falling (or slowly rising) g; `guess` is where to look first.
 ///
-/// Newton with a bracket: at most twelve looks, exact for a g of straight pieces once on the right piece.
-fn solve<T: Real>(guess: T, g: impl Fn(T) -> T) -> (T, T) {
+/// Newton with a bracket; on a g of straight pieces exact once it is on the right piece. The last step is taken in the
+/// full number type, and a law that says the same for two neighbouring x is returned as it is.
+#[inline]
+fn solve<T: Real, L>(guess: T, g: impl Fn(T) -> (T, L)) -> Solved<T, L> {
     let h = T::lit(1e-3);
     let mut x = guess.value();
     let (mut lo, mut hi): (Option<T>, Option<T>) = (None, None);
-    let mut slope = T::one();
-    for _ in 0..6 {
-        let here = g(x);
-        let near = g(x + h);
+    let (mut here, mut look) = g(x);
+    let mut rounds = 0;
+    loop {
+        let near = g(x + h).0;
         if here == near {
-            return (here, T::one());
+            return Solved { x: here, stretch: T::one(), look };
         }
         // F(x) = x − g(x),  F′ = 1 − Δg/h,  x ← x − F/F′
-        slope = (T::one() - (near - here) / h).value();
+        let stretch = (T::one() - (near - here) / h).value();
         let wrong = x - here;
         if wrong > T::zero() {
             hi = Some(x);
         } else {
             lo = Some(x);
         }
-        let mut next = x - wrong / slope;
-        let done = (next - x).abs() <= T::lit(1e-6) * (next.abs() + T::lit(0.1));
-        if done {
-            return (next, slope);
-        }
+        let mut next = x - wrong / stretch;
         if let (Some(lo), Some(hi)) = (lo, hi)
             && (next <= lo || next >= hi)
         {
             next = T::lit(0.5) * (lo + hi);
         }
+        (here, look) = g(next.value());
+        rounds += 1;
+        let left = (next.value() - here).abs().value();
+        if left <= T::lit(1e-6) * stretch * (next.abs() + T::lit(0.1)) || rounds == 8 {
+            return Solved { x: next, stretch, look };
+        }
         x = next.value();
     }
-    let here = g(x);
-    (x - (x - here) / slope, slope)
 }
 
 #[cfg(test)]
@@ -228,7 +255,7 @@ mod tests {
     #[test]
     fn a_law_without_the_current_is_returned_as_it_is() {
         let exact = 0.123_456_789_f64 / 3.0;
-        assert_eq!(solve(0.7, |_| exact).0.to_bits(), exact.to_bits());
+        assert_eq!(solve(0.7, |_| (exact, ())).x.to_bits(), exact.to_bits());
     }
 
     #[test]
@@ -237,7 +264,7 @@ mod tests {
         let (r, v, i0) = (4.3, 0.3, 0.05);
         for k in -60..=60 {
             let y = f64::from(k) * 0.02;
-            let (x, _) = solve(0.0, |i: f64| (y - v * (i / i0).clamp(-1.0, 1.0)) / r);
+            let x = solve(0.0, |i: f64| ((y - v * (i / i0).clamp(-1.0, 1.0)) / r, ())).x;
             // R·i + V·sat(i/i₀) = y, in closed form
             let exact = if y.abs() <= r * i0 + v { y / (r + v / i0) } else { (y - v * y.signum()) / r };
             assert!((x - exact).abs() < 1e-9, "y {y}: {x} against {exact}");

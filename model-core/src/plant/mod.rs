@@ -26,7 +26,7 @@ mod traction;
 
 use crate::active::Effects;
 use crate::body::{Mobility, spend};
-use crate::card::{Place, Seam};
+use crate::card::Seam;
 use crate::frames::{BodyTwist, Pose};
 use crate::robot::Robot;
 use crate::scalar::Real;
@@ -217,7 +217,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
         let x = state.twist.to_array();
         let mut at = self.at(state, dt);
         let hooked;
-        let contact = if PLAIN {
+        let contact = if PLAIN || self.effects.none_at(Seam::Contact) {
             &self.contact
         } else {
             hooked = self.contacts(&mut at, state, memory);
@@ -368,7 +368,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
         }
         let mut reading = truth;
         for active in self.effects.at(Seam::Sense) {
-            if active.effect.card().place == Place::Robot {
+            if active.whole() {
                 let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
                 active.effect.sense(active.params(), &memory[active.memory(0)], at, &mut x);
                 (reading.pose, reading.gyro) = (x.pose, x.gyro);
@@ -389,7 +389,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     pub fn unread(&self, time: T, twist: BodyTwist<T>, mut reading: Reading<N, T>) -> Reading<N, T> {
         let at = At { time, pose: reading.pose, twist, nominal_supply: self.robot.supply, ..At::default() };
         for active in self.effects.at(Seam::Sense) {
-            if active.effect.card().place == Place::Robot {
+            if active.whole() {
                 let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
                 active.effect.unsense(active.params(), &at, &mut x);
                 (reading.pose, reading.gyro) = (x.pose, x.gyro);
@@ -417,7 +417,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     ) {
         let at = self.at(state, dt);
         for active in self.effects.with_memory() {
-            if active.effect.card().place == Place::Robot {
+            if active.whole() {
                 let mut drawn = T::zero();
                 for j in 0..N {
                     drawn += source.command(j) / self.robot.supply * truth.current[j];
@@ -455,18 +455,16 @@ impl<const N: usize, T: Real> Plant<N, T> {
     #[inline]
     fn contacts(&self, at: &mut At<T>, state: &State<N, T>, memory: &[T]) -> [Contact<T>; N] {
         let mut contact = self.contact;
-        if !self.effects.none_at(Seam::Contact) {
-            for active in self.effects.at(Seam::Contact) {
-                for j in (0..N).filter(|j| active.on(*j)) {
-                    at.wheel = j;
-                    at.wheel_angle = state.wheel_angle[j];
-                    at.wheel_speed = state.wheel_speed[j];
-                    active.effect.contact(active.params(), &memory[active.memory(j)], at, &mut contact[j]);
-                }
+        for active in self.effects.at(Seam::Contact) {
+            for j in (0..N).filter(|j| active.on(*j)) {
+                at.wheel = j;
+                at.wheel_angle = state.wheel_angle[j];
+                at.wheel_speed = state.wheel_speed[j];
+                active.effect.contact(active.params(), &memory[active.memory(j)], at, &mut contact[j]);
             }
-            for c in &mut contact {
-                c.per_radius = T::one() / c.radius;
-            }
+        }
+        for c in &mut contact {
+            c.per_radius = T::one() / c.radius;
         }
         contact
     }
@@ -482,7 +480,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             damping: zero,
             inertia: zero,
         };
-        for active in self.effects.at(Seam::Gear).filter(|a| a.on(at.wheel)) {
+        for active in self.effects.on(Seam::Gear, at.wheel) {
             active.effect.gear(active.params(), &memory[active.memory(at.wheel)], at, &mut gear);
         }
         gear

@@ -91,7 +91,7 @@ struct Line<T> {
 fn cross<T: Real>(line: &Line<T>, c: &Contact<T>, rim_speed: T) -> Grip<T> {
     let zero = T::zero();
     let r = c.radius;
-    // G(ω) = τ₁ − a·(ω − ω₁) − (J/Δt)·(ω − ω₀) − r·f(r·ω − v)
+    // ω ← ω + G/(−G′),  G(ω) = τ₁ − a·(ω − ω₁) − (J/Δt)·(ω − ω₀) − r·f(r·ω − v)
     let balance = |speed: T| {
         let (force, slope) = floor_force(c, r * speed - rim_speed);
         let g = line.torque - line.fall * (speed - line.speed) - line.inertia * (speed - line.before) - r * force;
@@ -112,7 +112,7 @@ fn cross<T: Real>(line: &Line<T>, c: &Contact<T>, rim_speed: T) -> Grip<T> {
         } else {
             hi = Some(speed);
         }
-        let mut next = (speed - g / fall).value();
+        let mut next = (speed + g / fall).value();
         if (next - speed).abs() <= T::lit(1e-7) * (speed.abs() + T::one()) {
             break;
         }
@@ -124,7 +124,7 @@ fn cross<T: Real>(line: &Line<T>, c: &Contact<T>, rim_speed: T) -> Grip<T> {
         speed = next;
     }
     let (g, fall, ..) = balance(speed);
-    let speed = speed - g / fall.value();
+    let speed = speed + g / fall.value();
     let (force, slope) = floor_force(c, r * speed - rim_speed);
     // ∂f/∂v = −f′·a/(a + r²f′)
     let a = line.fall + line.inertia;

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use model_core::card::Card;
 use model_core::effects;
+use model_core::robot::Nominal;
 
 use crate::identify::Fit;
 use crate::log::{Change, EffectEntry, RobotFile};
 use crate::rank::{Cause, Data, LEAST_CLOSED, Outcome, Ranked, Verdict};
-use crate::report::{Corrected, Estimate, Kind, NextExperiment, Report, Which};
+use crate::report::{Axis, Corrected, Estimate, Kind, NextExperiment, Report, Which};
 use crate::simulate::{NOMINAL_KEYS, NominalKey, Slot};
 
 /// Score differences are worth less than their face: models are never quite right.
@@ -99,7 +100,8 @@ fn bare(cause: &Cause) -> Which {
         Cause::Effect(card, _) => (Kind::Effect, Some(card.title.to_owned())),
         Cause::Parameter(_) => (Kind::Parameter, None),
     };
-    Which { kind: Some(kind), title, wheel: cause.wheel(), ..pseudo(cause.id()) }
+    let axis = cause.axis().map(|a| [Axis::V, Axis::Vn, Axis::W][a]);
+    Which { kind: Some(kind), title, wheel: cause.wheel(), axis, ..pseudo(cause.id()) }
 }
 
 /// A fitted cause with its numbers.
@@ -119,8 +121,9 @@ fn entry<const N: usize>(cause: &Cause, fit: &Fit<N>, robot: &RobotFile) -> Whic
                 which.parameters.insert(param.key.to_owned(), estimate);
             }
         }
-        Cause::Parameter(id) => {
-            for key in NOMINAL_KEYS.iter().filter(|k| k.factors.iter().any(|p| p.cause() == *id)) {
+        Cause::Parameter(release) => {
+            let own = |p: &Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
+            for key in NOMINAL_KEYS.iter().filter(|k| k.factors.iter().any(own)) {
                 let value = key.value(robot) * key.factor(&fit.model.factor);
                 let std = relative_std(fit, key).map(|s| s * value);
                 which.parameters.insert(key.key.to_owned(), Estimate { value, std, unit: key.unit.to_owned() });

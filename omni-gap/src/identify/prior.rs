@@ -28,7 +28,12 @@ pub struct Prior {
 
 /// A nominal value that a diagnosis takes as plainly wrong: its statement is struck out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Release(pub &'static str);
+pub struct Release {
+    /// The parameter cause.
+    pub cause: &'static str,
+    /// Of friction: the body axis (v, vn, ω: 0, 1, 2) that it is wrong on; `None`: on all.
+    pub axis: Option<usize>,
+}
 
 fn row(terms: &[(Nominal, f64)], sigma: f64) -> PriorRow {
     PriorRow { terms: terms.to_vec(), sigma }
@@ -60,11 +65,11 @@ impl Prior {
     }
 
     /// The statements that speak of a parameter cause.
-    pub fn rows_of(&self, cause: &str) -> Vec<usize> {
-        let own = |row: &PriorRow| match (cause, row.terms.as_slice()) {
+    pub fn rows_of(&self, release: Release) -> Vec<usize> {
+        let own = |row: &PriorRow| match (release.cause, row.terms.as_slice()) {
             ("kt_over_kv", terms) => terms.len() == 2,
             ("torque_constant", terms) => terms.iter().any(|(p, _)| *p == Nominal::TorqueConstant),
-            (_, [(p, _)]) => p.cause() == cause,
+            (cause, [(p, _)]) => p.cause() == cause && (release.axis.is_none() || release.axis == p.axis()),
             _ => false,
         };
         (0..self.rows.len()).filter(|k| own(&self.rows[*k])).collect()
@@ -74,11 +79,11 @@ impl Prior {
     /// fit cannot run away. K_t and K_v stay as equal to each other as they were when only their common factor is wrong.
     pub fn without(&self, release: Release) -> Self {
         let mut prior = self.clone();
-        for k in self.rows_of(release.0) {
+        for k in self.rows_of(release) {
             prior.rows[k].sigma = 0.7;
         }
-        if release.0 == "torque_constant" {
-            let each: f64 = self.rows_of("torque_constant").iter().map(|k| self.rows[*k].sigma.powi(2)).sum();
+        if release.cause == "torque_constant" {
+            let each: f64 = self.rows_of(release).iter().map(|k| self.rows[*k].sigma.powi(2)).sum();
             prior.rows.push(row(&[(Nominal::KtOverKv, 1.0)], each.sqrt()));
         }
         prior

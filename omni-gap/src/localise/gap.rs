@@ -12,9 +12,6 @@ use crate::simulate::{MAX_CHANNELS, Recorded, predict, start_at};
 /// The signal groups, in the order of their channels.
 pub const GROUPS: [&str; 3] = ["i", "w", "pose"];
 
-/// Steps of the plant in a row's step when the floor is simulated: finer than a prediction's own.
-const FINER: usize = 4;
-
 /// Errors of a model on runs.
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
@@ -96,7 +93,7 @@ fn replay<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, seed: u64) -
     let mut state = start_at(run, 0).state(plant, &rest);
     plant.restart(&state, &mut memory);
     for row in 0..run.rows() {
-        let steps = FINER * run.steps(row);
+        let steps = run.steps(row);
         let dt = run.dt[row] / steps as f64;
         let input = run.input::<f64>(row);
         let reading = plant.step(&mut state, &mut memory, &input, dt);

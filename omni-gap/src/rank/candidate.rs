@@ -4,6 +4,7 @@ use model_core::card::{Card, Param, Place, Role};
 use model_core::effects;
 use model_core::robot::Nominal;
 
+use crate::identify::{Prior, Release};
 use crate::simulate::Carried;
 
 /// A cause that a report can name.
@@ -12,7 +13,7 @@ pub enum Cause {
     /// An effect of the catalogue, on one wheel or on all (or on the robot).
     Effect(&'static Card, Option<usize>),
     /// A nominal value that is wrong.
-    Parameter(&'static str),
+    Parameter(Release),
 }
 
 impl Cause {
@@ -20,7 +21,7 @@ impl Cause {
     pub fn id(&self) -> &'static str {
         match self {
             Cause::Effect(card, _) => card.id,
-            Cause::Parameter(id) => id,
+            Cause::Parameter(release) => release.cause,
         }
     }
 
@@ -29,6 +30,22 @@ impl Cause {
         match self {
             Cause::Effect(_, wheel) => *wheel,
             Cause::Parameter(_) => None,
+        }
+    }
+
+    /// The body axis (v, vn, ω: 0, 1, 2) that it speaks of alone.
+    pub fn axis(&self) -> Option<usize> {
+        match self {
+            Cause::Effect(..) => None,
+            Cause::Parameter(release) => release.axis,
+        }
+    }
+
+    /// Free numbers, or statements struck out, that it adds to a model.
+    pub fn freedom(&self, prior: &Prior) -> usize {
+        match self {
+            Cause::Effect(card, _) => card.params.iter().filter(|p| p.role != Role::Fixed).count(),
+            Cause::Parameter(release) => prior.rows_of(*release).len(),
         }
     }
 
@@ -49,11 +66,19 @@ pub struct Candidate {
     pub trials: Vec<Carried>,
 }
 
-/// The ids of the parameter causes, in the order of the catalogue.
-pub fn parameter_causes() -> Vec<&'static str> {
-    let mut causes: Vec<&'static str> = Nominal::ALL.iter().map(|p| p.cause()).collect();
-    causes.dedup();
-    causes
+/// Every nominal value that can be plainly wrong; friction on all axes together and on each alone.
+pub fn releases() -> Vec<Release> {
+    let mut all: Vec<Release> = Vec::new();
+    for p in Nominal::ALL {
+        let whole = Release { cause: p.cause(), axis: None };
+        if !all.contains(&whole) {
+            all.push(whole);
+        }
+        if let Some(axis) = p.axis() {
+            all.push(Release { cause: p.cause(), axis: Some(axis) });
+        }
+    }
+    all
 }
 
 /// Every effect that is not in the nominal model already.
@@ -69,16 +94,18 @@ pub fn candidates<const N: usize>(present: &[Carried]) -> Vec<Candidate> {
         for wheel in places {
             let taken = present.iter().any(|p| p.id == card.id && (p.wheel.is_none() || p.wheel == wheel));
             if !taken {
-                all.push(Candidate { card, wheel, trials: trials(card, wheel) });
+                // on one wheel alone only the plain sizes: the shapes were looked at on all wheels together
+                let trials = trials(card, wheel, wheel.is_none() || !anywhere);
+                all.push(Candidate { card, wheel, trials });
             }
         }
     }
     all
 }
 
-/// Parameter sets that span what the effect can look like: each size at half, once and twice its typical departure from
-/// absent, the others absent; each shape at a few values.
-fn trials(card: &'static Card, wheel: Option<usize>) -> Vec<Carried> {
+/// Parameter sets that span what the effect can look like: each size at its typical departure from absent, the others
+/// absent; if `thorough` also at half and at twice that, and each shape at a few values.
+fn trials(card: &'static Card, wheel: Option<usize>, thorough: bool) -> Vec<Carried> {
     let base: Vec<f64> = card.params.iter().map(|p| if p.role == Role::Size { p.absent } else { p.typical }).collect();
     let with = |changes: &[(usize, f64)]| {
         let mut params = base.clone();
@@ -91,7 +118,11 @@ fn trials(card: &'static Card, wheel: Option<usize>) -> Vec<Carried> {
     let mut all = Vec::new();
     for k in sizes {
         let p = &card.params[k];
-        for share in [1.0, 0.5, 2.0] {
+        all.push(with(&[(k, p.typical)]));
+        if !thorough {
+            continue;
+        }
+        for share in [0.5, 2.0] {
             all.push(with(&[(k, p.absent + share * (p.typical - p.absent))]));
         }
         for (s, shape) in card.params.iter().enumerate().filter(|(_, s)| s.role == Role::Shape) {

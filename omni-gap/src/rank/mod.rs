@@ -10,7 +10,7 @@ mod order;
 mod screen;
 mod verdict;
 
-pub use candidate::{Candidate, Cause, candidates};
+pub use candidate::{Candidate, Cause, candidates, releases};
 pub use order::{Data, Ranked, Ranking, Scored, explain};
 pub use screen::{Screened, parameter_gains, screen};
 pub use verdict::{Found, LEAST_CLOSED, Outcome, Verdict, decide};

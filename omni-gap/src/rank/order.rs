@@ -4,9 +4,9 @@ use model_core::card::Role;
 use model_core::robot::Nominal;
 use rayon::prelude::*;
 
-use super::candidate::{Cause, candidates, parameter_causes};
+use super::candidate::{Cause, candidates, releases};
 use super::screen::{Screened, parameter_gains, screen};
-use crate::identify::{Fit, Free, Prior, Release, Windows, fit, profile};
+use crate::identify::{Fit, Free, Prior, Windows, fit, profile};
 use crate::simulate::{Carried, Model, Recorded, Slot};
 
 /// Effects that are fitted after the screen, at the most.
@@ -15,6 +15,10 @@ const FITTED_EFFECTS: usize = 7;
 const FITTED_PARAMETERS: usize = 3;
 /// A promise below this is not worth a fit [σ²].
 const PROMISING: f64 = 9.0;
+/// Beyond the best three, a promise below this share of the best is not worth a fit.
+const WORTH_A_FIT: f64 = 0.2;
+/// Runs that the screen looks at, at the most.
+const SCREENED_RUNS: usize = 4;
 /// What each free number of a cause costs in the score.
 const PRICE_OF_FREEDOM: f64 = 2.0;
 /// Rounds of the fit of a candidate.
@@ -132,24 +136,30 @@ impl<const N: usize> Data<'_, N> {
 
 /// Tries every cause on top of a fitted model. `released` are the statements already struck out.
 pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prior) -> Ranking<N> {
-    let linear = base.fit.linearised(&data.fit, &data.fit_windows);
+    let few = data.fit.len().min(SCREENED_RUNS);
+    let linear = base.fit.linearised(&data.fit[..few], &data.fit_windows[..few]);
     let all = candidates::<N>(&base.fit.model.effects);
-    let mut screened = screen(&base.fit, &linear, prior, &data.fit, &data.fit_windows, all);
+    let mut screened = screen(&base.fit, &linear, prior, &data.fit[..few], &data.fit_windows[..few], all);
     screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    let mut parameters = parameter_gains(&base.fit, &linear, prior, &parameter_causes());
-    parameters.sort_by(|a, b| b.1.total_cmp(&a.1));
     drop(linear);
+    let whole = base.fit.linearised(&data.fit, &data.fit_windows);
+    let mut parameters = parameter_gains(&base.fit, &whole, prior, &releases());
+    parameters.sort_by(|a, b| b.1.total_cmp(&a.1));
+    drop(whole);
 
-    let effects = screened.iter().filter(|s| s.gain > PROMISING).take(FITTED_EFFECTS).map(|s| {
-        let cause = Cause::Effect(s.candidate.card, s.candidate.wheel);
-        (cause, Some(s.from.clone()), prior.clone())
-    });
-    let releases = parameters
+    let most = screened.first().map_or(0.0, |s| s.gain);
+    let effects = screened
+        .iter()
+        .enumerate()
+        .filter(|(k, s)| s.gain > PROMISING && (*k < 3 || s.gain > WORTH_A_FIT * most))
+        .take(FITTED_EFFECTS)
+        .map(|(_, s)| (Cause::Effect(s.candidate.card, s.candidate.wheel), Some(s.from.clone()), prior.clone()));
+    let released = parameters
         .iter()
         .filter(|(_, gain)| *gain > PROMISING)
         .take(FITTED_PARAMETERS)
-        .map(|(id, _)| (Cause::Parameter(id), None, prior.without(Release(id))));
-    let jobs: Vec<(Cause, Option<Carried>, Prior)> = effects.chain(releases).collect();
+        .map(|(release, _)| (Cause::Parameter(*release), None, prior.without(*release)));
+    let jobs: Vec<(Cause, Option<Carried>, Prior)> = effects.chain(released).collect();
     let mut ranked: Vec<Ranked<N>> = jobs
         .into_par_iter()
         .map(|(cause, effect, prior)| {
@@ -159,7 +169,7 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
                     model.carry(effect);
                     card.params.iter().filter(|p| p.role != Role::Fixed).count()
                 }
-                _ => prior.rows_of(cause.id()).len(),
+                _ => cause.freedom(&data.prior),
             };
             let scored = data.judge(model, Some(&base.fit), &prior, base.extra + extra);
             Ranked { cause, scored }

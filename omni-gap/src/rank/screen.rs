@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
-use crate::identify::{Fit, Linearised, Prior, Starts, Windows, run_windows};
+use crate::identify::{Fit, Linearised, Prior, Release, Starts, Windows, run_windows};
 use crate::simulate::{Carried, Recorded, Slot};
 
 /// A candidate and what the screen says of it.
@@ -166,8 +166,8 @@ pub fn parameter_gains<const N: usize>(
     fit: &Fit<N>,
     linear: &Linearised,
     prior: &Prior,
-    causes: &[&'static str],
-) -> Vec<(&'static str, f64)> {
+    causes: &[Release],
+) -> Vec<(Release, f64)> {
     let reduced = fit.reduced(linear, prior);
     let Some(hess) = reduced.hess.cholesky() else { return Vec::new() };
     let violations = prior.violations(&fit.model);
@@ -175,7 +175,7 @@ pub fn parameter_gains<const N: usize>(
     causes
         .iter()
         .map(|cause| {
-            let rows = prior.rows_of(cause);
+            let rows = prior.rows_of(*cause);
             let mut c = DMatrix::zeros(rows.len(), n);
             for (k, row) in rows.iter().enumerate() {
                 let row = &prior.rows[*row];

@@ -1,10 +1,8 @@
 //! The verdict: which causes a corrected model needs, and when to say that nothing known explains the gap.
 
-use model_core::card::Role;
-
 use super::candidate::Cause;
 use super::order::{Data, Ranked, Ranking, Scored, explain};
-use crate::identify::{Prior, Release};
+use crate::identify::Prior;
 use crate::localise::{floor, measure};
 use crate::simulate::Model;
 
@@ -12,12 +10,14 @@ use crate::simulate::Model;
 const MOST_CAUSES: usize = 3;
 /// A cause has to better the score by this, and by as much again for each free number or statement that it adds
 /// (one number: a chance of 1 in 2,000 when nothing is there).
-const CONVINCING: f64 = 9.0;
-const CONVINCING_EACH: f64 = 3.0;
+const CONVINCING: f64 = 8.0;
+const CONVINCING_EACH: f64 = 2.0;
 /// An effect has to take this share off Σ error²: a significant but tiny improvement explains nothing.
 const RELEVANT: f64 = 0.01;
 /// A further cause has to take this share off what the first causes left.
 const RELEVANT_FURTHER: f64 = 0.05;
+/// Σ error² per number below which nothing relevant can be left.
+const ENOUGH: f64 = 1.03;
 /// Score within which two causes are not told apart, and standard errors of their difference that count as none.
 const TIE: f64 = 8.0;
 const TIE_ERRORS: f64 = 2.0;
@@ -78,6 +78,10 @@ pub fn decide<const N: usize>(
     let mut current = refitted.clone();
     let mut found: Vec<Found<N>> = Vec::new();
     let last = loop {
+        // what is left may be too little for any further cause to be relevant
+        if let Some(f) = found.last().filter(|_| current.held() < ENOUGH * current.freedom) {
+            break f.ranking.clone();
+        }
         progress(match found.len() {
             0 => "trying every cause",
             _ => "trying what is left after the causes found",
@@ -87,8 +91,8 @@ pub fn decide<const N: usize>(
         if !convincing(best, &ranking, !found.is_empty(), &prior) {
             break ranking;
         }
-        if let Cause::Parameter(id) = best.cause {
-            prior = prior.without(Release(id));
+        if let Cause::Parameter(release) = best.cause {
+            prior = prior.without(release);
         }
         let not_told_apart_from = look_alikes(best, &ranking);
         current = best.scored.clone();
@@ -114,10 +118,7 @@ pub fn decide<const N: usize>(
 
 fn convincing<const N: usize>(best: &Ranked<N>, ranking: &Ranking<N>, further: bool, prior: &Prior) -> bool {
     let (base, scale) = (&ranking.base, ranking.scale);
-    let numbers = match best.cause {
-        Cause::Effect(card, _) => card.params.iter().filter(|p| p.role != Role::Fixed).count(),
-        Cause::Parameter(id) => prior.rows_of(id).len(),
-    };
+    let numbers = best.cause.freedom(prior);
     let (gain, error) = best.scored.better_than(base, scale);
     if gain < CONVINCING + CONVINCING_EACH * numbers as f64 {
         return false;
