@@ -1,0 +1,22 @@
+//! # The core keeps its promises
+//!
+//! In reading order: the core against the independent reference, the laws that any robot obeys, the edges, the size of
+//! the step's error, then the effects: what each may touch, that it can be absent, what the mechanism carries, and the
+//! page that is made from the cards.
+
+#[path = "proof/fixture.rs"]
+mod fixture;
+
+#[path = "proof/geometry.rs"]
+mod geometry;
+#[path = "proof/paper_core.rs"]
+mod paper_core;
+
+#[path = "proof/edges.rs"]
+mod edges;
+#[path = "proof/energy.rs"]
+mod energy;
+#[path = "proof/feedforward.rs"]
+mod feedforward;
+#[path = "proof/symmetry.rs"]
+mod symmetry;

@@ -1,0 +1,176 @@
+//! The core's robots, built from the reference's numbers, and runs of them.
+
+use host_tests::excite::Hold;
+use host_tests::matrices::Rig;
+use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
+use model_core::active::Effects;
+use model_core::card::{Card, Place};
+use model_core::effects::{Effect, find};
+use model_core::frames::{BodyTwist, Pose};
+use model_core::kinematics::{Wheel, Wheels};
+use model_core::motor::Motor;
+use model_core::plant::{Input, Plant, Reading, State};
+use model_core::robot::{Friction, Robot};
+use model_core::scalar::Real;
+
+/// Bus voltage that commands refer to [V]
+pub const SUPPLY: f64 = 12.0;
+
+/// A core robot of a rig whose wheels all have the motor of the first.
+pub fn core_robot<const N: usize, T: Real>(rig: &Rig<N>) -> Robot<N, T> {
+    let motor = rig.wheels[0].drive;
+    let l = T::lit;
+    Robot {
+        wheels: Wheels::new(rig.wheels.map(|w| Wheel {
+            drive_angle: l(w.heading),
+            distance: l(w.distance),
+            radius: l(w.drive.radius),
+        })),
+        motor: Motor {
+            gear_ratio: l(motor.gear),
+            resistance: l(motor.resistance),
+            emf_constant: l(motor.kv),
+            torque_constant: l(motor.kt),
+        },
+        mass: l(rig.mass),
+        inertia: l(rig.inertia),
+        friction: Friction { viscous: rig.viscous.map(l), coulomb: rig.coulomb.map(l) },
+        supply: l(SUPPLY),
+    }
+}
+
+/// The paper's robot on three wheels.
+pub fn three<T: Real>() -> Robot<3, T> {
+    core_robot(&THREE_WHEELS.rig(THREE_HEADINGS_DEG))
+}
+
+/// The paper's robot on four wheels.
+pub fn four<T: Real>() -> Robot<4, T> {
+    core_robot(&FOUR_WHEELS.rig(FOUR_HEADINGS_DEG))
+}
+
+/// An effect by its id.
+pub fn effect<T: Real>(id: &str) -> &'static dyn Effect<T> {
+    find::<T>(id).unwrap_or_else(|| panic!("{id} is not in the catalogue"))
+}
+
+/// Parameters at which a card says that the effect is typical.
+pub fn typical(card: &Card) -> Vec<f64> {
+    card.params.iter().map(|p| p.typical).collect()
+}
+
+/// Parameters at which a card says that there is no effect.
+pub fn absent(card: &Card) -> Vec<f64> {
+    card.params.iter().map(|p| p.absent).collect()
+}
+
+/// Where an effect can sit on a robot of `wheels` wheels: on all (or the robot), and on single ones.
+pub fn seats(card: &Card, wheels: usize) -> Vec<Option<usize>> {
+    let single = (0..wheels).map(Some);
+    match card.place {
+        Place::Robot => vec![None],
+        Place::Wheels => std::iter::once(None).chain(single).collect(),
+        Place::OneWheel => single.collect(),
+    }
+}
+
+/// Where an effect usually sits: on all wheels or the robot if it can, otherwise on wheel 1.
+pub fn usual_seat(card: &Card) -> Option<usize> {
+    (card.place == Place::OneWheel).then_some(1)
+}
+
+/// A plant with one effect.
+pub fn with_effect<const N: usize, T: Real>(
+    robot: Robot<N, T>,
+    effect: &'static dyn Effect<T>,
+    wheel: Option<usize>,
+    params: &[f64],
+) -> Plant<N, T> {
+    let mut effects = Effects::default();
+    let params: Vec<T> = params.iter().map(|p| T::lit(*p)).collect();
+    effects.add(effect, wheel, &params).expect("a seat that the card allows");
+    Plant::new(robot, effects)
+}
+
+/// A plant without effects.
+pub fn plain<const N: usize, T: Real>(robot: Robot<N, T>) -> Plant<N, T> {
+    Plant::new(robot, Effects::default())
+}
+
+/// A run of a plant.
+#[derive(Clone, Debug)]
+pub struct Run<const N: usize, T: Real> {
+    /// The model.
+    pub plant: Plant<N, T>,
+    /// Where it is.
+    pub state: State<N, T>,
+    /// What its effects remember.
+    pub memory: Vec<T>,
+}
+
+impl<const N: usize, T: Real> Run<N, T> {
+    /// From rest in the origin.
+    pub fn new(plant: Plant<N, T>) -> Self {
+        Self::from(plant, [0.0; 3], [0.0; 3])
+    }
+
+    /// From a pose [m, m, rad] and a twist [m/s, m/s, rad/s].
+    pub fn from(plant: Plant<N, T>, pose: [f64; 3], twist: [f64; 3]) -> Self {
+        let [x, y, theta] = pose.map(T::lit);
+        let state = plant.start(T::zero(), Pose { x, y, theta }, BodyTwist::from_array(twist.map(T::lit)));
+        let memory = vec![T::zero(); plant.memory_len()];
+        Self { plant, state, memory }
+    }
+
+    /// One step.
+    pub fn step(&mut self, input: &Input<N, T>, dt: f64) -> Reading<N, T> {
+        self.plant.step(&mut self.state, &mut self.memory, input, T::lit(dt))
+    }
+
+    /// One step under voltages [V].
+    pub fn drive(&mut self, u: [f64; N], dt: f64) -> Reading<N, T> {
+        self.step(&Input::Voltage(u.map(T::lit)), dt)
+    }
+
+    /// Whole holds, `steps` steps a millisecond; `seen` is called after every step.
+    pub fn play(&mut self, holds: &[Hold<N>], steps: u32, mut seen: impl FnMut(&Self, Reading<N, T>)) {
+        for hold in holds {
+            for _ in 0..hold.milliseconds * steps {
+                let reading = self.drive(hold.u, 1e-3 / f64::from(steps));
+                seen(self, reading);
+            }
+        }
+    }
+
+    /// v, vn, ω [m/s, m/s, rad/s]
+    pub fn twist(&self) -> [f64; 3]
+    where
+        T: Into<f64>,
+    {
+        self.state.twist.to_array().map(Into::into)
+    }
+
+    /// x, y, θ [m, m, rad]
+    pub fn pose(&self) -> [f64; 3]
+    where
+        T: Into<f64>,
+    {
+        [self.state.pose.x, self.state.pose.y, self.state.pose.theta].map(Into::into)
+    }
+}
+
+/// Largest difference of two lists of numbers; infinite if one of them is not finite.
+pub fn gap<const M: usize>(a: [f64; M], b: [f64; M]) -> f64 {
+    a.into_iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
+}
+
+/// The larger of two; infinite if one of them is no number, which must not pass for small.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
+}
+
+/// The angle within ±π [rad].
+pub fn wrapped(angle: f64) -> f64 {
+    let (sin, cos) = angle.sin_cos();
+    sin.atan2(cos)
+}

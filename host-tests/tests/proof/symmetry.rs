@@ -1,0 +1,248 @@
+//! Symmetry: a robot that is turned, mirrored, started later or somewhere else moves just the same.
+//!
+//! Friction that is counted along the body's axes does not turn with the layout. So the turn by 90° swaps the friction
+//! of v and vn, and the turn by 120°, which mixes the two, is asked of a robot without Coulomb friction on them and with
+//! one viscosity for both; ω keeps its own.
+
+use host_tests::excite::{Hold, voltages};
+use model_core::active::Effects;
+use model_core::effects::catalogue;
+use model_core::plant::Plant;
+use model_core::robot::Robot;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use crate::fixture::{Run, effect, four, gap, plain, three, typical, wrapped};
+
+/// Rounding, kept small by friction: two runs of 2 s that differ in the last bits only.
+const ROUNDING: f64 = 1e-9;
+
+/// Where budgets couple, the sweeps over them stop once nothing moves by more than 1e-6 m/s, and they go through the axes
+/// in their order, which a turned robot has otherwise: each step may differ by that.
+const SWEEPS: f64 = 1e-4;
+
+type Params = Vec<f64>;
+
+/// Every effect alone at its typical size, on all wheels or the robot or one wheel, and the same seen otherwise.
+fn each<const N: usize>(
+    robot: (Robot<N, f64>, Robot<N, f64>),
+    wheel_there: impl Fn(usize) -> usize,
+    params_there: impl Fn(&str, Params) -> Params,
+    check: impl Fn(&str, Plant<N, f64>, Plant<N, f64>),
+) {
+    check("nothing", plain(robot.0), plain(robot.1));
+    for effect in catalogue::<f64>() {
+        let card = effect.card();
+        for seat in crate::fixture::seats(card, N).into_iter().take(2) {
+            let params = typical(card);
+            let mut sets: [Effects<N, f64>; 2] = Default::default();
+            sets[0].add(*effect, seat, &params).expect("a seat that the card allows");
+            let there = params_there(card.id, params);
+            sets[1].add(*effect, seat.map(&wheel_there), &there).expect("a seat that the card allows");
+            let [here, there] = sets;
+            check(card.id, Plant::new(robot.0, here), Plant::new(robot.1, there));
+        }
+    }
+}
+
+/// How far two runs that ought to be the same may part [m/s, rad/s, m, rad].
+fn apart(id: &str) -> f64 {
+    match id {
+        // budgets on the wheels' shafts couple the axes
+        "stribeck" => SWEEPS,
+        // besides, a wheel that sticks has a speed of ±1e-16, whose sign decides whether it counts as driven: a budget
+        // that differs by 2.6 % of a torque of 0.2 N·m, 0.16 N at the rim of 2 kg, for some milliseconds each time
+        "gear_efficiency" => 2e-3,
+        // Newton's rule stops at 1e-6 of the current, and its h points the same way whichever way the current flows:
+        // 1e-6 A push with 4e-6 N, on 2 kg for the 0.1 s that the motors take to brake it, and 0.1 N·m on 0.02 kg·m²
+        "dead_time" => 2e-5,
+        _ => ROUNDING,
+    }
+}
+
+fn holds<const N: usize>() -> Vec<Hold<N>> {
+    voltages(5, 18, 9.0)
+}
+
+#[test]
+fn four_wheels_turned_by_90_degrees_are_the_same_robot() {
+    let here = four::<f64>();
+    let mut there = here;
+    there.friction.viscous.swap(0, 1);
+    there.friction.coulomb.swap(0, 1);
+    // wheel j of the one is wheel j + 1 of the other, whose axes lie 90° to the right of the first one's
+    each(
+        (here, there),
+        |j| (j + 1) % 4,
+        |_, params| params,
+        |id, here, there| {
+            let mut here = Run::new(here);
+            let mut there = Run::from(there, [0.0, 0.0, -FRAC_PI_2], [0.0; 3]);
+            for hold in holds::<4>() {
+                for _ in 0..hold.milliseconds {
+                    here.drive(hold.u, 1e-3);
+                    there.drive(std::array::from_fn(|j| hold.u[(j + 3) % 4]), 1e-3);
+                }
+                let [v, vn, w] = here.twist();
+                let (p, q) = (here.pose(), there.pose());
+                let off = gap(there.twist(), [-vn, v, w]).max(gap(q, [p[0], p[1], p[2] - FRAC_PI_2]));
+                assert!(off < apart(id), "{id}: {off:e}");
+            }
+        },
+    );
+}
+
+#[test]
+fn three_wheels_turned_by_120_degrees_are_the_same_robot() {
+    let mut robot = three::<f64>();
+    robot.friction.viscous[1] = robot.friction.viscous[0];
+    robot.friction.coulomb[..2].fill(0.0);
+    let third = 2.0 * PI / 3.0;
+    each(
+        (robot, robot),
+        |j| (j + 1) % 3,
+        |_, params| params,
+        |id, here, there| {
+            let mut here = Run::new(here);
+            let mut there = Run::from(there, [0.0, 0.0, -third], [0.0; 3]);
+            for hold in holds::<3>() {
+                for _ in 0..hold.milliseconds {
+                    here.drive(hold.u, 1e-3);
+                    there.drive(std::array::from_fn(|j| hold.u[(j + 2) % 3]), 1e-3);
+                }
+                let [v, vn, w] = here.twist();
+                let (sin, cos) = third.sin_cos();
+                let (p, q) = (here.pose(), there.pose());
+                let turned = [cos * v - sin * vn, sin * v + cos * vn, w];
+                let off = gap(there.twist(), turned).max(gap(q, [p[0], p[1], p[2] - third]));
+                assert!(off < apart(id), "{id}: {off:e}");
+            }
+        },
+    );
+}
+
+/// Left and right swapped: vn and ω change sign, wheel j becomes `wheel[j]` and drives the other way.
+fn mirrored<const N: usize>(robot: Robot<N, f64>, wheel: [usize; N]) {
+    let params = |id: &str, mut params: Params| {
+        match id {
+            // downhill is mirrored too
+            "floor_tilt" => params[1] = -params[1],
+            // a current that changes its sign is read with the other offset
+            "current_sensor_offset" => params[0] = -params[0],
+            _ => {}
+        }
+        params
+    };
+    each(
+        (robot, robot),
+        |j| wheel[j],
+        params,
+        |id, here, there| {
+            let (mut here, mut there) = (Run::new(here), Run::new(there));
+            for hold in holds::<N>() {
+                let mut u = [0.0; N];
+                for j in 0..N {
+                    u[wheel[j]] = -hold.u[j];
+                }
+                for _ in 0..hold.milliseconds {
+                    let (a, b) = (here.drive(hold.u, 1e-3), there.drive(u, 1e-3));
+                    // a current is twist errors times l·Kv/(r·R), about one ampere for each m/s
+                    let off = gap(a.current, wheel.map(|k| -b.current[k]));
+                    assert!(off < 10.0 * apart(id), "{id}, a current: {off:e}");
+                }
+                let ([v, vn, w], [x, y, theta]) = (here.twist(), here.pose());
+                let off = gap(there.twist(), [v, -vn, -w]).max(gap(there.pose(), [x, -y, -theta]));
+                assert!(off < apart(id), "{id}: {off:e}");
+            }
+        },
+    );
+}
+
+#[test]
+fn a_robot_seen_in_a_mirror_is_the_same_robot() {
+    // drive angles 150°, 270°, 30° become 180° less each: 30°, 270°, 150°; 90°, 180°, 270°, 0° become 90°, 0°, 270°, 180°
+    mirrored(three::<f64>(), [2, 1, 0]);
+    mirrored(four::<f64>(), [0, 3, 2, 1]);
+}
+
+#[test]
+fn a_run_that_starts_later_is_the_same_run() {
+    let robot = four::<f64>();
+    each(
+        (robot, robot),
+        |j| j,
+        |_, params| params,
+        |id, here, there| {
+            let (mut here, mut there) = (Run::new(here), Run::new(there));
+            there.state.time = 1000.3;
+            for hold in holds::<4>() {
+                for _ in 0..hold.milliseconds {
+                    let (a, b) = (here.drive(hold.u, 1e-3), there.drive(hold.u, 1e-3));
+                    // at 1000 s time itself is rounded by 1e-13 s, and a delay sees 2000 steps' sum of that, 2e-10 s; the
+                    // robot moves at 2 m/s and the voltage may change by 18 V within a step
+                    assert!(gap(a.current, b.current) < 1e-5, "{id}: {:?} against {:?}", a.current, b.current);
+                }
+                assert!(gap(here.twist(), there.twist()) < 1e-6, "{id}");
+                assert!(gap(here.pose(), there.pose()) < 1e-6, "{id}");
+            }
+        },
+    );
+}
+
+#[test]
+fn a_run_somewhere_else_in_the_world_is_the_same_run() {
+    fn check<const N: usize>(robot: Robot<N, f64>) {
+        let [x0, y0, turn] = [3.0, -2.0, 2.1];
+        let params = |id: &str, mut params: Params| {
+            if id == "floor_tilt" {
+                params[1] = wrapped(params[1] + turn);
+            }
+            params
+        };
+        each(
+            (robot, robot),
+            |j| j,
+            params,
+            |id, here, there| {
+                let mut here = Run::from(here, [0.0; 3], [0.3, 0.2, -1.0]);
+                let mut there = Run::from(there, [x0, y0, turn], [0.3, 0.2, -1.0]);
+                for hold in holds::<N>() {
+                    for _ in 0..hold.milliseconds {
+                        here.drive(hold.u, 1e-3);
+                        there.drive(hold.u, 1e-3);
+                    }
+                    let ([x, y, theta], (sin, cos)) = (here.pose(), turn.sin_cos());
+                    let moved = [x0 + cos * x - sin * y, y0 + sin * x + cos * y, theta + turn];
+                    let off = gap(here.twist(), there.twist()).max(gap(there.pose(), moved));
+                    assert!(off < apart(id), "{id}: {off:e}");
+                }
+            },
+        );
+    }
+    check(three::<f64>());
+    check(four::<f64>());
+}
+
+#[test]
+fn all_effects_together_keep_the_symmetry_of_four_wheels() {
+    let robot = four::<f64>();
+    let together = || {
+        let mut effects = Effects::default();
+        for id in ["supply_sag", "dead_time", "rotor_inertia", "creep", "coriolis", "actuation_delay"] {
+            let effect = effect::<f64>(id);
+            effects.add(effect, None, &typical(effect.card())).expect("room");
+        }
+        effects
+    };
+    // by 180° every axis goes over into itself
+    let mut here = Run::new(Plant::new(robot, together()));
+    let mut there = Run::from(Plant::new(robot, together()), [0.0, 0.0, PI], [0.0; 3]);
+    for hold in holds::<4>() {
+        for _ in 0..hold.milliseconds {
+            here.drive(hold.u, 1e-3);
+            there.drive(std::array::from_fn(|j| hold.u[(j + 2) % 4]), 1e-3);
+        }
+        let ([v, vn, w], p) = (here.twist(), here.pose());
+        let off = gap(there.twist(), [-v, -vn, w]).max(gap(there.pose(), [p[0], p[1], p[2] + PI]));
+        assert!(off < 1e-6, "{off:e}");
+    }
+}
