@@ -20,3 +20,16 @@ mod energy;
 mod feedforward;
 #[path = "proof/symmetry.rs"]
 mod symmetry;
+
+#[path = "proof/derivatives.rs"]
+mod derivatives;
+#[path = "proof/identity.rs"]
+mod identity;
+#[path = "proof/invented.rs"]
+mod invented;
+#[path = "proof/mechanism.rs"]
+mod mechanism;
+#[path = "proof/registry.rs"]
+mod registry;
+#[path = "proof/seams.rs"]
+mod seams;

@@ -1,0 +1,118 @@
+//! Absent means absent: at its absent value an effect leaves a whole run bit for bit as it was without it.
+
+use host_tests::excite::voltages;
+use model_core::effects::catalogue;
+use model_core::plant::{Plant, Reading, State};
+use model_core::robot::Robot;
+use model_core::scalar::Real;
+
+use crate::fixture::{Run, absent, four, plain, seats, three, typical, with_effect};
+
+/// A number with bits.
+trait Bits: Real + Into<f64> {
+    fn bits(self) -> u64;
+}
+
+impl Bits for f32 {
+    fn bits(self) -> u64 {
+        u64::from(self.to_bits())
+    }
+}
+
+impl Bits for f64 {
+    fn bits(self) -> u64 {
+        self.to_bits()
+    }
+}
+
+/// All that a step leaves behind. The wheels' angles are not kept up without effects, so they are left out.
+fn bits<const N: usize, T: Bits>(state: &State<N, T>, reading: &Reading<N, T>) -> Vec<u64> {
+    let pose = |p: model_core::frames::Pose<T>| [p.x, p.y, p.theta];
+    let mut all = vec![state.time.bits(), state.bus.bits(), reading.gyro.bits()];
+    all.extend(pose(state.pose).iter().chain(&pose(reading.pose)).chain(&state.twist.to_array()).map(|x| x.bits()));
+    for wheels in [state.wheel_speed, state.current, reading.current, reading.wheel_speed] {
+        all.extend(wheels.iter().map(|x| x.bits()));
+    }
+    all
+}
+
+/// A run over random holds: every step's bits.
+fn run<const N: usize, T: Bits>(plant: Plant<N, T>) -> Vec<Vec<u64>> {
+    let mut all = Vec::new();
+    Run::from(plant, [0.1, -0.2, 0.3], [0.4, -0.3, 2.0]).play(&voltages::<N>(9, 12, 9.0), 1, |run, reading| {
+        all.push(bits(&run.state, &reading));
+    });
+    all
+}
+
+/// Parameters at which there is no effect: all absent, and only those that size it, with the others typical.
+fn ways_to_be_absent(card: &model_core::card::Card) -> Vec<Vec<f64>> {
+    use model_core::card::Role;
+    let shaped: Vec<f64> =
+        card.params.iter().map(|p| if p.role == Role::Shape { p.typical } else { p.absent }).collect();
+    vec![absent(card), shaped]
+}
+
+fn every_effect_can_be_absent<const N: usize, T: Bits>(robot: Robot<N, T>) {
+    let without = run(plain(robot));
+    for effect in catalogue::<T>() {
+        let card = effect.card();
+        for seat in seats(card, N) {
+            for params in ways_to_be_absent(card) {
+                let with = run(with_effect(robot, *effect, seat, &params));
+                let at = without.iter().zip(&with).position(|(a, b)| a != b);
+                assert!(at.is_none(), "{} on {seat:?} at {params:?} shows in step {at:?}", card.id);
+            }
+        }
+    }
+}
+
+#[test]
+fn absent_effects_leave_three_wheels_bit_for_bit() {
+    every_effect_can_be_absent(three::<f64>());
+    every_effect_can_be_absent(three::<f32>());
+}
+
+#[test]
+fn absent_effects_leave_four_wheels_bit_for_bit() {
+    every_effect_can_be_absent(four::<f64>());
+    every_effect_can_be_absent(four::<f32>());
+}
+
+#[test]
+fn absent_effects_leave_imposed_currents_and_speeds_bit_for_bit() {
+    use model_core::plant::Input;
+    let input = |k: u32| {
+        let phase = f64::from(k) * 0.02;
+        let wave: [f64; 4] = std::array::from_fn(|j| (phase * (1.0 + 0.3 * j as f64)).sin());
+        if k < 150 { Input::Current(wave) } else { Input::Speed(wave.map(|w| 10.0 * w)) }
+    };
+    let run = |plant: Plant<4, f64>| {
+        let mut run = Run::new(plant);
+        let steps = 0..300;
+        steps
+            .map(|k| {
+                let reading = run.step(&input(k), 1e-3);
+                bits(&run.state, &reading)
+            })
+            .collect::<Vec<_>>()
+    };
+    let without = run(plain(four()));
+    for effect in catalogue::<f64>() {
+        let seat = crate::fixture::usual_seat(effect.card());
+        let with = run(with_effect(four(), *effect, seat, &absent(effect.card())));
+        assert!(with == without, "{}", effect.card().id);
+    }
+}
+
+#[test]
+fn typical_effects_are_seen() {
+    let without = run(plain(four::<f64>()));
+    for effect in catalogue::<f64>() {
+        let card = effect.card();
+        for seat in seats(card, 4) {
+            let with = run(with_effect(four(), *effect, seat, &typical(card)));
+            assert!(with != without, "{} on {seat:?} changes nothing", card.id);
+        }
+    }
+}

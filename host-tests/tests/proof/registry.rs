@@ -1,0 +1,239 @@
+//! The catalogue: what is in the folder is in the list, and the cards are sound.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use model_core::active::MAX_EFFECTS;
+use model_core::card::{Card, MAX_PARAMS, Place, Role, Seam};
+use model_core::effects::{catalogue, find};
+use model_core::robot::Nominal;
+
+/// Units that parameters may have, and the suffix of a key that has it.
+const UNITS: [(&str, &str); 24] = [
+    ("1", ""),
+    ("V", "_V"),
+    ("A", "_A"),
+    ("Ω", "_ohm"),
+    ("H", "_H"),
+    ("F", "_F"),
+    ("s", "_s"),
+    ("m", "_m"),
+    ("rad", "_rad"),
+    ("kg", "_kg"),
+    ("N", "_N"),
+    ("N·m", "_Nm"),
+    ("Hz", "_Hz"),
+    ("K", "_K"),
+    ("1/K", "_per_K"),
+    ("m/s", "_m_s"),
+    ("m/s²", "_m_s2"),
+    ("rad/s", "_rad_s"),
+    ("kg·m²", "_kg_m2"),
+    ("(m/s)/N", "_m_s_per_N"),
+    ("1/(m/s)", ""),
+    ("N·m·s", "_Nms"),
+    ("N·m/rad", "_Nm_per_rad"),
+    ("V/A", "_V_per_A"),
+];
+
+/// Most numbers that an effect may remember for one wheel: twelve effects on four wheels still fit in 48 kB of f32.
+const MOST_MEMORY: usize = 256;
+
+fn cards() -> Vec<&'static Card> {
+    catalogue::<f64>().iter().map(|effect| effect.card()).collect()
+}
+
+fn effects_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../model-core/src/effects")
+}
+
+/// (folder, name) of every effect's file.
+fn files() -> BTreeSet<(String, String)> {
+    let mut found = BTreeSet::new();
+    for folder in fs::read_dir(effects_folder()).expect("the folder of effects").flatten() {
+        if !folder.path().is_dir() {
+            continue;
+        }
+        for file in fs::read_dir(folder.path()).expect("a stage's folder").flatten() {
+            let name = file.file_name().to_string_lossy().into_owned();
+            if let Some(name) = name.strip_suffix(".rs").filter(|name| *name != "mod") {
+                found.insert((folder.file_name().to_string_lossy().into_owned(), name.to_string()));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn every_file_is_in_the_catalogue_and_every_entry_has_its_file() {
+    let listed: BTreeSet<_> =
+        cards().iter().map(|card| (card.stage().name().to_string(), card.id.to_string())).collect();
+    assert_eq!(files(), listed, "files (folder = stage, name = id) against the catalogue");
+}
+
+#[test]
+fn ids_are_unique_and_found() {
+    let ids: BTreeSet<_> = cards().iter().map(|card| card.id).collect();
+    assert_eq!(ids.len(), cards().len());
+    for id in ids {
+        assert!(id.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_'), "{id}");
+        assert_eq!(find::<f32>(id).map(|effect| effect.card().id), Some(id));
+        assert!(!Nominal::ALL.iter().any(|nominal| nominal.cause() == id), "{id} is a nominal parameter's name");
+    }
+    assert!(find::<f64>("no_such_effect").is_none());
+}
+
+#[test]
+fn all_number_types_have_the_same_catalogue() {
+    let single: Vec<_> = catalogue::<f32>().iter().map(|effect| effect.card().id).collect();
+    let dual: Vec<_> = catalogue::<model_core::dual::Dual<8>>().iter().map(|effect| effect.card().id).collect();
+    let double: Vec<_> = cards().iter().map(|card| card.id).collect();
+    assert_eq!(double, single);
+    assert_eq!(double, dual);
+}
+
+#[test]
+fn bounds_hold_what_is_absent_and_what_is_typical() {
+    for card in cards() {
+        for p in card.params {
+            let (low, high) = p.within;
+            let what = format!("{}.{}", card.id, p.key);
+            assert!(low < high && low.is_finite() && high.is_finite(), "{what}: {low} … {high}");
+            assert!((low..=high).contains(&p.absent), "{what}: absent at {}", p.absent);
+            assert!((low..=high).contains(&p.typical), "{what}: typical at {}", p.typical);
+            if p.role == Role::Size {
+                assert!(p.absent != p.typical, "{what} sizes the effect and is absent where it is typical");
+            }
+        }
+        let sizes = card.params.iter().any(|p| p.role == Role::Size);
+        let absent_somewhere = card.params.iter().any(|p| p.absent != p.typical);
+        assert!(sizes || absent_somewhere, "{} is never absent", card.id);
+    }
+}
+
+#[test]
+fn keys_say_their_units() {
+    for card in cards() {
+        let keys: BTreeSet<_> = card.params.iter().map(|p| p.key).collect();
+        assert_eq!(keys.len(), card.params.len(), "{}: a key twice", card.id);
+        for p in card.params {
+            let what = format!("{}.{} in {}", card.id, p.key, p.unit);
+            let (_, suffix) = *UNITS
+                .iter()
+                .find(|(unit, _)| *unit == p.unit)
+                .unwrap_or_else(|| panic!("{what}: the unit is not in the list"));
+            assert!(p.key.ends_with(suffix) && p.key.len() > suffix.len(), "{what}: the key should end in {suffix}");
+            // the longest suffix that fits is the unit that the key speaks of
+            let said =
+                UNITS.iter().filter(|(_, s)| p.key.ends_with(s)).max_by_key(|(_, s)| s.len()).expect("at least none");
+            assert!(
+                said.1.len() <= suffix.len() || suffix.is_empty() && !p.key.contains(char::is_uppercase),
+                "{what}: the key speaks of {}",
+                said.0
+            );
+            let start = p.key.strip_suffix(suffix).unwrap_or(p.key);
+            assert!(
+                start.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_'),
+                "{what}: snake case"
+            );
+        }
+    }
+}
+
+#[test]
+fn cards_say_all_that_a_person_asks() {
+    for card in cards() {
+        let texts = [card.title, card.summary, card.equation, card.source, card.signature];
+        assert!(texts.iter().all(|text| !text.trim().is_empty()), "{}: something is left blank", card.id);
+        assert!(
+            card.summary.ends_with('.') && !card.title.ends_with('.'),
+            "{}: summary a sentence, title none",
+            card.id
+        );
+        for p in card.params {
+            assert!(!p.symbol.is_empty(), "{}.{}", card.id, p.key);
+        }
+    }
+}
+
+#[test]
+fn equations_name_the_symbols_that_size_them() {
+    for card in cards() {
+        for p in card.params.iter().filter(|p| p.role == Role::Size) {
+            assert!(card.equation.contains(p.symbol), "{}: {} is not in {}", card.id, p.symbol, card.equation);
+        }
+    }
+}
+
+#[test]
+fn look_alikes_are_mutual_and_settled_alike() {
+    let causes: BTreeSet<_> = Nominal::ALL.iter().map(|nominal| nominal.cause()).collect();
+    for card in cards() {
+        let mut seen = BTreeSet::new();
+        for like in card.look_alikes {
+            assert!(like.with != card.id && seen.insert(like.with), "{} names {} twice", card.id, like.with);
+            assert!(like.settled_by.len() > 20, "{} and {}: say how to tell them apart", card.id, like.with);
+            if causes.contains(like.with) {
+                continue;
+            }
+            let other =
+                find::<f64>(like.with).unwrap_or_else(|| panic!("{} names {}: no such effect", card.id, like.with));
+            let back = other.card().look_alikes.iter().find(|back| back.with == card.id);
+            let back = back.unwrap_or_else(|| panic!("{} names {}, not the other way round", card.id, like.with));
+            assert_eq!(back.settled_by, like.settled_by, "{} and {} are settled in two ways", card.id, like.with);
+        }
+    }
+}
+
+#[test]
+fn parameters_and_memory_keep_their_limits() {
+    for card in cards() {
+        assert!((1..=MAX_PARAMS).contains(&card.params.len()), "{}: {} parameters", card.id, card.params.len());
+        assert!(card.memory <= MOST_MEMORY, "{} remembers {} numbers", card.id, card.memory);
+    }
+    const { assert!(MAX_EFFECTS <= 16, "a set of effects is kept as 16 bits") }
+}
+
+#[test]
+fn seams_stand_in_signal_order() {
+    for card in cards() {
+        assert!(!card.seams.is_empty(), "{} acts nowhere", card.id);
+        assert!(card.seams.windows(2).all(|pair| pair[0] < pair[1]), "{}: {:?}", card.id, card.seams);
+    }
+    let homes: Vec<_> = cards().iter().map(|card| card.seams[0].stage()).collect();
+    assert!(homes.is_sorted(), "the catalogue goes along the signal path: {homes:?}");
+}
+
+#[test]
+fn an_effect_of_the_body_or_the_battery_sits_on_the_robot() {
+    for card in cards() {
+        if card.seams.iter().all(|seam| [Seam::Supply, Seam::Body].contains(seam)) {
+            assert_eq!(card.place, Place::Robot, "{}: there is one body and one battery", card.id);
+        }
+        if card.seams[0] == Seam::Gear {
+            assert_ne!(card.place, Place::Robot, "{}: gears sit on wheels", card.id);
+        }
+    }
+}
+
+#[test]
+fn a_set_of_effects_refuses_seats_that_the_card_does_not_allow() {
+    use model_core::active::{Effects, Refused};
+    for effect in catalogue::<f64>() {
+        let card = effect.card();
+        let params = crate::fixture::typical(card);
+        let mut set = Effects::<3, f64>::default();
+        let allowed = crate::fixture::seats(card, 3);
+        for seat in [None, Some(0), Some(2), Some(3)] {
+            let refused = set.add(*effect, seat, &params).err();
+            assert_eq!(refused, (!allowed.contains(&seat)).then_some(Refused::Wheel), "{} on {seat:?}", card.id);
+        }
+        assert_eq!(set.add(*effect, allowed[0], &[]), Err(Refused::Parameters));
+        for _ in set.iter().count()..MAX_EFFECTS {
+            set.add(*effect, allowed[0], &params).expect("room");
+        }
+        assert_eq!(set.add(*effect, allowed[0], &params), Err(Refused::Full));
+        assert_eq!(set.iter().count(), MAX_EFFECTS);
+    }
+}

@@ -1,0 +1,255 @@
+//! An effect touches the seams that its card lists, and no other.
+
+use host_tests::excite::Dice;
+use model_core::card::Seam;
+use model_core::effects::{Effect, catalogue};
+use model_core::frames::{BodyTwist, Pose};
+use model_core::seams::{At, Body, Contact, Drive, Gear, Sense, Supply, Turn, Winding};
+
+use crate::fixture::typical;
+
+/// A description whose numbers are random but physical.
+trait Described: Clone {
+    fn random(dice: &mut Dice) -> Self;
+    fn numbers(&self) -> Vec<f64>;
+}
+
+fn pose(dice: &mut Dice) -> Pose<f64> {
+    Pose { x: dice.between(-2.0, 2.0), y: dice.between(-2.0, 2.0), theta: dice.between(-7.0, 7.0) }
+}
+
+fn at(dice: &mut Dice) -> At<f64> {
+    let time = dice.between(0.0, 20.0);
+    At {
+        time,
+        dt: dice.between(1e-4, 5e-3),
+        wheel: dice.below(3) as usize,
+        wheel_angle: dice.between(-50.0, 50.0),
+        wheel_speed: dice.between(-60.0, 60.0),
+        rim_speed: dice.between(-2.0, 2.0),
+        pose: pose(dice),
+        twist: BodyTwist { v: dice.between(-2.0, 2.0), vn: dice.between(-2.0, 2.0), w: dice.between(-9.0, 9.0) },
+        nominal_supply: 12.0,
+    }
+}
+
+impl Described for Supply<f64> {
+    fn random(dice: &mut Dice) -> Self {
+        Self { current: dice.between(-5.0, 20.0), voltage: dice.between(9.0, 13.0) }
+    }
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.current, self.voltage]
+    }
+}
+
+impl Described for Drive<f64> {
+    fn random(dice: &mut Dice) -> Self {
+        let voltage = dice.between(-12.0, 12.0);
+        Self { command: voltage, bus: 12.0, current: dice.between(-4.0, 4.0), voltage, sampled: voltage }
+    }
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.command, self.bus, self.current, self.voltage, self.sampled]
+    }
+}
+
+impl Described for Winding<f64> {
+    fn random(dice: &mut Dice) -> Self {
+        Self {
+            current: dice.between(-4.0, 4.0),
+            speed: dice.between(-60.0, 60.0),
+            resistance: dice.between(1.0, 6.0),
+            inductance: dice.between(0.0, 1e-3),
+            emf_constant: dice.between(0.05, 0.2),
+            torque_constant: dice.between(0.05, 0.2),
+        }
+    }
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.current, self.speed, self.resistance, self.inductance, self.emf_constant, self.torque_constant]
+    }
+}
+
+impl Described for Gear<f64> {
+    fn random(dice: &mut Dice) -> Self {
+        let torque = dice.between(-0.5, 0.5);
+        Self {
+            motor_torque: torque,
+            coulomb_share: dice.between(0.0, 0.05),
+            torque,
+            budget: dice.between(0.0, 0.05),
+            damping: dice.between(0.0, 1e-3),
+            inertia: dice.between(0.0, 1e-4),
+        }
+    }
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.motor_torque, self.coulomb_share, self.torque, self.budget, self.damping, self.inertia]
+    }
+}
+
+impl Described for Contact<f64> {
+    fn random(dice: &mut Dice) -> Self {
+        let (sin, cos) = dice.between(-3.0, 3.0).sin_cos();
+        let radius = dice.between(0.02, 0.05);
+        Self {
+            row: [cos, sin, 0.089],
+            radius,
+            per_radius: 1.0 / radius,
+            load: dice.between(3.0, 9.0),
+            creep: dice.between(0.0, 0.02),
+            grip: 0.0,
+            stiffness: 0.0,
+            shape: 1.0,
+        }
+    }
+    fn numbers(&self) -> Vec<f64> {
+        let [a, b, c] = self.row;
+        vec![a, b, c, self.radius, self.load, self.creep, self.grip, self.stiffness, self.shape]
+    }
+}
+
+impl Described for Body<f64> {
+    fn random(dice: &mut Dice) -> Self {
+        let mut three = |most: f64| [(); 3].map(|()| dice.between(-most, most));
+        let (force, rate, budget) = (three(5.0), [three(1.0), three(1.0), three(1.0)], three(2.0).map(f64::abs));
+        Self { mass: dice.between(1.0, 4.0), inertia: dice.between(0.01, 0.03), force, rate, budget }
+    }
+    fn numbers(&self) -> Vec<f64> {
+        let mut all = vec![self.mass, self.inertia];
+        all.extend(self.force.iter().chain(self.rate.iter().flatten()).chain(&self.budget));
+        all
+    }
+}
+
+impl Described for Sense<f64> {
+    fn random(dice: &mut Dice) -> Self {
+        Self {
+            current: dice.between(-4.0, 4.0),
+            wheel_speed: dice.between(-60.0, 60.0),
+            pose: pose(dice),
+            gyro: dice.between(-9.0, 9.0),
+        }
+    }
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.current, self.wheel_speed, self.pose.x, self.pose.y, self.pose.theta, self.gyro]
+    }
+}
+
+/// True if the hook changed any bit of any of 50 random descriptions.
+fn touches<D: Described>(seed: u64, hook: impl Fn(&At<f64>, &mut D)) -> bool {
+    let mut dice = Dice::new(seed);
+    (0..50).any(|_| {
+        let at = at(&mut dice);
+        let before = D::random(&mut dice);
+        let mut after = before.clone();
+        hook(&at, &mut after);
+        let bits = |d: &D| d.numbers().into_iter().map(f64::to_bits).collect::<Vec<_>>();
+        bits(&before) != bits(&after)
+    })
+}
+
+/// A memory as it is after some steps.
+fn remembered(effect: &dyn Effect<f64>, p: &[f64], dice: &mut Dice) -> Vec<f64> {
+    let mut s = vec![0.0; effect.card().memory];
+    effect.restart(p, &mut s, &At { time: -0.1, ..at(dice) });
+    for k in 0..40 {
+        let done = Turn {
+            command: dice.between(-9.0, 9.0),
+            current: dice.between(-3.0, 3.0),
+            wheel_speed: dice.between(-50.0, 50.0),
+            bus_current: dice.between(-1.0, 9.0),
+            bus: 12.0,
+        };
+        effect.advance(p, &mut s, &At { time: -0.1 + 2.5e-3 * f64::from(k), ..at(dice) }, &done);
+    }
+    s
+}
+
+#[test]
+fn hooks_that_a_card_does_not_list_change_nothing_and_those_it_lists_do() {
+    for (k, effect) in catalogue::<f64>().iter().enumerate() {
+        let card = effect.card();
+        let mut dice = Dice::new(k as u64);
+        let p = typical(card);
+        let s = remembered(*effect, &p, &mut dice);
+        let seed = dice.bits();
+        // the description is asked just after what is remembered
+        let now = |at: &At<f64>| At { time: 0.0, ..*at };
+        for seam in Seam::ALL {
+            let touched = match seam {
+                Seam::Supply => touches(seed, |at, x| effect.supply(&p, &s, &now(at), x)),
+                Seam::Drive => touches(seed, |at, x| effect.drive(&p, &s, &now(at), x)),
+                Seam::Winding => touches(seed, |at, x| effect.winding(&p, &s, &now(at), x)),
+                Seam::Gear => touches(seed, |at, x| effect.gear(&p, &s, &now(at), x)),
+                Seam::Contact => touches(seed, |at, x| effect.contact(&p, &s, &now(at), x)),
+                Seam::Body => touches(seed, |at, x| effect.body(&p, &s, &now(at), x)),
+                Seam::Sense => touches(seed, |at, x| effect.sense(&p, &s, &now(at), x)),
+            };
+            let listed = card.seams.contains(&seam);
+            assert_eq!(touched, listed, "{} at {seam:?}: touches it? {touched}; its card lists it? {listed}", card.id);
+        }
+    }
+}
+
+#[test]
+fn a_hook_is_a_pure_function_of_what_it_is_given() {
+    for effect in catalogue::<f64>() {
+        let p = typical(effect.card());
+        let s = remembered(*effect, &p, &mut Dice::new(1));
+        let twice: Vec<_> = (0..2)
+            .map(|_| {
+                let mut dice = Dice::new(4);
+                let at = at(&mut dice);
+                let (mut drive, mut gear) = (Drive::random(&mut dice), Gear::random(&mut dice));
+                let (mut contact, mut sense) = (Contact::random(&mut dice), Sense::random(&mut dice));
+                effect.drive(&p, &s, &at, &mut drive);
+                effect.gear(&p, &s, &at, &mut gear);
+                effect.contact(&p, &s, &at, &mut contact);
+                effect.sense(&p, &s, &at, &mut sense);
+                [drive.numbers(), gear.numbers(), contact.numbers(), sense.numbers()].concat()
+            })
+            .collect();
+        assert_eq!(twice[0], twice[1], "{}", effect.card().id);
+    }
+}
+
+#[test]
+fn only_a_law_that_says_so_looks_at_the_current() {
+    for effect in catalogue::<f64>() {
+        let card = effect.card();
+        let p = typical(card);
+        let s = remembered(*effect, &p, &mut Dice::new(2));
+        let mut dice = Dice::new(6);
+        let looks = (0..50).any(|_| {
+            let at = At { time: 0.0, ..at(&mut dice) };
+            let (mut a, mut b) = (Drive::random(&mut dice), Winding::random(&mut dice));
+            let (mut c, mut d) = (Drive { current: -a.current, ..a }, Winding { current: -b.current, ..b });
+            effect.drive(&p, &s, &at, &mut a);
+            effect.drive(&p, &s, &at, &mut c);
+            effect.winding(&p, &s, &at, &mut b);
+            effect.winding(&p, &s, &at, &mut d);
+            a.voltage != c.voltage || b.resistance != d.resistance || b.torque_constant != d.torque_constant
+        });
+        assert_eq!(looks, card.needs_current, "{}: looks at the current? {looks}", card.id);
+    }
+}
+
+#[test]
+fn sensing_and_its_way_back_undo_each_other() {
+    for effect in catalogue::<f64>().iter().filter(|effect| effect.card().seams.contains(&Seam::Sense)) {
+        let p = typical(effect.card());
+        let mut dice = Dice::new(3);
+        for _ in 0..50 {
+            // constant velocity, straight on: the way back of a delay is exact there
+            let mut here = at(&mut dice);
+            here.twist.w = 0.0;
+            let mut s = vec![0.0; effect.card().memory];
+            effect.restart(&p, &mut s, &here);
+            let truth = Sense { pose: here.pose, ..Sense::random(&mut dice) };
+            let mut x = truth;
+            effect.sense(&p, &s, &here, &mut x);
+            effect.unsense(&p, &here, &mut x);
+            let off = truth.numbers().iter().zip(x.numbers()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            // roundings of numbers up to 60
+            assert!(off < 1e-12, "{}: {off:e}", effect.card().id);
+        }
+    }
+}
