@@ -6,6 +6,8 @@
 
 #[path = "proof/fixture.rs"]
 mod fixture;
+#[path = "proof/golden.rs"]
+mod golden;
 
 #[path = "proof/geometry.rs"]
 mod geometry;
@@ -18,11 +20,15 @@ mod edges;
 mod energy;
 #[path = "proof/feedforward.rs"]
 mod feedforward;
+#[path = "proof/integration.rs"]
+mod integration;
 #[path = "proof/symmetry.rs"]
 mod symmetry;
 
 #[path = "proof/derivatives.rs"]
 mod derivatives;
+#[path = "proof/docs.rs"]
+mod docs;
 #[path = "proof/identity.rs"]
 mod identity;
 #[path = "proof/invented.rs"]
