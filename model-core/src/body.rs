@@ -19,6 +19,9 @@ use crate::small::{dot, inverse3, mul_mat_vec};
 /// Sweeps at the most; sliding and single sticking directions need one.
 const SWEEPS: usize = 12;
 
+/// Sweeps end once nothing changes any acceleration by more than this [m/s², rad/s²].
+const RESOLUTION: f64 = 1e-3;
+
 /// The inverse of H, which is usually diagonal: then the axes do not couple.
 #[derive(Clone, Copy, Debug)]
 pub enum Mobility<T> {
@@ -148,12 +151,14 @@ fn sweep<const N: usize, T: Real>(
             }
             moved = moved.max((change / *stiffness).abs().value());
         }
-        // nothing moves by more than a hundredth of a millimetre a second any more
-        if moved < T::lit(1e-5) {
+        if moved < T::lit(RESOLUTION) * dt {
             break;
         }
     }
-    x
+    // what is at rest up to the resolution, and held, is at rest
+    let still = x.iter().all(|x| x.abs() < T::lit(RESOLUTION) * dt);
+    let held = holds[..count].iter().zip(&impulse).any(|((.., most), impulse)| impulse.abs() < *most);
+    if still && held { [zero; 3] } else { x }
 }
 
 #[cfg(test)]

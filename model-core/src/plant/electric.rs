@@ -135,10 +135,9 @@ impl<const N: usize, T: Real> Plant<N, T> {
         let inductive = w.inductance > T::zero();
         let sampled = if inductive {
             last
-        } else if look.sampled == look.voltage {
-            current
         } else {
-            (look.sampled - w.emf_constant * w.speed) * look.per_resistance
+            // i − (u − u_sampled)/R, which keeps every bit of the current where the two voltages are one
+            current - (look.voltage - look.sampled) * look.per_resistance
         };
         let (mean, after) = if inductive {
             // the winding at the wheel's shaft, with the constants and the voltage found above
@@ -185,7 +184,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             let mut drawn = T::zero();
             for j in 0..N {
                 let speed = if contact[j].rolls() { rim[j] * contact[j].per_radius } else { state.wheel_speed[j] };
-                let at = At { wheel: j, wheel_speed: speed, wheel_angle: state.wheel_angle[j], ..*at };
+                let at = At { rim_speed: rim[j], ..self.at_wheel(at, state, j, speed) };
                 // I_bus = Σ duty_j·i_j,  duty_j = u_j/U_nominal
                 drawn += command[j] / nominal * self.electric::<false>(&at, state, memory, source, j, gain).sampled;
             }
@@ -222,7 +221,11 @@ fn solve<T: Real, L>(guess: T, g: impl Fn(T) -> (T, L)) -> Solved<T, L> {
     loop {
         let near = g(x + h).0;
         if here == near {
-            return Solved { x: here, stretch: T::one(), look };
+            // flat here; it stands if it is flat where it leads to
+            let (there, look) = g(here.value());
+            if there == here || rounds == 8 {
+                return Solved { x: there, stretch: T::one(), look };
+            }
         }
         // F(x) = x − g(x),  F′ = 1 − Δg/h,  x ← x − F/F′
         let stretch = (T::one() - (near - here) / h).value();
@@ -232,19 +235,19 @@ fn solve<T: Real, L>(guess: T, g: impl Fn(T) -> (T, L)) -> Solved<T, L> {
         } else {
             lo = Some(x);
         }
-        let mut next = x - wrong / stretch;
+        let mut next = (x - wrong / stretch).value();
         if let (Some(lo), Some(hi)) = (lo, hi)
             && (next <= lo || next >= hi)
         {
-            next = T::lit(0.5) * (lo + hi);
+            next = (T::lit(0.5) * (lo + hi)).value();
         }
-        (here, look) = g(next.value());
+        (here, look) = g(next);
         rounds += 1;
-        let left = (next.value() - here).abs().value();
-        if left <= T::lit(1e-6) * stretch * (next.abs() + T::lit(0.1)) || rounds == 8 {
-            return Solved { x: next, stretch, look };
+        let left = next - here;
+        if left.abs() <= T::lit(1e-6) * stretch * (next.abs() + T::lit(0.1)) || rounds == 8 {
+            return Solved { x: next - left / stretch, stretch, look };
         }
-        x = next.value();
+        x = next;
     }
 }
 

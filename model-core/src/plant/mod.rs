@@ -184,7 +184,14 @@ impl<const N: usize, T: Real> Plant<N, T> {
     pub fn restart(&self, state: &State<N, T>, memory: &mut [T]) {
         let at = self.at(state, T::zero());
         for active in self.effects.with_memory() {
-            active.effect.restart(active.params(), &mut memory[active.memory(0)], &at);
+            if active.whole() {
+                active.effect.restart(active.params(), &mut memory[active.memory(0)], &at);
+                continue;
+            }
+            for j in (0..N).filter(|j| active.on(*j)) {
+                let at = self.at_wheel(&at, state, j, state.wheel_speed[j]);
+                active.effect.restart(active.params(), &mut memory[active.memory(j)], &at);
+            }
         }
     }
 
@@ -220,7 +227,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
         let contact = if PLAIN || self.effects.none_at(Seam::Contact) {
             &self.contact
         } else {
-            hooked = self.contacts(&mut at, state, memory);
+            hooked = self.contacts(&at, state, memory);
             &hooked
         };
         let rim: [T; N] = core::array::from_fn(|j| dot(contact[j].row, x));
@@ -237,7 +244,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             at.wheel_angle = state.wheel_angle[j];
             at.wheel_speed = rim[j] * c.per_radius;
             let mut electric = self.electric::<PLAIN>(&at, state, memory, &source, j, gain);
-            let mut speed = at.wheel_speed;
+            let (mut speed, mut starts) = (at.wheel_speed, at.wheel_speed);
             let force = if PLAIN {
                 // f = τ/r
                 electric.torque * c.per_radius
@@ -245,7 +252,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
                 let mut gear = self.gear(&at, memory, electric.torque);
                 let (force, rate) = if c.rolls() {
                     // f = τ/r,  k = −∂f/∂v_j = (−∂τ/∂ω)/r²
-                    if gear.inertia > zero {
+                    if !self.effects.none_at(Seam::Gear) {
                         accumulate_outer(&mut push.mass, gear.inertia * (c.per_radius * c.per_radius), c.row);
                     }
                     let force = (gear.torque - gear.damping * speed) * c.per_radius;
@@ -253,6 +260,8 @@ impl<const N: usize, T: Real> Plant<N, T> {
                 } else {
                     let grip = self.grip(&mut at, state, memory, &source, c, gain, &mut electric, &mut gear);
                     speed = grip.wheel_speed;
+                    // with inertia the wheel has not moved yet when the reading is taken
+                    starts = if gear.inertia > zero { state.wheel_speed[j] } else { speed };
                     (grip.force, grip.rate)
                 };
                 accumulate_outer(&mut push.rate, rate, c.row);
@@ -263,7 +272,8 @@ impl<const N: usize, T: Real> Plant<N, T> {
                 force
             };
             truth.current[j] = electric.sampled;
-            truth.wheel_speed[j] = speed;
+            truth.wheel_speed[j] = starts;
+            state.wheel_speed[j] = speed;
             state.current[j] = electric.after;
             for axis in 0..3 {
                 push.force[axis] += c.row[axis] * force;
@@ -299,7 +309,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             budget: self.robot.friction.coulomb,
         };
         if !self.effects.none_at(Seam::Body) {
-            let mut at = *at;
+            let mut at = At { wheel: 0, wheel_angle: zero, wheel_speed: zero, rim_speed: zero, ..*at };
             // a force that depends on the heading is taken in the middle of the step
             at.pose.theta += T::lit(0.5) * x[2] * dt;
             for active in self.effects.at(Seam::Body) {
@@ -343,26 +353,29 @@ impl<const N: usize, T: Real> Plant<N, T> {
         bus: T,
         dt: T,
     ) -> Reading<N, T> {
-        let reading = self.read(&self.at(state, dt), memory, truth);
+        let reading = self.read(&self.at(state, dt), state, memory, truth);
         let next = BodyTwist::from_array(next);
         let mean = state.twist.mean(next);
         if !self.effects.is_empty() {
             self.remember(state, memory, &truth, source, bus, dt);
             for j in 0..N {
-                state.wheel_angle[j] += dt * dot(contact[j].row, mean.to_array()) * contact[j].per_radius;
+                state.wheel_angle[j] += if contact[j].rolls() {
+                    dt * dot(contact[j].row, mean.to_array()) * contact[j].per_radius
+                } else {
+                    dt * T::lit(0.5) * (truth.wheel_speed[j] + state.wheel_speed[j])
+                };
             }
         }
         state.pose = state.pose.moved(mean, dt);
         state.twist = next;
         state.time += dt;
         state.bus = bus;
-        state.wheel_speed = truth.wheel_speed;
         reading
     }
 
     /// What the sensors make of the truth.
     #[inline]
-    fn read(&self, at: &At<T>, memory: &[T], truth: Reading<N, T>) -> Reading<N, T> {
+    fn read(&self, at: &At<T>, state: &State<N, T>, memory: &[T], truth: Reading<N, T>) -> Reading<N, T> {
         if self.effects.none_at(Seam::Sense) {
             return truth;
         }
@@ -375,7 +388,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
                 continue;
             }
             for j in (0..N).filter(|j| active.on(*j)) {
-                let at = At { wheel: j, wheel_speed: truth.wheel_speed[j], ..*at };
+                let at = self.at_wheel(at, state, j, truth.wheel_speed[j]);
                 let mut x =
                     Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
                 active.effect.sense(active.params(), &memory[active.memory(j)], &at, &mut x);
@@ -427,7 +440,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
                 continue;
             }
             for j in (0..N).filter(|j| active.on(*j)) {
-                let at = At { wheel: j, wheel_speed: truth.wheel_speed[j], wheel_angle: state.wheel_angle[j], ..at };
+                let at = self.at_wheel(&at, state, j, truth.wheel_speed[j]);
                 let done = Turn {
                     command: source.command(j),
                     current: truth.current[j],
@@ -452,15 +465,20 @@ impl<const N: usize, T: Real> Plant<N, T> {
         }
     }
 
+    /// The same, for a hook of wheel `j`.
     #[inline]
-    fn contacts(&self, at: &mut At<T>, state: &State<N, T>, memory: &[T]) -> [Contact<T>; N] {
+    fn at_wheel(&self, at: &At<T>, state: &State<N, T>, j: usize, wheel_speed: T) -> At<T> {
+        let rim_speed = dot(self.contact[j].row, state.twist.to_array());
+        At { wheel: j, wheel_angle: state.wheel_angle[j], wheel_speed, rim_speed, ..*at }
+    }
+
+    #[inline]
+    fn contacts(&self, at: &At<T>, state: &State<N, T>, memory: &[T]) -> [Contact<T>; N] {
         let mut contact = self.contact;
         for active in self.effects.at(Seam::Contact) {
             for j in (0..N).filter(|j| active.on(*j)) {
-                at.wheel = j;
-                at.wheel_angle = state.wheel_angle[j];
-                at.wheel_speed = state.wheel_speed[j];
-                active.effect.contact(active.params(), &memory[active.memory(j)], at, &mut contact[j]);
+                let at = self.at_wheel(at, state, j, state.wheel_speed[j]);
+                active.effect.contact(active.params(), &memory[active.memory(j)], &at, &mut contact[j]);
             }
         }
         for c in &mut contact {

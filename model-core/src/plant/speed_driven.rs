@@ -17,10 +17,10 @@ impl<const N: usize, T: Real> Plant<N, T> {
         speed: &[T; N],
         dt: T,
     ) -> Reading<N, T> {
-        let mut at = self.at(state, dt);
-        let contact = self.contacts(&mut at, state, memory);
+        let at = self.at(state, dt);
+        let contact = self.contacts(&at, state, memory);
         let zero = T::zero();
-        let rolling = self.robot.wheels.twist_of_wheel_speeds(*speed);
+        let rolling = self.robot.wheels.twist(core::array::from_fn(|j| contact[j].radius * speed[j]));
         let yields = contact.iter().all(|c| !c.rolls());
         if !yields {
             state.twist = rolling;
@@ -41,6 +41,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
         } else {
             rolling.to_array()
         };
+        state.wheel_speed = *speed;
         let reading = self.finish(state, memory, truth, next, &contact, &Source::Speed, self.robot.supply, dt);
         if !yields {
             state.twist = BodyTwist::from_array(next);

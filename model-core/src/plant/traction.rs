@@ -15,6 +15,9 @@ use crate::effects::contact::wheel_slip::traction;
 use crate::scalar::Real;
 use crate::seams::{At, Contact, Gear};
 
+/// No wheel turns faster [rad/s].
+const FASTEST: f64 = 1e6;
+
 /// A wheel whose contact gives way.
 pub(super) struct Grip<T> {
     /// Force on the floor along the wheel's rolling direction [N]
@@ -97,6 +100,8 @@ fn cross<T: Real>(line: &Line<T>, c: &Contact<T>, rim_speed: T) -> Grip<T> {
         let g = line.torque - line.fall * (speed - line.speed) - line.inertia * (speed - line.before) - r * force;
         (g, line.fall + line.inertia + r * r * slope, force, slope)
     };
+    // a motor that pushes harder than the floor can take, with nothing to accelerate, has no speed to settle at
+    let held = |speed: T| speed.clamp(T::lit(-FASTEST), T::lit(FASTEST));
     let rolling = (rim_speed / r).value();
     let mut speed = line.speed.value();
     let (mut lo, mut hi): (Option<T>, Option<T>) = (None, None);
@@ -112,8 +117,10 @@ fn cross<T: Real>(line: &Line<T>, c: &Contact<T>, rim_speed: T) -> Grip<T> {
         } else {
             hi = Some(speed);
         }
-        let mut next = (speed + g / fall).value();
+        let mut next = held(speed + g / fall).value();
+        // the last step below carries the derivative, and carries it right from as near as this
         if (next - speed).abs() <= T::lit(1e-7) * (speed.abs() + T::one()) {
+            speed = next;
             break;
         }
         if let (Some(lo), Some(hi)) = (lo, hi)
@@ -124,7 +131,7 @@ fn cross<T: Real>(line: &Line<T>, c: &Contact<T>, rim_speed: T) -> Grip<T> {
         speed = next;
     }
     let (g, fall, ..) = balance(speed);
-    let speed = speed + g / fall.value();
+    let speed = held(speed + g / fall.value());
     let (force, slope) = floor_force(c, r * speed - rim_speed);
     // ∂f/∂v = −f′·a/(a + r²f′)
     let a = line.fall + line.inertia;

@@ -54,7 +54,8 @@ pub const CARD: Card = Card {
 /// Torque that the gear can take away [N·m].
 #[inline]
 pub fn loss<T: Real>(efficiency: T, motor_torque: T, wheel_speed: T) -> T {
-    let driving = motor_torque * wheel_speed >= T::zero();
+    // a wheel that is held stands still only up to rounding
+    let driving = motor_torque * wheel_speed >= T::zero() || wheel_speed.abs() < T::lit(1e-6);
     // τ_loss = (1 − η)·|τ_m| driving, (1/η − 1)·|τ_m| driven
     (if driving { T::one() - efficiency } else { T::one() / efficiency - T::one() }) * motor_torque.abs()
 }
