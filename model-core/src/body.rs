@@ -82,8 +82,7 @@ pub fn spend<const N: usize, T: Real>(
             }
             x
         }
-        _ => slide(free, mobility, budget, wheels, dt)
-            .unwrap_or_else(|| sweep(free, mobility, budget, wheels, dt)),
+        _ => slide(free, mobility, budget, wheels, dt).unwrap_or_else(|| sweep(free, mobility, budget, wheels, dt)),
     }
 }
 

@@ -82,15 +82,15 @@ impl<const N: usize, T: Real> Plant<N, T> {
                     return self.plain_motor(u, at.wheel_speed);
                 }
                 let turned = !self.effects.none_on(&[Seam::Winding], j);
-                let drive = Drive { command: command[j], bus: self.robot.supply * gain, current: zero, voltage: u, sampled: u };
+                let drive =
+                    Drive { command: command[j], bus: self.robot.supply * gain, current: zero, voltage: u, sampled: u };
                 let look = |current: T| {
                     let mut drive = Drive { current, ..drive };
                     for active in self.effects.on(Seam::Drive, j) {
                         active.effect.drive(active.params(), &memory[active.memory(j)], at, &mut drive);
                     }
                     let winding = if turned { self.winding(at, memory, Winding { current, ..bare }) } else { bare };
-                    let per_resistance =
-                        if turned { T::one() / winding.resistance } else { self.per_resistance };
+                    let per_resistance = if turned { T::one() / winding.resistance } else { self.per_resistance };
                     // i = (u_eff − l·K_v·ω)/R
                     let steady = (drive.voltage - winding.emf_constant * winding.speed) * per_resistance;
                     (steady, Look { voltage: drive.voltage, sampled: drive.sampled, winding, per_resistance })
@@ -216,7 +216,7 @@ fn solve<T: Real, L>(guess: T, g: impl Fn(T) -> (T, L)) -> Solved<T, L> {
     let h = T::lit(1e-3);
     let mut x = guess.value();
     let (mut lo, mut hi): (Option<T>, Option<T>) = (None, None);
-    let (mut here, mut look) = g(x);
+    let mut here = g(x).0;
     let mut rounds = 0;
     loop {
         let near = g(x + h).0;
@@ -241,6 +241,7 @@ fn solve<T: Real, L>(guess: T, g: impl Fn(T) -> (T, L)) -> Solved<T, L> {
         {
             next = (T::lit(0.5) * (lo + hi)).value();
         }
+        let look;
         (here, look) = g(next);
         rounds += 1;
         let left = next - here;

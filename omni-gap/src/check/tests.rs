@@ -135,13 +135,8 @@ pub(super) fn expect(run: &Run, wheels: usize, code: &str, signal: &str, what: &
 #[test]
 fn a_drive_that_answers_late_is_no_fault_of_the_log() {
     for (wheels, rows) in [(3, 2), (4, 5), (4, 8)] {
-        let clean = run(&Made {
-            wheels,
-            ..Made::default()
-        });
-        let early = changed(&clean, "u", |_, c| {
-            (0..c.len()).map(|row| c.get((row + rows).min(c.len() - 1))).collect()
-        });
+        let clean = run(&Made { wheels, ..Made::default() });
+        let early = changed(&clean, "u", |_, c| (0..c.len()).map(|row| c.get((row + rows).min(c.len() - 1))).collect());
         for (groups, run) in with_and_without(&early) {
             assert_eq!(fatal(&run, wheels), [""; 0], "{rows} rows late, {groups}");
         }

@@ -1,4 +1,9 @@
 //! The fit: Levenberg–Marquardt on the reduced equations, within bounds.
+//!
+//! What is minimised is Σ error²/φ + what was stated. The temper φ says how much less the data know than their number
+//! suggests: as long as the model lacks something, its errors go on through whole windows and must not outvote all that
+//! was stated of the robot. It is the spread of the windows' gradients over what white noise would give them (Takeuchi),
+//! one for a model that is right.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -33,6 +38,10 @@ pub struct Fit<const N: usize> {
     pub samples: usize,
     /// Σ violation² of what was stated
     pub prior_cost: f64,
+    /// What the data were weighted down by.
+    pub temper: f64,
+    /// What they should be weighted down by, as this fit sees it; one for a model that is right.
+    pub spread: f64,
     /// Covariance of the free numbers, robust against errors that go on through a window.
     pub covariance: DMatrix<f64>,
 }
@@ -60,6 +69,7 @@ pub fn fit<const N: usize>(
     starts: Option<Vec<Starts>>,
     free: &[Free],
     prior: &Prior,
+    temper: f64,
     rounds: usize,
 ) -> Fit<N> {
     let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
@@ -69,9 +79,9 @@ pub fn fit<const N: usize>(
     });
     let mut damping = 1e-7;
     let mut linear = linearise(&model, runs, windows, &starts, &slots, false);
-    let mut total = linear.cost().0 + prior.cost(&model);
+    let mut total = linear.cost().0 / temper + prior.cost(&model);
     for _ in 0..rounds {
-        let reduced = with_prior(linear.reduced(), &model, free, prior);
+        let reduced = with_prior(linear.reduced().tempered(temper), &model, free, prior);
         let mut better = None;
         for _ in 0..5 {
             let Some(step) = solve(&reduced, damping) else {
@@ -80,7 +90,7 @@ pub fn fit<const N: usize>(
             };
             let (trial, taken) = stepped(&model, free, &step);
             let moved = linear.starts_after(&starts, &taken);
-            let cost = cost_of(&trial, runs, windows, &moved) + prior.cost(&trial);
+            let cost = cost_of(&trial, runs, windows, &moved) / temper + prior.cost(&trial);
             if cost.is_finite() && cost < total {
                 damping = (damping * 0.1).max(1e-10);
                 better = Some((trial, moved, cost));
@@ -96,10 +106,14 @@ pub fn fit<const N: usize>(
             break;
         }
     }
-    let reduced = with_prior(linear.reduced(), &model, free, prior);
+    let data = linear.reduced().tempered(temper);
+    let reduced = with_prior(data.clone(), &model, free, prior);
     let (cost, samples) = linear.cost();
+    let spread = spread(&reduced, &linear.reduced()).max(cost / samples.max(1) as f64).max(1.0);
     Fit {
-        covariance: covariance(&reduced, linear.reduced(), free.len()),
+        spread,
+        covariance: covariance(&reduced, data, free.len()),
+        temper,
         prior_cost: prior.cost(&model),
         model,
         free: free.to_vec(),
@@ -224,6 +238,17 @@ fn stepped<const N: usize>(model: &Model<N>, free: &[Free], step: &DVector<f64>)
     (trial, taken)
 }
 
+/// tr(S⁻¹·Σ g·gᵀ)/tr(S⁻¹·H): the windows' gradients against white noise of one sigma, in the directions that count.
+fn spread(reduced: &Reduced, data: &Reduced) -> f64 {
+    match reduced.hess.clone().cholesky() {
+        Some(c) if data.hess.ncols() > 0 => {
+            let white = c.solve(&data.hess).trace();
+            if white > 1e-12 { c.solve(&data.meat).trace() / white } else { 1.0 }
+        }
+        _ => 1.0,
+    }
+}
+
 /// S⁻¹·(Σ g·gᵀ + prior)·S⁻¹, no smaller than S⁻¹ on its diagonal.
 fn covariance(reduced: &Reduced, data: Reduced, n: usize) -> DMatrix<f64> {
     if n == 0 {
@@ -250,6 +275,6 @@ impl<const N: usize> Fit<N> {
 
     /// The reduced equations with what was stated, at this fit.
     pub fn reduced(&self, linear: &Linearised, prior: &Prior) -> Reduced {
-        with_prior(linear.reduced(), &self.model, &self.free, prior)
+        with_prior(linear.reduced().tempered(self.temper), &self.model, &self.free, prior)
     }
 }

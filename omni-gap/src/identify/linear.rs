@@ -66,6 +66,16 @@ pub struct Reduced {
     pub meat: DMatrix<f64>,
 }
 
+impl Reduced {
+    /// The same with the data weighted down: errors count by √φ less.
+    pub fn tempered(mut self, temper: f64) -> Self {
+        self.hess /= temper;
+        self.grad /= temper;
+        self.meat /= temper * temper;
+        self
+    }
+}
+
 /// Linearises a model on runs. `keep` keeps the windows' own matrices, which a screening of effects needs.
 pub fn linearise<const N: usize>(
     model: &Model<N>,

@@ -21,8 +21,12 @@ const WORTH_A_FIT: f64 = 0.2;
 const SCREENED_RUNS: usize = 4;
 /// What each free number of a cause costs in the score.
 const PRICE_OF_FREEDOM: f64 = 2.0;
-/// Rounds of the fit of a candidate.
-const ROUNDS: usize = 8;
+/// Rounds of a fit at one temper.
+const ROUNDS: usize = 6;
+/// Times that the temper is brought to what the fit sees, at the most.
+const TEMPERINGS: usize = 5;
+/// The temper stays when its logarithm would move by less than this.
+const SETTLED: f64 = 0.2;
 
 /// The runs to fit on and the runs to judge by, with their windows.
 #[derive(Debug)]
@@ -115,12 +119,35 @@ fn effect_free<const N: usize>(model: &Model<N>) -> Vec<Free> {
 }
 
 impl<const N: usize> Data<'_, N> {
+    /// Σ error² per number of a model as it is, its starts free; at least one.
+    fn misfit(&self, model: &Model<N>) -> f64 {
+        let (_, windows) = profile(model, &self.fit, &self.fit_windows);
+        let (cost, n) = windows.iter().flatten().fold((0.0, 0), |(c, n), w| (c + w.0, n + w.1));
+        (cost / n.max(1) as f64).max(1.0)
+    }
+
     /// Fits a model (all nominal values within what `prior` states, all sizes and shapes of its effects) and judges it.
     pub fn judge(&self, model: Model<N>, from: Option<&Fit<N>>, prior: &Prior, extra: usize) -> Scored<N> {
         let free: Vec<Free> = nominal_free().into_iter().chain(effect_free(&model)).collect();
-        let starts = from.map(|f| f.starts.clone());
-        let rounds = if from.is_some() { ROUNDS } else { 2 * ROUNDS };
-        let fitted = fit(model, &self.fit, &self.fit_windows, starts, &free, prior, rounds);
+        let mut temper = from.map_or_else(|| self.misfit(&model), |f| f.temper);
+        let mut fitted = fit(
+            model,
+            &self.fit,
+            &self.fit_windows,
+            from.map(|f| f.starts.clone()),
+            &free,
+            prior,
+            temper,
+            ROUNDS,
+        );
+        for _ in 0..TEMPERINGS {
+            if (fitted.spread / temper).ln().abs() < SETTLED {
+                break;
+            }
+            temper = fitted.spread;
+            let Fit { model, starts, .. } = fitted;
+            fitted = fit(model, &self.fit, &self.fit_windows, Some(starts), &free, prior, temper, ROUNDS);
+        }
         let (_, windows) = profile(&fitted.model, &self.held, &self.held_windows);
         let per_window: Vec<(f64, usize)> = windows.into_iter().flatten().collect();
         let samples: usize = per_window.iter().map(|(_, n)| *n).sum();

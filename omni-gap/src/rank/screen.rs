@@ -5,7 +5,7 @@
 //! gain = (s⊥·e)²/(s⊥·s⊥)       s⊥: s without what starts and parameters can imitate
 //! ```
 //!
-//! The gain is the drop of Σ error² that the best multiple of s would bring.
+//! The gain is the drop of Σ error²/φ that the best multiple of s would bring.
 
 use model_core::frames::{BodyTwist, Pose};
 use model_core::plant::Plant;
@@ -57,6 +57,7 @@ pub fn screen<const N: usize>(
                         *with -= without;
                     }
                     let (overlap, size, shared) = linear.project(&signature);
+                    let (overlap, size, shared) = (overlap / fit.temper, size / fit.temper, shared / fit.temper);
                     // the parameters take their share as well
                     let own = hess.solve(&shared);
                     let explains = overlap - shared.dot(&toward);
