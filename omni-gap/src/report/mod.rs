@@ -24,6 +24,7 @@ pub use model::{
     Axis, Corrected, Estimate, Fault, Gap, HorizonError, Kind, NextExperiment, Regime, Report, SCHEMA, Shrink,
     SignalGap, Stage, Verdict, Where, Which,
 };
+pub use number::{estimate, num, percent};
 pub use picture::{MEASURED, Panel, Pictures, Series};
 pub use terminal::terminal;
 pub use write::{Written, write};

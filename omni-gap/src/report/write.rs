@@ -4,6 +4,10 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::model::Report;
+use crate::error::{Error, Result};
+
+const NAME_ANOTHER: &str = "Name another folder with --out";
+const ROOM: &str = "Free space, or name a folder you may write to with --out";
 
 /// Where the files of a report stand.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,17 +23,14 @@ pub struct Written {
 /// Puts `report.json`, `report.html` and `corrected_robot.toml` into the folder, which is made where it is not there.
 ///
 /// An error says which path, why, and how to mend it.
-pub fn write(dir: &Path, report: &Report, html: &str, corrected_robot_toml: &str) -> io::Result<Written> {
-    let json = report.to_json()?;
-    std::fs::create_dir_all(dir).map_err(|e| {
-        if dir.is_file() {
-            told(&e, dir, "is a file, and the report needs a folder", "name another folder with --out")
-        } else {
-            told(&e, dir, &format!("cannot be made: {e}"), "name a folder you may write to with --out")
-        }
+pub fn write(dir: &Path, report: &Report, html: &str, corrected_robot_toml: &str) -> Result<Written> {
+    std::fs::create_dir_all(dir).map_err(|why| match dir.is_file() {
+        true => Error::output(dir, "it is a file, and the report needs a folder", NAME_ANOTHER),
+        false => Error::output(dir, why.to_string(), ROOM),
     })?;
     let [json_at, html_at, robot_at] =
         ["report.json", "report.html", "corrected_robot.toml"].map(|name| dir.join(name));
+    let json = report.to_json().map_err(|why| unwritable(&why.into(), &json_at))?;
     // All three are staged before the first is put in place: a full disk then leaves an older report as it was.
     let staged = [(&json_at, json.as_str()), (&html_at, html), (&robot_at, corrected_robot_toml)]
         .map(|(path, text)| stage(dir, path, text).map(|file| (path, file)));
@@ -41,7 +42,7 @@ pub fn write(dir: &Path, report: &Report, html: &str, corrected_robot_toml: &str
 }
 
 /// The text in a file of the same folder that nobody reads yet.
-fn stage(dir: &Path, path: &Path, text: &str) -> io::Result<tempfile::NamedTempFile> {
+fn stage(dir: &Path, path: &Path, text: &str) -> Result<tempfile::NamedTempFile> {
     let staged = || {
         let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
@@ -57,13 +58,8 @@ fn stage(dir: &Path, path: &Path, text: &str) -> io::Result<tempfile::NamedTempF
     staged().map_err(|e: io::Error| unwritable(&e, path))
 }
 
-fn unwritable(e: &io::Error, path: &Path) -> io::Error {
-    let mend = "free space or name a folder you may write to with --out";
-    told(e, path, &format!("cannot be written: {e}"), mend)
-}
-
-fn told(e: &io::Error, path: &Path, reason: &str, mend: &str) -> io::Error {
-    io::Error::new(e.kind(), format!("{} {reason}; {mend}", path.display()))
+fn unwritable(why: &io::Error, path: &Path) -> Error {
+    Error::output(path, why.to_string(), ROOM)
 }
 
 #[cfg(test)]
@@ -112,7 +108,7 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         std::fs::create_dir(root.path().join("report.json")).unwrap();
         let error = write(root.path(), &sample::effect(), "", "").unwrap_err().to_string();
-        assert!(error.contains("report.json cannot be written"), "{error}");
+        assert!(error.contains("report.json: cannot be written"), "{error}");
         assert_eq!(names(root.path()), ["report.json"]);
     }
 }
