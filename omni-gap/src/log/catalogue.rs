@@ -39,7 +39,7 @@ impl Catalogue {
 }
 
 /// The one of `known` that is spelled most like `word`, if any is like it at all.
-pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let near = known.into_iter().map(|other| (distance(word, other), other)).min()?;
     let (far, other) = near;
     (far <= 2 + other.len() / 3 || other.starts_with(word)).then_some(other)

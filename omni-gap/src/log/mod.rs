@@ -2,7 +2,7 @@
 //!
 //! Guarantee: SI units, monotonic time, every hole has a reason. What cannot be brought into that form is refused with
 //! one message that says where and how to mend it.
-
+//!
 //! Reading order: [`Session`] (a folder of files), [`RobotFile`] (the nominal model), [`Run`] (one recording) with its
 //! [`Channel`]s, and [`columns`] (logs in another layout).
 
@@ -19,7 +19,7 @@ mod target;
 mod toml_walk;
 mod write;
 
-pub use catalogue::{Catalogue, KnownEffect, KnownParam};
+pub use catalogue::{Catalogue, KnownEffect, KnownParam, nearest};
 pub use columns::Columns;
 pub use correct::{Change, corrected};
 pub use robot_file::*;
