@@ -14,6 +14,10 @@ use super::start::start_at;
 pub struct Prediction {
     /// One row of channels a row of the run.
     pub rows: Vec<Row>,
+    /// Yaw rate of every row [rad/s]
+    pub gyro: Vec<f64>,
+    /// Bus voltage of every row [V]
+    pub bus: Vec<f64>,
     /// The rows at which the free run restarted.
     pub restarts: Vec<usize>,
 }
@@ -37,6 +41,7 @@ pub fn predict<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon
     let mut memory = vec![0.0; plant.memory_len()];
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
     let mut rows = Vec::with_capacity(run.rows());
+    let (mut gyro, mut bus) = (Vec::with_capacity(run.rows()), Vec::with_capacity(run.rows()));
     let mut coming = restarts.iter().copied().peekable();
     for row in 0..run.rows() {
         if coming.next_if_eq(&row).is_some() {
@@ -47,12 +52,14 @@ pub fn predict<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon
         let steps = run.steps(row);
         let dt = run.dt[row] / steps as f64;
         let reading = plant.step(&mut state, &mut memory, &input, dt);
+        bus.push(state.bus);
         for _ in 1..steps {
             plant.step(&mut state, &mut memory, &input, dt);
         }
         rows.push(run.row_of(&reading));
+        gyro.push(reading.gyro);
     }
-    Prediction { rows, restarts }
+    Prediction { rows, gyro, bus, restarts }
 }
 
 impl Prediction {

@@ -11,7 +11,7 @@ use crate::log::{Channel, Group, Missing, Run, SensorsFile};
 /// How a recording is made.
 #[derive(Clone, Copy, Debug)]
 pub struct Recording {
-    /// Plant steps in a row.
+    /// Plant steps in a row of mean length; a longer row takes as many more.
     pub steps_a_row: usize,
     /// Camera frames a second [1/s]; a row gets a pose when a frame has come since the row before
     pub camera_rate: f64,
@@ -47,9 +47,11 @@ pub fn record<const N: usize>(
     let mut pose = vec![Channel::with_capacity(rows); 3];
     let mut frames = -1.0;
     for (row, held) in input.iter().enumerate().take(rows) {
-        let dt = t.get(row + 1).map_or(step, |next| next - t[row]) / how.steps_a_row as f64;
+        let length = t.get(row + 1).map_or(step, |next| next - t[row]);
+        let steps = if step > 0.0 { (length / step * how.steps_a_row as f64).round().max(1.0) as usize } else { 1 };
+        let dt = length / steps as f64;
         let reading: Reading<N, f64> = plant.step(&mut state, &mut memory, held, dt);
-        for _ in 1..how.steps_a_row {
+        for _ in 1..steps {
             plant.step(&mut state, &mut memory, held, dt);
         }
         for j in 0..N {
