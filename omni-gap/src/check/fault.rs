@@ -1,5 +1,7 @@
 //! One fault of a recording.
 
+use std::path::PathBuf;
+
 use crate::log::Run;
 
 /// What is wrong with a recording, where, and how to mend it.
@@ -9,6 +11,10 @@ pub struct Fault {
     pub code: &'static str,
     /// The run's name.
     pub run: String,
+    /// The run's file; empty for a run made in memory.
+    pub file: PathBuf,
+    /// First and last line of the file concerned, counted from 1.
+    pub lines: (usize, usize),
     /// First and last row concerned; data rows counted from 0, the header not counted.
     pub rows: (usize, usize),
     /// The column or group concerned.
@@ -26,7 +32,8 @@ impl Fault {
     pub(super) fn of(run: &Run, code: &'static str, signal: impl Into<String>, fatal: bool) -> Fault {
         let rows = (0, run.rows().saturating_sub(1));
         let (sentence, mend) = (String::new(), String::new());
-        Fault { code, run: run.name.clone(), rows, signal: signal.into(), sentence, mend, fatal }
+        let (run, file) = (run.name.clone(), run.path.clone());
+        Fault { code, run, file, lines: rows, rows, signal: signal.into(), sentence, mend, fatal }
     }
 
     pub(super) fn at(mut self, first: usize, last: usize) -> Fault {

@@ -44,6 +44,14 @@ pub fn check(session: &Session) -> Vec<Fault> {
 
 /// All faults of one run.
 pub fn check_run(run: &Run, robot: &RobotFile) -> Vec<Fault> {
+    let mut faults = faults_of(run, robot);
+    for fault in &mut faults {
+        fault.lines = (run.line_of(fault.rows.0), run.line_of(fault.rows.1));
+    }
+    faults
+}
+
+fn faults_of(run: &Run, robot: &RobotFile) -> Vec<Fault> {
     let mut faults = time::check(run);
     if run.rows() < 10 || !run.t_s.windows(2).all(|pair| pair[1] > pair[0]) {
         return faults;

@@ -102,8 +102,7 @@ fn told(fault: &crate::check::Fault) -> report::Fault {
         code: fault.code.to_owned(),
         file: Some(fault.run.clone()),
         column: (!fault.signal.is_empty()).then(|| fault.signal.clone()),
-        // the header is line 1
-        rows: Some([fault.rows.0 + 2, fault.rows.1 + 2]),
+        rows: Some([fault.lines.0, fault.lines.1]),
         what: fault.sentence.trim_end_matches('.').to_owned(),
         mend: fault.mend.trim_end_matches('.').to_owned(),
     }

@@ -39,6 +39,7 @@ impl Run {
         let mut run = Run { t_s, ..Run::default() };
         run.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         run.path = path.into();
+        run.first_line = Some(table.line_of(0));
         if let Some(columns) = columns {
             run.currents_sampled = columns.currents_sampled;
         }

@@ -188,6 +188,8 @@ pub struct Run {
     pub name: String,
     /// The file it came from; empty for a run made in memory.
     pub path: PathBuf,
+    /// The line of the file on which the first row stands, counted from 1; none for a run made in memory.
+    pub first_line: Option<usize>,
     /// Time of each row (s), strictly increasing.
     pub t_s: Vec<f64>,
     /// Mean motor voltages (V), held from a row until the next.
@@ -212,6 +214,11 @@ impl Run {
     /// How many rows it has.
     pub fn rows(&self) -> usize {
         self.t_s.len()
+    }
+
+    /// The line of the file on which a row stands; for a run made in memory, of the file that it would be written to.
+    pub fn line_of(&self, row: usize) -> usize {
+        self.first_line.unwrap_or(2) + row
     }
 
     /// From the first row to the last (s).
