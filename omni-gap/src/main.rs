@@ -1,1 +1,13 @@
-fn main() {}
+//! # omni-gap: the command
+//!
+//! Parses and calls; every verb is one room of the library run on files, or all of them.
+
+mod commands;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    ExitCode::from(commands::Cli::parse().run())
+}

@@ -1,0 +1,56 @@
+//! `check`: faults of the recordings, before anything is fitted.
+
+use std::path::Path;
+
+use omni_gap::Verdict;
+use omni_gap::check::{Fault, check};
+
+use super::given::GivenSession;
+use super::voice::wrapped;
+use super::{DONE, Done, Voice};
+
+/// Look for faults of the recordings, and say how to mend them
+#[derive(Debug, clap::Args)]
+pub struct Check {
+    #[command(flatten)]
+    session: GivenSession,
+
+    /// Exit with 40 where a fault makes the recordings unfit for a diagnosis
+    #[arg(long)]
+    exit_code: bool,
+}
+
+impl Check {
+    /// Does it.
+    pub fn run(&self, voice: &Voice) -> Done {
+        let session = self.session.load(voice)?;
+        voice.phase("checking the recordings");
+        let faults = check(&session);
+        let mut page: String = faults.iter().map(told).collect();
+        for notice in &session.notices {
+            page += &wrapped(0, &format!("notice: {notice}"));
+        }
+        let fatal = faults.iter().filter(|f| f.fatal).count();
+        let runs = session.runs.len() + session.heldout.len();
+        page += &match (faults.len(), fatal) {
+            (0, _) => format!("{runs} run(s) checked: no fault found.\n"),
+            (n, 0) => format!("{runs} run(s) checked: {n} fault(s), none of which forbids a diagnosis.\n"),
+            (n, _) => format!("{runs} run(s) checked: {n} fault(s), {fatal} to be mended before a diagnosis.\n"),
+        };
+        voice.say(&page)?;
+        Ok(if fatal > 0 && self.exit_code { Verdict::UnfitData.exit_code() } else { DONE })
+    }
+}
+
+/// "fault: runs/run02.csv, lines 317 to 400, w1_rad_s: …"
+fn told(fault: &Fault) -> String {
+    let word = if fault.fatal { "fault" } else { "slight fault" };
+    let lines = match fault.lines {
+        (first, last) if first == last => format!("line {first}"),
+        (first, last) => format!("lines {first} to {last}"),
+    };
+    let file = if fault.file == Path::new("") { fault.run.clone() } else { fault.file.display().to_string() };
+    let signal = if fault.signal.is_empty() { String::new() } else { format!(", {}", fault.signal) };
+    let head = format!("{word}: {file}, {lines}{signal} [{}]: {}", fault.code, fault.sentence);
+    wrapped(0, &head) + &wrapped(4, &format!("To mend it: {}", fault.mend))
+}

@@ -1,0 +1,118 @@
+//! `demo`: a robot with something to hide, recorded and diagnosed.
+
+use std::path::{Path, PathBuf};
+
+use omni_gap::log::{write_whole, write_whole_with};
+use omni_gap::report::{self, estimate, num};
+use omni_gap::simulate::Carried;
+use omni_gap::stage::{Stage, stage};
+use omni_gap::{Error, Report, Session, known_effects};
+
+use super::diagnose::{FILES, diagnosed};
+use super::place::{self, NewFolder};
+use super::voice::wrapped;
+use super::{DONE, Done, Voice};
+
+/// Record a robot whose real behaviour has an effect that its simulator lacks, and diagnose it
+#[derive(Debug, clap::Args)]
+pub struct Demo {
+    /// Folder for the recording (DIR/session) and the report (DIR/report)
+    #[arg(long, value_name = "DIR", default_value = "omni-gap-demo")]
+    out: PathBuf,
+}
+
+const ROBOT: &str = include_str!("../../../examples/feup-4w/robot.toml");
+
+/// What marks a robot file as the demo's own, which it may write over.
+const MARK: &str = "# Made by `omni-gap demo`: ";
+
+/// What the true robot has and its simulator lacks.
+fn hidden() -> Carried {
+    Carried { id: "motor_mismatch", wheel: Some(2), params: vec![0.85, 1.0] }
+}
+
+fn plan() -> Stage {
+    Stage { hidden: vec![hidden()], runs: 9, duration: 5.0, rate: 200.0, seed: 2008, ..Stage::default() }
+}
+
+impl Demo {
+    /// Does it.
+    pub fn run(&self, voice: &Voice) -> Done {
+        let (at, out) = (self.out.join("session"), self.out.join("report"));
+        place::folder(&at, &["robot.toml"])?;
+        place::folder(&out, &FILES)?;
+        only_ours(&at)?;
+
+        voice.phase("recording a robot that is not what its file says");
+        let staged = stage(ROBOT, &plan(), &known_effects())?;
+        let folder = NewFolder::make(&at)?;
+        write_session(&at, &staged)?;
+        drop(staged); // what follows knows the files alone
+
+        voice.phase("reading the recordings");
+        let session = Session::load(&at, None, &known_effects())?;
+        let (report, written) = diagnosed(&session, Some("session".to_owned()), 0.5, &out, voice)?;
+        folder.keep();
+
+        let runs = session.runs.len();
+        voice.say(&format!("Recorded {runs} runs of {} into {}.\n\n", session.robot.name, at.display()))?;
+        voice.say(&report::terminal(&report, Some(&written)))?;
+        voice.say(&format!("\n{}", unveiled(&report)))?;
+        Ok(DONE)
+    }
+}
+
+/// Refuses to write over a session that somebody else made.
+fn only_ours(session: &Path) -> Result<(), Error> {
+    let robot = session.join("robot.toml");
+    let ours = std::fs::read_to_string(&robot).is_ok_and(|text| text.starts_with(MARK));
+    let (own, runs): (Vec<String>, Vec<String>) = (names(session), names(&session.join("runs")));
+    let stranger = own.iter().find(|n| !["robot.toml", "runs"].contains(&n.as_str()));
+    let foreign = runs.iter().find(|n| !(0..plan().runs).any(|k| **n == format!("run{k:02}.csv")));
+    if own.is_empty() || (ours && stranger.is_none() && foreign.is_none()) {
+        return Ok(());
+    }
+    let told = "it holds files that the demo did not make";
+    Err(Error::output(session, told, "Name another folder with --out, or remove this one"))
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|e| e.file_name().to_string_lossy().into_owned()).collect()
+}
+
+fn write_session(at: &Path, staged: &Session) -> Result<(), Error> {
+    let runs = at.join("runs");
+    std::fs::create_dir_all(&runs)
+        .map_err(|why| Error::output(&runs, why.to_string(), "Name another folder with --out"))?;
+    let told = "what the simulator believes of the robot that was recorded.";
+    write_whole(&at.join("robot.toml"), format!("{MARK}{told}\n{}", staged.robot_text).as_bytes())?;
+    for run in &staged.runs {
+        write_whole_with(&runs.join(format!("{}.csv", run.name)), |out| run.write_csv(out))?;
+    }
+    Ok(())
+}
+
+/// What was hidden beside what was found.
+fn unveiled(report: &Report) -> String {
+    let hidden = hidden();
+    let card = hidden.card();
+    let at = |wheel: Option<usize>| wheel.map_or(String::new(), |j| format!(" on wheel {j}"));
+    let sizes = card.params.iter().zip(&hidden.params).filter(|(p, x)| **x != p.absent);
+    let sizes: Vec<String> = sizes.map(|(p, x)| format!("{} {}", p.key, num(*x))).collect();
+    let staged = format!("{}{}, {}", card.id, at(hidden.wheel), sizes.join(", "));
+    let found = report.causes.iter().filter_map(|id| report.cause(id)).map(|w| {
+        let numbers = w.parameters.iter().map(|(key, p)| format!("{key} {}", estimate(p.value, p.std, &p.unit)));
+        let numbers: Vec<String> = numbers.collect();
+        format!("{}{}, {}", w.cause, at(w.wheel), numbers.join(", "))
+    });
+    let found: Vec<String> = found.collect();
+    let found = if found.is_empty() { "nothing".to_owned() } else { found.join("; ") };
+    let text = wrapped(
+        0,
+        &format!(
+            "What was hidden: {staged}; besides, every number of the robot file is wrong by its stated uncertainty."
+        ),
+    );
+    text + &wrapped(0, &format!("What was found:  {found}."))
+}

@@ -1,0 +1,61 @@
+//! `diagnose`: where the gap lies, what causes it, how far it shrinks.
+
+use std::path::{Path, PathBuf};
+
+use omni_gap::report::{self, Written};
+use omni_gap::{Diagnosis, Options, Report, Session};
+
+use super::given::{GivenSession, seconds};
+use super::place::{self, NewFolder};
+use super::{DONE, Done, Stop, Voice};
+
+/// Say where the gap lies, which cause it has and how far it shrinks
+#[derive(Debug, clap::Args)]
+pub struct Diagnose {
+    #[command(flatten)]
+    session: GivenSession,
+
+    /// Folder for report.json, report.html and corrected_robot.toml; made if need be
+    #[arg(long, value_name = "DIR", default_value = "omni-gap-report")]
+    out: PathBuf,
+
+    /// Time between restarts of the free runs that measure the gap [s]
+    #[arg(long, value_name = "S", default_value_t = 0.5, value_parser = seconds)]
+    horizon: f64,
+
+    /// Exit with 0 no gap, 10 parameter, 20 effect, 30 unknown, 40 unfit data
+    #[arg(long)]
+    exit_code: bool,
+}
+
+/// The files of a report.
+pub const FILES: [&str; 3] = ["report.json", "report.html", "corrected_robot.toml"];
+
+impl Diagnose {
+    /// Does it.
+    pub fn run(&self, voice: &Voice) -> Done {
+        place::folder(&self.out, &FILES)?;
+        let session = self.session.load(voice)?;
+        let (report, written) = diagnosed(&session, self.session.name(), self.horizon, &self.out, voice)?;
+        voice.say(&report::terminal(&report, Some(&written)))?;
+        Ok(if self.exit_code { report.verdict.exit_code() } else { DONE })
+    }
+}
+
+/// Diagnoses a session and writes the report's files.
+pub fn diagnosed(
+    session: &Session,
+    name: Option<String>,
+    horizon_s: f64,
+    out: &Path,
+    voice: &Voice,
+) -> Result<(Report, Written), Stop> {
+    let mut diagnosis = Diagnosis::of(session, &Options { horizon_s, progress: &|phrase| voice.phase(phrase) });
+    diagnosis.report.session = name;
+    let page = report::html(&diagnosis.report, &diagnosis.pictures);
+    let folder = NewFolder::make(out)?;
+    let written = report::write(out, &diagnosis.report, &page, &diagnosis.corrected_robot)?;
+    folder.keep();
+    voice.end_phase();
+    Ok((diagnosis.report, written))
+}

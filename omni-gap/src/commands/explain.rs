@@ -1,0 +1,132 @@
+//! `explain`: the page of an effect or of a parameter, for a person.
+
+use std::fmt::Write;
+
+use model_core::card::{Card, Place, Role};
+use model_core::effects;
+use omni_gap::log::nearest;
+use omni_gap::report::num;
+use omni_gap::simulate::NOMINAL_KEYS;
+
+use super::voice::wrapped;
+use super::{DONE, Done, Stop, Voice};
+
+mod parameters;
+
+use parameters::{PARAMETERS, Parameter};
+
+/// Explain an effect or a parameter that can be the cause of a gap; without a name, list all
+#[derive(Debug, clap::Args)]
+pub struct Explain {
+    /// The id of an effect or a parameter
+    #[arg(value_name = "EFFECT")]
+    name: Option<String>,
+}
+
+fn cards() -> impl Iterator<Item = &'static Card> {
+    effects::catalogue::<f64>().iter().map(|e| e.card())
+}
+
+impl Explain {
+    /// Does it.
+    pub fn run(&self, voice: &Voice) -> Done {
+        let page = match &self.name {
+            None => list(),
+            Some(name) => match (cards().find(|c| c.id == name), PARAMETERS.iter().find(|p| p.id == name)) {
+                (Some(card), _) => effect(card),
+                (None, Some(parameter)) => parameter_page(parameter),
+                (None, None) => return Err(unknown(name)),
+            },
+        };
+        voice.say(&page)?;
+        Ok(DONE)
+    }
+}
+
+fn unknown(name: &str) -> Stop {
+    let near = nearest(name, cards().map(|c| c.id).chain(PARAMETERS.iter().map(|p| p.id)));
+    let mend = match near {
+        Some(near) => format!("Did you mean `{near}`?"),
+        None => "`omni-gap explain` lists all names".to_owned(),
+    };
+    Stop::UnknownName { name: name.to_owned(), mend }
+}
+
+fn list() -> String {
+    let mut page = "Effects that a simulator may lack:\n".to_owned();
+    let width = cards().map(|c| c.id.len()).chain(PARAMETERS.iter().map(|p| p.id.len())).max().unwrap_or(0) + 2;
+    for card in cards() {
+        let _ = writeln!(page, "  {:width$}{} ({})", card.id, card.title, card.stage().name());
+    }
+    page += "\nParameters that a robot file may have wrong:\n";
+    for parameter in &PARAMETERS {
+        let _ = writeln!(page, "  {:width$}{}", parameter.id, parameter.title);
+    }
+    page + "\n`omni-gap explain NAME` tells more of each.\n"
+}
+
+fn effect(card: &Card) -> String {
+    let mut page = format!("{}: {} ({} stage)\n\n", card.id, card.title, card.stage().name());
+    page += &wrapped(0, card.summary);
+    let _ = write!(page, "\n    {}\n\nParameters\n", card.equation);
+    for p in card.params {
+        let role = match p.role {
+            Role::Size => "sizes the effect",
+            Role::Shape => "shapes the effect",
+            Role::Fixed => "shapes the effect too weakly to be fitted; held at its typical value",
+        };
+        let unit = if p.unit == "1" { String::new() } else { format!(" [{}]", p.unit) };
+        let _ = writeln!(page, "  {}: {}{unit}, {role}", p.key, p.symbol);
+        let (low, high) = p.within;
+        let [absent, typical, low, high] = [p.absent, p.typical, low, high].map(num);
+        let _ = writeln!(page, "      absent {absent}, typical {typical}, within {low} and {high}");
+    }
+    page += "\nHow it shows\n";
+    page += &wrapped(2, card.signature);
+    page += "\nWhat it can be mistaken for\n";
+    for alike in card.look_alikes {
+        page += &wrapped(2, &format!("{}: {}", alike.with, alike.settled_by));
+    }
+    page += "\nSource\n";
+    page += &wrapped(2, card.source);
+    page += "\nTo have it in a robot file (typical sizes)\n";
+    page + &table(card)
+}
+
+/// The table that adds an effect to a robot file.
+fn table(card: &Card) -> String {
+    let (head, wheel) = match card.place {
+        Place::OneWheel => (format!("[[effects.{}]]", card.id), "wheel = 0\n"),
+        Place::Robot | Place::Wheels => (format!("[effects.{}]", card.id), ""),
+    };
+    let mut toml = format!("{head}\n{wheel}");
+    for p in card.params {
+        let _ = writeln!(toml, "{} = {:?}", p.key, p.typical);
+    }
+    let indented: String = toml.lines().map(|line| format!("  {line}\n")).collect();
+    match card.place {
+        Place::Wheels => {
+            indented + &format!("  (on every wheel; for one wheel write [[effects.{}]] and wheel = 0)\n", card.id)
+        }
+        Place::Robot | Place::OneWheel => indented,
+    }
+}
+
+fn parameter_page(parameter: &Parameter) -> String {
+    let mut page = format!("{}: {} (a parameter of the robot file)\n\n", parameter.id, parameter.title);
+    page += &wrapped(0, parameter.summary);
+    page += "\nIn the robot file\n";
+    for key in NOMINAL_KEYS.iter().filter(|k| k.factors.iter().any(|p| p.cause() == parameter.id)) {
+        let table = if key.table == "wheel" { "[[wheel]]".to_owned() } else { format!("[{}]", key.table) };
+        let _ = writeln!(page, "  {table} {} [{}]", key.key, key.unit);
+    }
+    page += "\nHow to measure it\n";
+    page += &wrapped(2, parameter.measured_by);
+    let alike: Vec<&str> =
+        cards().filter(|c| c.look_alikes.iter().any(|l| l.with == parameter.id)).map(|c| c.id).collect();
+    if !alike.is_empty() {
+        page += "\nEffects that it can be mistaken for\n";
+        page += &wrapped(2, &alike.join(", "));
+    }
+    page
+}

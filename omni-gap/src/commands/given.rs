@@ -1,0 +1,102 @@
+//! What the command line names: a session as a folder or in parts, a robot and one run.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use omni_gap::log::{Columns, RobotFile, Run};
+use omni_gap::simulate::Recorded;
+use omni_gap::{Error, Session, known_effects};
+
+use super::{Stop, Voice};
+
+/// A session: a folder, or a robot file and runs that lie anywhere.
+#[derive(Debug, Args)]
+pub struct GivenSession {
+    /// A session folder (robot.toml and runs/*.csv); with --robot, the run logs or folders of them
+    #[arg(value_name = "SESSION | RUN.csv", required = true)]
+    paths: Vec<PathBuf>,
+
+    /// The robot file, where there is no session folder
+    #[arg(long, value_name = "ROBOT.toml")]
+    robot: Option<PathBuf>,
+
+    /// A mapping from another log layout, in place of the session's own columns.toml
+    #[arg(long, value_name = "COLUMNS.toml")]
+    columns: Option<PathBuf>,
+}
+
+impl GivenSession {
+    /// Reads it.
+    pub fn load(&self, voice: &Voice) -> Result<Session, Stop> {
+        voice.phase("reading the recordings");
+        let columns = self.columns.as_deref();
+        let session = match (&self.robot, self.paths.as_slice()) {
+            (Some(robot), runs) => Session::load_from(robot, columns, runs, &known_effects())?,
+            (None, [folder]) => Session::load(folder, columns, &known_effects())?,
+            (None, _) => {
+                let told = "several paths were given: name one session folder, or the robot file with --robot ROBOT.toml and then the run logs.";
+                return Err(Stop::Unclear(told));
+            }
+        };
+        voice.end_phase();
+        for notice in &session.notices {
+            voice.more(notice);
+        }
+        let rows: usize = session.runs.iter().chain(&session.heldout).map(Run::rows).sum();
+        let runs = session.runs.len();
+        voice.more(format!("{}: {runs} run(s), {} held out, {rows} rows", session.robot.name, session.heldout.len()));
+        Ok(session)
+    }
+
+    /// What the session is called in the report: its folder's name.
+    pub fn name(&self) -> Option<String> {
+        let folder = self.paths.first().filter(|_| self.robot.is_none())?;
+        let whole = folder.canonicalize().unwrap_or_else(|_| folder.clone());
+        whole.file_name().map(|name| name.to_string_lossy().into_owned())
+    }
+
+    /// The robot file that it names.
+    pub fn robot_path(&self) -> PathBuf {
+        self.robot.clone().unwrap_or_else(|| self.paths[0].join("robot.toml"))
+    }
+}
+
+/// A robot file and one run.
+#[derive(Debug)]
+pub struct RobotAndRun {
+    /// The robot.
+    pub robot: RobotFile,
+    /// The run.
+    pub run: Run,
+}
+
+/// Reads a robot file and a run of that robot.
+pub fn robot_and_run(robot: &Path, run: &Path, columns: Option<&Path>, voice: &Voice) -> Result<RobotAndRun, Stop> {
+    voice.phase("reading the robot file and the run");
+    let robot = RobotFile::load(robot, &known_effects())?;
+    let columns = columns.map(Columns::load).transpose()?;
+    let (run, notices) = Run::load(run, robot.wheel.len(), columns.as_ref())?;
+    voice.end_phase();
+    for notice in notices {
+        voice.more(notice);
+    }
+    Ok(RobotAndRun { robot, run })
+}
+
+impl RobotAndRun {
+    /// The run, ready to be driven along.
+    pub fn recorded<const N: usize>(&self) -> Result<Recorded<N>, Stop> {
+        Recorded::new(&self.run, &self.robot).ok_or_else(|| {
+            let problem = "nothing in it can drive a model: no voltage, signed current, wheel speed or commanded speed";
+            Error::input(&self.run.path, problem, "Log at least one of u, i, w or wset for every wheel").into()
+        })
+    }
+}
+
+/// A time above zero [s].
+pub fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("expected a time above zero, in seconds, such as 0.5".to_owned()),
+    }
+}

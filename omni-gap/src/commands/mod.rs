@@ -1,0 +1,92 @@
+//! # Commands: one file a verb
+//!
+//! [`stop`] is why a command ends early, [`voice`] says things on the terminal, [`given`] reads what the command line
+//! names, [`place`] looks at outputs before any work is done for them. Bad input ends with one message on standard error
+//! and exit code 2; what a command writes is whole or not there.
+
+mod check;
+mod demo;
+mod diagnose;
+mod explain;
+mod given;
+mod identify;
+mod place;
+mod predict;
+mod simulate;
+mod stop;
+mod voice;
+
+use clap::{Parser, Subcommand};
+
+use stop::Stop;
+use voice::Voice;
+
+/// Tells why an omnidirectional robot does not do what its simulator says.
+#[derive(Debug, Parser)]
+#[command(name = "omni-gap", version, arg_required_else_help = true, max_term_width = 100)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+
+    /// Say more on standard error: what is done, how long it takes, what was left out
+    #[arg(long, short, global = true)]
+    verbose: bool,
+
+    /// Say nothing but errors; files are still written
+    #[arg(long, short, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Demo(demo::Demo),
+    Diagnose(diagnose::Diagnose),
+    Check(check::Check),
+    Identify(identify::Identify),
+    Predict(predict::Predict),
+    Simulate(simulate::Simulate),
+    Explain(explain::Explain),
+}
+
+/// Exit code for input that cannot be used.
+const BAD_INPUT: u8 = 2;
+
+impl Cli {
+    /// Does what was asked and returns the exit code.
+    pub fn run(self) -> u8 {
+        let voice = Voice::new(self.quiet, self.verbose);
+        let done = match &self.command {
+            Command::Demo(c) => c.run(&voice),
+            Command::Diagnose(c) => c.run(&voice),
+            Command::Check(c) => c.run(&voice),
+            Command::Identify(c) => c.run(&voice),
+            Command::Predict(c) => c.run(&voice),
+            Command::Simulate(c) => c.run(&voice),
+            Command::Explain(c) => c.run(&voice),
+        };
+        voice.end_phase();
+        match done {
+            Ok(code) => code,
+            Err(stop) => {
+                voice.error(&stop);
+                BAD_INPUT
+            }
+        }
+    }
+}
+
+/// The exit code of a command that did what was asked.
+const DONE: u8 = 0;
+
+/// How every command ends.
+type Done = Result<u8, Stop>;
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_sound() {
+        super::Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,32 @@
+//! Why a command ends before it is done.
+
+use std::path::PathBuf;
+
+/// One message, with how to mend it.
+#[derive(Debug, thiserror::Error)]
+pub enum Stop {
+    /// A file, folder or output cannot be used.
+    #[error(transparent)]
+    File(#[from] omni_gap::Error),
+    /// A name that is none of the catalogue's.
+    #[error("`{name}` is neither an effect nor a parameter. {mend}")]
+    UnknownName {
+        /// What was asked for.
+        name: String,
+        /// What to ask for instead.
+        mend: String,
+    },
+    /// A session that is named both ways, or not at all.
+    #[error("{0}")]
+    Unclear(&'static str),
+    /// A recording that nothing may be fitted on.
+    #[error("{}: {sentence} {mend}", file.display())]
+    Faulty {
+        /// The run.
+        file: PathBuf,
+        /// What is wrong.
+        sentence: String,
+        /// How to mend it.
+        mend: String,
+    },
+}

@@ -1,0 +1,127 @@
+//! What is said: answers on standard output, progress and timings on standard error.
+
+use std::cell::RefCell;
+use std::fmt::Display;
+use std::io::{self, IsTerminal, Write};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use omni_gap::Error;
+
+use super::Stop;
+
+/// The voice of one command.
+#[derive(Debug)]
+pub struct Voice {
+    quiet: bool,
+    verbose: bool,
+    spinner: Option<ProgressBar>,
+    phase: RefCell<Option<(String, Instant)>>,
+}
+
+impl Voice {
+    /// A voice as loud as was asked for. The spinner turns only where a person is looking.
+    pub fn new(quiet: bool, verbose: bool) -> Self {
+        let spinner = (!quiet && io::stderr().is_terminal()).then(|| {
+            let style = ProgressStyle::with_template("{spinner} {msg} ({elapsed})");
+            ProgressBar::new_spinner().with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()))
+        });
+        Self { quiet, verbose, spinner, phase: RefCell::new(None) }
+    }
+
+    /// Says an answer on standard output. A reader who has gone away has heard enough.
+    pub fn say(&self, text: &str) -> Result<(), Stop> {
+        if self.quiet {
+            return Ok(());
+        }
+        self.end_phase();
+        let mut out = io::stdout().lock();
+        match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+            Err(why) if why.kind() != io::ErrorKind::BrokenPipe => {
+                let mend = "Name a place with space left, or use --quiet";
+                Err(Error::output(Path::new("standard output"), why.to_string(), mend).into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Adds a line on standard error, for those who want to know more.
+    pub fn more(&self, line: impl Display) {
+        if self.verbose {
+            self.beside_the_spinner(&line.to_string());
+        }
+    }
+
+    /// Says why the command stops.
+    pub fn error(&self, stop: &Stop) {
+        self.end_phase();
+        let _ = writeln!(io::stderr(), "omni-gap: {stop}");
+    }
+
+    /// Begins a phase of long work: the spinner names it, and its end is timed.
+    pub fn phase(&self, phrase: &str) {
+        self.end_phase();
+        if let Some(spinner) = &self.spinner {
+            spinner.set_message(phrase.to_owned());
+            spinner.enable_steady_tick(Duration::from_millis(100));
+        }
+        self.phase.replace(Some((phrase.to_owned(), Instant::now())));
+    }
+
+    /// Ends the phase, if there is one.
+    pub fn end_phase(&self) {
+        let Some((phrase, since)) = self.phase.take() else { return };
+        self.more(format!("{:7.2} s  {phrase}", since.elapsed().as_secs_f64()));
+        if let Some(spinner) = &self.spinner {
+            spinner.disable_steady_tick();
+            spinner.finish_and_clear();
+            spinner.reset();
+        }
+    }
+
+    fn beside_the_spinner(&self, line: &str) {
+        let write = || {
+            let _ = writeln!(io::stderr(), "{line}");
+        };
+        match &self.spinner {
+            Some(spinner) => spinner.suspend(write),
+            None => write(),
+        }
+    }
+}
+
+/// Words broken at spaces into lines of at most 100 characters, each indented.
+pub fn wrapped(indent: usize, text: &str) -> String {
+    const WIDTH: usize = 100;
+    let mut lines = String::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if !line.is_empty() && indent + line.chars().count() + 1 + word.chars().count() > WIDTH {
+            lines += &format!("{:indent$}{line}\n", "");
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line += word;
+    }
+    if !line.is_empty() {
+        lines += &format!("{:indent$}{line}\n", "");
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_broken_at_spaces_and_indented() {
+        let text = "word ".repeat(40);
+        let lines = wrapped(4, &text);
+        assert!(lines.lines().all(|l| l.chars().count() <= 100 && l.starts_with("    word")));
+        assert_eq!(lines.split_whitespace().count(), 40);
+        assert_eq!(wrapped(2, ""), "");
+    }
+}
