@@ -163,21 +163,13 @@ fn wrong_order(run: &Run, moments: &Moments, drive: &str, currents: bool) -> Opt
     let better = (as_given / otherwise.max(1e-6 * moved)).sqrt();
     let code = if order.moved() { "swapped_wheels" } else { "wrong_sign" };
     let fault = Fault::of(run, code, stem, true);
-    let told = format!(
-        "{} The `{stem}` columns fit the {with} {better:.0} times better so.",
-        capital(&format!("{}.", order.words(stem)))
-    );
+    let told = format!("{}: the `{stem}` columns fit the {with} {better:.0} times better so.", order.words(stem));
     let mend = if order.moved() {
         "Put the columns into wheel order, or change `from` in columns.toml."
     } else {
         "Turn the sign, or set sign = -1 in columns.toml."
     };
     Some(fault.says(told, mend))
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().collect::<String>() + letters.as_str())
 }
 
 /// A factor between groups that only a wrong unit makes.

@@ -22,7 +22,7 @@ fn a_swap_is_found_through_effects_and_wrong_parameters() {
     let log = run(&hard);
     expect(&swapped(&log, "w", 0, 3), 4, "swapped_wheels", "w", "swap");
     let told = &check_run(&swapped(&log, "w", 0, 3), &robot(4))[0];
-    assert!(told.sentence.contains("W3 is wheel 0, w0 is wheel 3."), "{}", told.sentence);
+    assert!(told.sentence.contains("w3 is wheel 0, w0 is wheel 3:"), "{}", told.sentence);
 }
 
 #[test]
