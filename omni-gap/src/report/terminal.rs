@@ -57,6 +57,9 @@ pub(super) fn place_in_log(fault: &Fault) -> String {
 }
 
 fn where_(page: &mut Page, report: &Report) {
+    if report.verdict == Verdict::NoGap {
+        return;
+    }
     let mut places: Vec<&Where> = report.where_.iter().collect();
     places.sort_by(|a, b| b.share.total_cmp(&a.share));
     let Some((first, rest)) = places.split_first() else { return };
@@ -81,8 +84,10 @@ fn which(page: &mut Page, report: &Report) {
     let (answers, others): (Vec<&Which>, Vec<&Which>) =
         report.which.iter().partition(|w| report.causes.contains(&w.cause));
     for w in &answers {
+        // a number without uncertainty was not fitted
+        let fitted = w.parameters.iter().filter(|(_, p)| p.std.is_some());
         let parameters: Vec<_> =
-            w.parameters.iter().map(|(k, p)| format!("{k}{NBSP}{}", estimate(p.value, p.std, &p.unit))).collect();
+            fitted.map(|(k, p)| format!("{k}{NBSP}{}", estimate(p.value, p.std, &p.unit))).collect();
         let parameters = if parameters.is_empty() { String::new() } else { format!("; {}", parameters.join(", ")) };
         page.line(std::mem::take(&mut label), &format!("{}{parameters}", told(w)));
         if let Some(alike) = words::look_alikes(report, w) {
