@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use omni_gap::log::{write_whole, write_whole_with};
-use omni_gap::report::{self, estimate, num};
+use omni_gap::report::{self, estimate};
 use omni_gap::simulate::Carried;
 use omni_gap::stage::{Stage, stage};
 use omni_gap::{Error, Report, Session, known_effects};
@@ -28,11 +28,11 @@ const MARK: &str = "# Made by `omni-gap demo`: ";
 
 /// What the true robot has and its simulator lacks.
 fn hidden() -> Carried {
-    Carried { id: "motor_mismatch", wheel: Some(2), params: vec![0.85, 1.0] }
+    Carried { id: "dead_time", wheel: None, params: vec![0.35, 0.05] }
 }
 
 fn plan() -> Stage {
-    Stage { hidden: vec![hidden()], runs: 9, duration: 5.0, rate: 200.0, seed: 2008, ..Stage::default() }
+    Stage { hidden: vec![hidden()], runs: 6, duration: 3.0, rate: 200.0, seed: 2008, ..Stage::default() }
 }
 
 impl Demo {
@@ -97,22 +97,20 @@ fn write_session(at: &Path, staged: &Session) -> Result<(), Error> {
 fn unveiled(report: &Report) -> String {
     let hidden = hidden();
     let card = hidden.card();
-    let at = |wheel: Option<usize>| wheel.map_or(String::new(), |j| format!(" on wheel {j}"));
+    let named = |id: &str, wheel: Option<usize>, numbers: Vec<String>| {
+        let at = wheel.map_or(String::new(), |j| format!(" on wheel {j}"));
+        format!("{id}{at} ({})", numbers.join(", "))
+    };
     let sizes = card.params.iter().zip(&hidden.params).filter(|(p, x)| **x != p.absent);
-    let sizes: Vec<String> = sizes.map(|(p, x)| format!("{} {}", p.key, num(*x))).collect();
-    let staged = format!("{}{}, {}", card.id, at(hidden.wheel), sizes.join(", "));
+    let sizes = sizes.map(|(p, x)| format!("{} {}", p.key, estimate(*x, None, p.unit))).collect();
     let found = report.causes.iter().filter_map(|id| report.cause(id)).map(|w| {
-        let numbers = w.parameters.iter().map(|(key, p)| format!("{key} {}", estimate(p.value, p.std, &p.unit)));
-        let numbers: Vec<String> = numbers.collect();
-        format!("{}{}, {}", w.cause, at(w.wheel), numbers.join(", "))
+        let fitted = w.parameters.iter().filter(|(_, p)| p.std.is_some());
+        let numbers = fitted.map(|(key, p)| format!("{key} {}", estimate(p.value, p.std, &p.unit))).collect();
+        named(&w.cause, w.wheel, numbers)
     });
     let found: Vec<String> = found.collect();
     let found = if found.is_empty() { "nothing".to_owned() } else { found.join("; ") };
-    let text = wrapped(
-        0,
-        &format!(
-            "What was hidden: {staged}; besides, every number of the robot file is wrong by its stated uncertainty."
-        ),
-    );
-    text + &wrapped(0, &format!("What was found:  {found}."))
+    wrapped(0, &format!("What was hidden: {}.", named(card.id, hidden.wheel, sizes)))
+        + &wrapped(0, &format!("What was found: {found}."))
+        + &wrapped(0, "Besides, every number of the robot file was off by a draw of its stated uncertainty.")
 }

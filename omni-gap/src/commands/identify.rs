@@ -30,6 +30,8 @@ const WINDOW_S: f64 = 0.5;
 const ROUNDS: usize = 30;
 /// A factor on a nominal value stays within these.
 const FACTOR: (f64, f64) = (0.1, 4.0);
+/// A fit with a larger error per sample leaves something unexplained [σ]
+const MORE_THAN_NOISE: f64 = 1.2;
 
 impl Identify {
     /// Does it.
@@ -106,7 +108,8 @@ fn table<const N: usize>(fit: &Fit<N>, robot: &RobotFile, runs: usize) -> String
         );
     }
     let error = (fit.cost / fit.samples.max(1) as f64).sqrt();
-    page + &format!("\nfit error {error:.2} σ over {} numbers of {runs} run(s)\n", fit.samples)
+    let more = if error > MORE_THAN_NOISE { ", more than noise: the model lacks something, try diagnose" } else { "" };
+    page + &format!("\nfit error {error:.2} σ over {} samples of {runs} run(s){more}\n", fit.samples)
 }
 
 /// A fitted number with four figures, one more than the nominal one beside it.

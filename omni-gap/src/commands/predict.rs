@@ -50,7 +50,24 @@ impl Predict {
     fn predicted<const N: usize>(&self, given: &RobotAndRun) -> Result<Run, Stop> {
         let recorded = given.recorded::<N>()?;
         let plant = Model::<N>::nominal(&given.robot, supply(&recorded)).plant();
-        Ok(as_run(&given.run, &predict(&plant, &recorded, self.horizon)))
+        let mut run = given.run.clone();
+        if self.columns.is_none() {
+            with_blank_columns::<N>(&mut run);
+        }
+        Ok(as_run(&run, &predict(&plant, &recorded, self.horizon), N))
+    }
+}
+
+/// A group that the header names, though all its fields are blank, is a measured one: what it would have said is asked.
+fn with_blank_columns<const N: usize>(run: &mut Run) {
+    let text = std::fs::read_to_string(&run.path).unwrap_or_default();
+    let header = text.trim_start_matches('\u{feff}').lines().next().unwrap_or_default();
+    let named = |column: &str| header.split(',').any(|name| name.trim() == column);
+    let blank = |count| Group::new(vec![Channel::default(); count]);
+    for (group, column, count) in [(&mut run.i, "i0_A", N), (&mut run.w, "w0_rad_s", N), (&mut run.pose, "x_m", 3)] {
+        if group.is_none() && named(column) {
+            *group = Some(blank(count));
+        }
     }
 }
 
@@ -60,9 +77,7 @@ pub fn supply<const N: usize>(recorded: &Recorded<N>) -> f64 {
 }
 
 /// The prediction in the place of what the run measured.
-fn as_run(run: &Run, prediction: &Prediction) -> Run {
-    let wheels = [&run.i, &run.w, &run.u, &run.wset].into_iter().flatten().map(|g| g.channels.len()).max();
-    let wheels = wheels.unwrap_or(0);
+fn as_run(run: &Run, prediction: &Prediction, wheels: usize) -> Run {
     let late = run.currents_sampled == Sampled::Before;
     let column = |c: usize, shift: bool| -> Channel {
         // a current sampled before its row's voltage answers to the voltage of the row above; before the first it is zero

@@ -1,0 +1,12 @@
+//! The command, run as a process on files.
+
+#[path = "cli/answers.rs"]
+mod answers;
+#[path = "cli/bad_input.rs"]
+mod bad_input;
+#[path = "cli/bench.rs"]
+mod bench;
+#[path = "cli/explain.rs"]
+mod explain;
+#[path = "cli/manners.rs"]
+mod manners;

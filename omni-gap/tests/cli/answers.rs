@@ -1,0 +1,156 @@
+//! Answers: what the commands find and write.
+
+use crate::bench::{Bench, table};
+
+const RUN: &str = "session/runs/run01.csv";
+
+#[test]
+fn the_demo_finds_what_is_hidden_and_its_files_say_the_same_again() {
+    let bench = Bench::empty();
+    let said = bench.done(&["demo"]);
+    assert!(said.out.contains("Missing from the simulator: Dead time"), "{}", said.out);
+    assert!(said.out.contains("What was hidden: dead_time") && said.out.contains("What was found: dead_time"));
+    let report: serde_json::Value = serde_json::from_str(&bench.read("omni-gap-demo/report/report.json")).unwrap();
+    assert_eq!(report["verdict"], "effect");
+    assert_eq!(report["causes"], serde_json::json!(["dead_time"]));
+    assert!(report["shrink"]["closed"].as_f64().unwrap() > 0.9);
+
+    // the recording it left is a session like any other, and gives the same bytes
+    let again = bench.run(&["diagnose", "omni-gap-demo/session", "--out", "again", "--exit-code"]);
+    assert_eq!(again.code, 20, "{}", again.err);
+    for file in ["report.json", "report.html", "corrected_robot.toml"] {
+        assert_eq!(bench.read(&format!("omni-gap-demo/report/{file}")), bench.read(&format!("again/{file}")), "{file}");
+    }
+
+    // with the cause in the model nothing is left
+    let runs = bench.at("omni-gap-demo/session/runs").display().to_string();
+    let args = ["diagnose", "--robot", "again/corrected_robot.toml", &runs, "--out", "after", "--exit-code"];
+    let after = bench.run(&args);
+    assert_eq!(after.code, 0, "{}{}", after.out, after.err);
+    let report: serde_json::Value = serde_json::from_str(&bench.read("after/report.json")).unwrap();
+    assert_eq!(report["verdict"], "no_gap");
+
+    // a second demo may take the place of the first
+    let corrected = bench.read("omni-gap-demo/report/corrected_robot.toml");
+    bench.done(&["demo", "--quiet"]);
+    assert_eq!(bench.read("omni-gap-demo/report/corrected_robot.toml"), corrected);
+}
+
+#[test]
+fn a_prediction_has_the_rows_and_the_measured_columns_of_its_run_and_no_gaps() {
+    let bench = Bench::with_session();
+    bench.done(&["predict", "session/robot.toml", RUN, "--horizon", "0.5", "--out", "p.csv"]);
+    let (run, predicted) = (bench.read(RUN), bench.read("p.csv"));
+    let ((names, rows), (out_names, out_rows)) = (table(&run), table(&predicted));
+    let measured: Vec<&str> = names.iter().copied().filter(|n| !n.starts_with('u')).collect();
+    assert_eq!(out_names, measured);
+    assert_eq!(out_rows.len(), rows.len());
+    for (row, out) in rows.iter().zip(&out_rows) {
+        assert_eq!(row[0], out[0], "the same times");
+        assert!(out.iter().all(|x| x.parse::<f64>().is_ok_and(f64::is_finite)), "{out:?}");
+    }
+    // and it is near what was measured, as a file within its stated uncertainty predicts
+    let at = |names: &[&str], name| names.iter().position(|n| *n == name).unwrap();
+    let (w, out_w) = (at(&names, "w1_rad_s"), at(&out_names, "w1_rad_s"));
+    let number = |x: &str| x.parse::<f64>().unwrap();
+    let square = |of: &dyn Fn(&[&str], &[&str]) -> f64| -> f64 {
+        rows.iter().zip(&out_rows).map(|(r, o)| of(r, o).powi(2)).sum()
+    };
+    let (off, all) = (square(&|r, o| number(r[w]) - number(o[out_w])), square(&|r, _| number(r[w])));
+    assert!(off < 0.02 * all, "{off} of {all}");
+}
+
+#[test]
+fn only_what_was_measured_is_predicted() {
+    let bench = Bench::with_session();
+    let text = bench.read(RUN);
+    let (names, rows) = table(&text);
+    let keep: Vec<usize> = (0..names.len()).filter(|k| !names[*k].starts_with('i')).collect();
+    let cut = |row: &[&str]| keep.iter().map(|k| row[*k]).collect::<Vec<_>>().join(",");
+    let lines: Vec<String> =
+        std::iter::once(cut(&names) + ",gyro_rad_s").chain(rows.iter().map(|row| cut(row) + ",0.1")).collect();
+    bench.write(RUN, &(lines.join("\n") + "\n"));
+    bench.done(&["predict", "session/robot.toml", RUN, "--out", "p.csv"]);
+    let predicted = bench.read("p.csv");
+    assert_eq!(table(&predicted).0.join(","), "t_s,w0_rad_s,w1_rad_s,w2_rad_s,w3_rad_s,x_m,y_m,theta_rad,gyro_rad_s");
+}
+
+#[test]
+fn columns_that_are_blank_throughout_are_predicted_too() {
+    let bench = Bench::with_session();
+    let text = bench.read(RUN);
+    let (names, rows) = table(&text);
+    let blank = |row: &Vec<&str>| -> String {
+        let field = |(k, x): (usize, &&str)| if names[k].starts_with('i') { "" } else { *x }.to_owned();
+        row.iter().enumerate().map(field).collect::<Vec<_>>().join(",")
+    };
+    let lines: Vec<String> = std::iter::once(names.join(",")).chain(rows.iter().map(blank)).collect();
+    bench.write("blank.csv", &lines.join("\n"));
+    bench.done(&["predict", "session/robot.toml", "blank.csv", "--out", "from blank.csv"]);
+    bench.done(&["predict", "session/robot.toml", RUN, "--out", "p.csv"]);
+    assert_eq!(bench.read("from blank.csv"), bench.read("p.csv"), "voltages and starts are the same");
+}
+
+#[test]
+fn a_simulation_is_the_same_for_the_same_seed_and_seen_where_its_input_was() {
+    let bench = Bench::with_session();
+    let simulate = |seed: &str, noise: &str, out: &str| {
+        let args = ["simulate", "session/robot.toml", "--input", RUN, "--seed", seed, "--noise", noise, "--out", out];
+        bench.done(&args);
+        bench.read(out)
+    };
+    let one = simulate("1", "true", "one.csv");
+    assert_eq!(one, simulate("1", "true", "again.csv"));
+    assert_ne!(one, simulate("2", "true", "two.csv"));
+    let still = simulate("1", "false", "still.csv");
+    assert_eq!(still, simulate("2", "false", "still too.csv"));
+
+    let input = bench.read(RUN);
+    let ((names, rows), (out_names, out_rows)) = (table(&input), table(&still));
+    assert_eq!(names, out_names);
+    let x = names.iter().position(|n| *n == "x_m").unwrap();
+    assert!(rows.iter().any(|r| r[x].is_empty()) && rows.iter().any(|r| !r[x].is_empty()));
+    assert!(rows.iter().zip(&out_rows).all(|(r, o)| r[x].is_empty() == o[x].is_empty() && r[..5] == o[..5]));
+}
+
+#[test]
+fn a_simulated_run_is_predicted_by_its_own_model() {
+    let bench = Bench::with_session();
+    let out = ["--seed", "1", "--noise", "false", "--out", "s.csv"];
+    bench.done(&[&["simulate", "session/robot.toml", "--input", RUN], &out[..]].concat());
+    bench.done(&["predict", "session/robot.toml", "s.csv", "--out", "p.csv"]);
+    let (simulated, predicted) = (bench.read("s.csv"), bench.read("p.csv"));
+    let (names, rows) = table(&simulated);
+    let (_, out) = table(&predicted);
+    let w = names.iter().position(|n| *n == "w0_rad_s").unwrap();
+    let number = |x: &str| x.parse::<f64>().unwrap();
+    // in the first window, which begins at rest, only the step of integration differs
+    let far = rows.iter().zip(&out).take(29).map(|(r, o)| (number(r[w]) - number(o[w - 4])).abs()).fold(0.0, f64::max);
+    assert!(far < 0.05, "{far} rad/s apart");
+}
+
+#[test]
+fn identify_writes_a_robot_file_that_fits_and_says_how_sure_it_is() {
+    let bench = Bench::with_session();
+    let said = bench.done(&["identify", "session", "--out", "fitted.toml"]);
+    for part in ["mass_kg", "no surer than stated", "resistance_ohm", "fit error", "written to fitted.toml"] {
+        assert!(said.out.contains(part), "{part}: {}", said.out);
+    }
+    // the stage's true robot has the example's resistance
+    let of = |text: &str| -> f64 {
+        let line = text.lines().find(|l| l.starts_with("resistance_ohm")).unwrap();
+        line.split('=').nth(1).unwrap().trim().parse().unwrap()
+    };
+    let (nominal, fitted) = (of(&bench.read("session/robot.toml")), of(&bench.read("fitted.toml")));
+    assert!((fitted - 4.3111).abs() < 0.2 * (nominal - 4.3111).abs(), "nominal {nominal}, fitted {fitted}");
+    bench.done(&["predict", "fitted.toml", RUN, "--out", "p.csv"]);
+}
+
+#[test]
+fn check_finds_no_fault_in_a_sound_session() {
+    let bench = Bench::with_session();
+    bench.write("session/runs/notes.txt", "sunny");
+    let said = bench.done(&["check", "session", "--exit-code"]);
+    assert!(said.out.contains("3 run(s) checked: no fault found"), "{}", said.out);
+    assert!(said.out.contains("notice: ") && said.out.contains("notes.txt: not a run log"), "{}", said.out);
+}

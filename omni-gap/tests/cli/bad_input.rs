@@ -1,0 +1,217 @@
+//! Bad input: one clear message, exit code 2, nothing written.
+
+use crate::bench::Bench;
+
+const RUN: &str = "session/runs/run01.csv";
+
+/// The command refuses, says all of this in one message, and leaves the folder as it was.
+#[track_caller]
+fn refused(bench: &Bench, args: &[&str], says: &[&str]) {
+    let before = bench.all();
+    let said = bench.run(args);
+    assert_eq!(said.code, 2, "{args:?} said {}{}", said.out, said.err);
+    assert_eq!(said.out, "");
+    assert_eq!(said.err.trim_end().lines().count(), 1, "one message: {}", said.err);
+    for part in says {
+        assert!(said.err.contains(part), "{args:?}: {part:?} is not in {:?}", said.err);
+    }
+    assert_eq!(bench.all(), before, "{args:?} left something behind");
+}
+
+/// A session that cannot be read, refused by every command that reads sessions.
+#[track_caller]
+fn session_refused(bench: &Bench, says: &[&str]) {
+    refused(bench, &["diagnose", "session", "--out", "out/deep"], says);
+    refused(bench, &["identify", "session", "--out", "fitted.toml"], says);
+    refused(bench, &["check", "session"], says);
+}
+
+/// A run that cannot be read, refused by all that read runs.
+#[track_caller]
+fn run_refused(bench: &Bench, says: &[&str]) {
+    session_refused(bench, says);
+    refused(bench, &["predict", "session/robot.toml", RUN, "--out", "p.csv"], says);
+    refused(bench, &["simulate", "session/robot.toml", "--input", RUN, "--seed", "1", "--out", "s.csv"], says);
+}
+
+/// A robot file that cannot be read, refused by all that read robot files.
+#[track_caller]
+fn robot_refused(bench: &Bench, says: &[&str]) {
+    run_refused(bench, says);
+}
+
+#[test]
+fn an_empty_file() {
+    let bench = Bench::with_session();
+    bench.write(RUN, "");
+    run_refused(&bench, &["run01.csv: the file is empty", "Record the run again"]);
+}
+
+#[test]
+fn a_header_only() {
+    let bench = Bench::with_session();
+    let header = bench.read(RUN).lines().next().unwrap().to_owned();
+    bench.write(RUN, &(header + "\n"));
+    run_refused(&bench, &["run01.csv: there is a header and no rows", "at least two rows", "Record the run again"]);
+}
+
+#[test]
+fn a_missing_column() {
+    let bench = Bench::with_session();
+    bench.change(RUN, "w2_rad_s", "wheel two");
+    let says = ["run01.csv: column `w2_rad_s`: the column is missing", "3 of 4 wheels", "columns.toml"];
+    run_refused(&bench, &says);
+    bench.change(RUN, "t_s", "time");
+    run_refused(&bench, &["column `t_s`: the column is missing"]);
+}
+
+#[test]
+fn text_nan_and_infinity_in_the_place_of_a_number() {
+    for found in ["fast", "NaN", "inf", "-Infinity"] {
+        let bench = Bench::with_session();
+        bench.set_field(RUN, 17, "w0_rad_s", found);
+        let told = format!("found `{found}`, expected a finite number");
+        run_refused(&bench, &["run01.csv:17: column `w0_rad_s`", &told, "leave it empty"]);
+    }
+}
+
+#[test]
+fn unsorted_and_repeated_time() {
+    let bench = Bench::with_session();
+    bench.set_field(RUN, 30, "t_s", "0.001");
+    run_refused(&bench, &["run01.csv:30: column `t_s`", "time that runs back", "Sort the rows"]);
+    bench.set_field(RUN, 30, "t_s", "0.27");
+    run_refused(&bench, &["run01.csv:30: column `t_s`", "repeated time"]);
+}
+
+#[test]
+fn a_row_that_is_cut_short() {
+    let bench = Bench::with_session();
+    let text = bench.read(RUN);
+    bench.write(RUN, &text[..text.len() - 60]);
+    run_refused(&bench, &["run01.csv:201: found ", "expected 16", "Complete or remove the row"]);
+}
+
+#[test]
+fn two_wheels_in_the_robot_file() {
+    let bench = Bench::with_session();
+    let text = bench.read("session/robot.toml");
+    let parts: Vec<&str> = text.split("[[wheel]]").collect();
+    let two =
+        [parts[0], "[[wheel]]", parts[1], "[[wheel]]", parts[2], "[motor]", text.split("[motor]").nth(1).unwrap()];
+    bench.write("session/robot.toml", &two.concat());
+    robot_refused(&bench, &["robot.toml:6: two wheels", "expected three or four", "own [[wheel]] table"]);
+}
+
+#[test]
+fn a_negative_mass() {
+    let bench = Bench::with_session();
+    let text = bench.read("session/robot.toml");
+    let line = text.lines().position(|l| l.starts_with("mass_kg")).unwrap();
+    bench.change("session/robot.toml", "mass_kg = ", "mass_kg = -");
+    let place = format!("robot.toml:{}: column `mass_kg`", line + 1);
+    robot_refused(&bench, &[&place, "expected a number above zero", "Correct the value"]);
+}
+
+#[test]
+fn an_unknown_effect() {
+    let bench = Bench::with_session();
+    let text = bench.read("session/robot.toml");
+    bench.write("session/robot.toml", &format!("{text}\n[effects.dead_tim]\nvoltage_loss_V = 0.3\n"));
+    let place = format!("robot.toml:{}", text.lines().count() + 2);
+    robot_refused(&bench, &[&place, "unknown effect `dead_tim`", "Did you mean `dead_time`?"]);
+}
+
+#[test]
+fn a_robot_file_of_a_newer_form() {
+    let bench = Bench::with_session();
+    bench.change("session/robot.toml", "schema = 1", "schema = 9");
+    robot_refused(&bench, &["robot.toml:3: column `schema`", "form 9", "Use a newer program"]);
+}
+
+#[test]
+fn a_folder_where_a_file_is_due_and_a_file_where_a_folder_is_due() {
+    let bench = Bench::with_session();
+    refused(&bench, &["predict", "session", RUN, "--out", "p.csv"], &["session: this is a folder", "a robot file"]);
+    let args = ["predict", "session/robot.toml", "session/runs", "--out", "p.csv"];
+    refused(&bench, &args, &["runs: this is a folder", "a run log", "Name a file"]);
+    let says = ["robot.toml: this is a file, expected a session folder", "Give a folder"];
+    refused(&bench, &["diagnose", "session/robot.toml", "--out", "out"], &says);
+    std::fs::remove_file(bench.at("session/robot.toml")).unwrap();
+    std::fs::create_dir(bench.at("session/robot.toml")).unwrap();
+    session_refused(&bench, &["robot.toml: this is a folder, expected a robot file"]);
+}
+
+#[test]
+fn nothing_where_something_is_due() {
+    let bench = Bench::with_session();
+    refused(&bench, &["diagnose", "elsewhere"], &["elsewhere: no such folder", "robot.toml and runs/"]);
+    refused(&bench, &["check", "session", "session"], &["several paths", "--robot"]);
+    std::fs::remove_dir_all(bench.at("session/runs")).unwrap();
+    session_refused(&bench, &["runs: there is no such folder", "Put the run logs"]);
+    std::fs::remove_file(bench.at("session/robot.toml")).unwrap();
+    session_refused(&bench, &["robot.toml: no such file", "Check the path"]);
+}
+
+#[test]
+fn an_output_that_cannot_be_written() {
+    let bench = Bench::with_session();
+    bench.write("plain", "mine");
+    std::fs::create_dir_all(bench.at("taken/report.json")).unwrap();
+    let below = ["cannot be written", "plain is a file, not a folder", "--out"];
+    refused(&bench, &["diagnose", "session", "--out", "plain/out"], &below);
+    refused(&bench, &["diagnose", "session", "--out", "plain"], &["plain: cannot be written", "--out"]);
+    refused(&bench, &["diagnose", "session", "--out", "taken"], &["report.json: cannot be written", "folder"]);
+    refused(&bench, &["demo", "--out", "plain/out"], &below);
+    for command in [
+        vec!["predict", "session/robot.toml", RUN],
+        vec!["simulate", "session/robot.toml", "--input", RUN, "--seed", "1"],
+        vec!["identify", "session"],
+    ] {
+        let to = |out| [command.as_slice(), &["--out", out]].concat();
+        refused(&bench, &to("plain/out"), &below);
+        refused(&bench, &to("taken"), &["taken: cannot be written: it is a folder", "Name a file"]);
+        refused(&bench, &to("nowhere/out"), &["there is no folder nowhere", "Make the folder first"]);
+        refused(&bench, &to("session/robot.toml"), &["it is an input and would be lost", "--out"]);
+    }
+    assert_eq!(bench.read("plain"), "mine");
+}
+
+#[test]
+fn the_demo_does_not_write_over_a_session_of_somebody_else() {
+    let bench = Bench::with_session();
+    refused(&bench, &["demo", "--out", "."], &["files that the demo did not make", "--out"]);
+}
+
+#[test]
+fn a_recording_that_nothing_can_be_fitted_on() {
+    let bench = Bench::with_session();
+    let text = bench.read(RUN);
+    let lines = text.lines().enumerate().map(|(k, line)| {
+        let field = |(at, x): (usize, &str)| match x.parse::<f64>() {
+            Ok(volts) if k > 0 && (1..=4).contains(&at) => (1000.0 * volts).to_string(),
+            _ => x.to_owned(),
+        };
+        line.split(',').enumerate().map(field).collect::<Vec<_>>().join(",")
+    });
+    bench.write(RUN, &(lines.collect::<Vec<_>>().join("\n") + "\n"));
+    let says = ["run01.csv: lines 2 to 201", "millivolts", "Convert the columns"];
+    refused(&bench, &["identify", "session", "--out", "fitted.toml"], &says);
+    assert_eq!(bench.run(&["check", "session", "--exit-code"]).code, 40);
+    let said = bench.done(&["check", "session"]);
+    assert!(said.out.contains("fault: session/runs/run01.csv, lines 2 to 201"), "{}", said.out);
+    assert!(said.out.contains("To mend it:"), "{}", said.out);
+    assert_eq!(bench.run(&["diagnose", "session", "--exit-code"]).code, 40);
+}
+
+#[test]
+fn numbers_on_the_command_line() {
+    let bench = Bench::with_session();
+    for horizon in ["0", "-1", "NaN", "inf", "soon"] {
+        let said = bench.run(&["diagnose", "session", &format!("--horizon={horizon}")]);
+        assert_eq!(said.code, 2);
+        assert!(said.err.contains("--horizon") && said.err.contains("above zero"), "{}", said.err);
+    }
+    assert_eq!(bench.run(&["simulate", "r", "--input", "i", "--out", "o", "--seed", "x"]).code, 2);
+    assert_eq!(bench.run(&[]).code, 2);
+}

@@ -1,0 +1,49 @@
+//! Explanations.
+
+use std::path::Path;
+
+use model_core::effects;
+use omni_gap::known_effects;
+use omni_gap::log::RobotFile;
+
+use crate::bench::{Bench, ROBOT};
+
+#[test]
+fn every_effect_is_listed_and_explained_and_its_table_can_be_pasted() {
+    let bench = Bench::empty();
+    let list = bench.done(&["explain"]).out;
+    for effect in effects::catalogue::<f64>() {
+        let card = effect.card();
+        assert!(list.contains(&format!("  {} ", card.id)) && list.contains(card.title), "{}", card.id);
+        let page = bench.done(&["explain", card.id]).out;
+        for part in [card.title, card.equation, card.stage().name()] {
+            assert!(page.contains(part), "{}: {part}", card.id);
+        }
+        assert!(card.params.iter().all(|p| page.contains(p.key)), "{page}");
+        assert!(card.look_alikes.iter().all(|l| page.contains(l.with)), "{page}");
+        let toml = page.split("To have it in a robot file").nth(1).expect("a table");
+        let lines = toml.lines().skip(1).map(str::trim).filter(|line| !line.starts_with('('));
+        let text = lines.fold(ROBOT.to_owned(), |text, line| text + "\n" + line);
+        let robot = RobotFile::parse(&text, Path::new("robot.toml"), &known_effects());
+        assert_eq!(robot.unwrap_or_else(|why| panic!("{}: {why}", card.id)).effects[0].id, card.id);
+    }
+}
+
+#[test]
+fn parameters_are_explained_too() {
+    let bench = Bench::empty();
+    let page = bench.done(&["explain", "torque_constant"]).out;
+    for part in ["[motor] torque_constant_Nm_per_A", "emf_constant_V_s", "How to measure it"] {
+        assert!(page.contains(part), "{page}");
+    }
+}
+
+#[test]
+fn an_unknown_name_gets_the_nearest_one() {
+    let bench = Bench::empty();
+    for (name, near) in [("weel_slip", "`wheel_slip`"), ("masse", "`mass`"), ("xyzzyxyzzyxyzzy", "omni-gap explain")] {
+        let said = bench.run(&["explain", name]);
+        assert_eq!((said.code, said.out.as_str()), (2, ""));
+        assert!(said.err.contains(name) && said.err.contains(near), "{}", said.err);
+    }
+}
