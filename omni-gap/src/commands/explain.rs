@@ -79,7 +79,12 @@ fn effect(card: &Card) -> String {
         let _ = writeln!(page, "  {}: {}{unit}, {role}", p.key, p.symbol);
         let (low, high) = p.within;
         let [absent, typical, low, high] = [p.absent, p.typical, low, high].map(num);
-        let _ = writeln!(page, "      absent {absent}, typical {typical}, within {low} and {high}");
+        let _ = match p.role {
+            Role::Size => writeln!(page, "      absent {absent}, typical {typical}, from {low} to {high}"),
+            Role::Shape | Role::Fixed => {
+                writeln!(page, "      {typical} unless the file says otherwise, from {low} to {high}")
+            }
+        };
     }
     page += "\nHow it shows\n";
     page += &wrapped(2, card.signature);
