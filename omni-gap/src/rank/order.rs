@@ -24,7 +24,9 @@ const PRICE_OF_FREEDOM: f64 = 2.0;
 /// Rounds of a fit at one temper.
 const ROUNDS: usize = 6;
 /// Times that the temper is brought to what the fit sees, at the most.
-const TEMPERINGS: usize = 5;
+const TEMPERINGS: usize = 8;
+/// A first fit starts from what was stated: its temper is this many times what the errors alone suggest.
+const CAUTION: f64 = 300.0;
 /// The temper stays when its logarithm would move by less than this.
 const SETTLED: f64 = 0.2;
 
@@ -129,7 +131,7 @@ impl<const N: usize> Data<'_, N> {
     /// Fits a model (all nominal values within what `prior` states, all sizes and shapes of its effects) and judges it.
     pub fn judge(&self, model: Model<N>, from: Option<&Fit<N>>, prior: &Prior, extra: usize) -> Scored<N> {
         let free: Vec<Free> = nominal_free().into_iter().chain(effect_free(&model)).collect();
-        let mut temper = from.map_or_else(|| self.misfit(&model), |f| f.temper);
+        let mut temper = from.map_or_else(|| CAUTION * self.misfit(&model), |f| f.spread);
         let mut fitted = fit(
             model,
             &self.fit,
