@@ -21,16 +21,17 @@
 //! figures against steps a hundred times smaller.
 
 mod electric;
+mod forces;
+mod sensing;
 mod speed_driven;
 mod traction;
 
 use crate::active::Effects;
-use crate::body::{Mobility, spend};
 use crate::card::Seam;
 use crate::frames::{BodyTwist, Pose};
 use crate::robot::Robot;
 use crate::scalar::Real;
-use crate::seams::{At, Body, Contact, Gear, STANDARD_GRAVITY, Sense, Turn};
+use crate::seams::{At, Contact, Gear, STANDARD_GRAVITY};
 use crate::small::{accumulate_outer, dot};
 
 /// What drives the robot during a step.
@@ -286,59 +287,6 @@ impl<const N: usize, T: Real> Plant<N, T> {
         self.finish(state, memory, truth, next, contact, &source, bus, dt)
     }
 
-    /// Everything that acts on the body, and the twist at the end of the step.
-    #[inline]
-    fn move_body(
-        &self,
-        at: &At<T>,
-        state: &State<N, T>,
-        memory: &[T],
-        push: &Push<T>,
-        held: &[([T; 3], T); N],
-        dt: T,
-    ) -> [T; 3] {
-        let x = state.twist.to_array();
-        let viscous = self.robot.friction.viscous;
-        let zero = T::zero();
-        let mut body = Body {
-            mass: self.robot.mass,
-            inertia: self.robot.inertia,
-            // −B·x
-            force: [-(viscous[0] * x[0]), -(viscous[1] * x[1]), -(viscous[2] * x[2])],
-            rate: [[viscous[0], zero, zero], [zero, viscous[1], zero], [zero, zero, viscous[2]]],
-            budget: self.robot.friction.coulomb,
-        };
-        if !self.effects.none_at(Seam::Body) {
-            let mut at = At { wheel: 0, wheel_angle: zero, wheel_speed: zero, rim_speed: zero, ..*at };
-            // a force that depends on the heading is taken in the middle of the step
-            at.pose.theta += T::lit(0.5) * x[2] * dt;
-            for active in self.effects.at(Seam::Body) {
-                active.effect.body(active.params(), &memory[active.memory(0)], &at, &mut body);
-            }
-        }
-        // H = M + ½·Δt·A
-        let half = T::lit(0.5) * dt;
-        let mut h = push.mass;
-        for a in 0..3 {
-            for b in 0..3 {
-                h[a][b] += half * (push.rate[a][b] + body.rate[a][b]);
-            }
-        }
-        h[0][0] += body.mass;
-        h[1][1] += body.mass;
-        h[2][2] += body.inertia;
-        let mobility = Mobility::new(&h);
-        // x_free = x + H⁻¹·Δt·F
-        let force = [
-            dt * (push.force[0] + body.force[0]),
-            dt * (push.force[1] + body.force[1]),
-            dt * (push.force[2] + body.force[2]),
-        ];
-        let change = mobility.of(force);
-        let free = [x[0] + change[0], x[1] + change[1], x[2] + change[2]];
-        spend(free, &mobility, &body.budget, push.holds.then_some(held), dt)
-    }
-
     /// Moves the pose, takes the reading and lets the effects remember.
     #[inline]
     #[allow(clippy::too_many_arguments)]
@@ -358,9 +306,9 @@ impl<const N: usize, T: Real> Plant<N, T> {
         let mean = state.twist.mean(next);
         if !self.effects.is_empty() {
             self.remember(state, memory, &truth, source, bus, dt);
-            for j in 0..N {
-                state.wheel_angle[j] += if contact[j].rolls() {
-                    dt * dot(contact[j].row, mean.to_array()) * contact[j].per_radius
+            for (j, c) in contact.iter().enumerate() {
+                state.wheel_angle[j] += if c.rolls() {
+                    dt * dot(c.row, mean.to_array()) * c.per_radius
                 } else {
                     dt * T::lit(0.5) * (truth.wheel_speed[j] + state.wheel_speed[j])
                 };
@@ -371,86 +319,6 @@ impl<const N: usize, T: Real> Plant<N, T> {
         state.time += dt;
         state.bus = bus;
         reading
-    }
-
-    /// What the sensors make of the truth.
-    #[inline]
-    fn read(&self, at: &At<T>, state: &State<N, T>, memory: &[T], truth: Reading<N, T>) -> Reading<N, T> {
-        if self.effects.none_at(Seam::Sense) {
-            return truth;
-        }
-        let mut reading = truth;
-        for active in self.effects.at(Seam::Sense) {
-            if active.whole() {
-                let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
-                active.effect.sense(active.params(), &memory[active.memory(0)], at, &mut x);
-                (reading.pose, reading.gyro) = (x.pose, x.gyro);
-                continue;
-            }
-            for j in (0..N).filter(|j| active.on(*j)) {
-                let at = self.at_wheel(at, state, j, truth.wheel_speed[j]);
-                let mut x =
-                    Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
-                active.effect.sense(active.params(), &memory[active.memory(j)], &at, &mut x);
-                (reading.current[j], reading.wheel_speed[j]) = (x.current, x.wheel_speed);
-            }
-        }
-        reading
-    }
-
-    /// The truth behind a smoothed reading: the way back through the sensing effects, last one first.
-    pub fn unread(&self, time: T, twist: BodyTwist<T>, mut reading: Reading<N, T>) -> Reading<N, T> {
-        let at = At { time, pose: reading.pose, twist, nominal_supply: self.robot.supply, ..At::default() };
-        for active in self.effects.at(Seam::Sense) {
-            if active.whole() {
-                let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
-                active.effect.unsense(active.params(), &at, &mut x);
-                (reading.pose, reading.gyro) = (x.pose, x.gyro);
-                continue;
-            }
-            for j in (0..N).filter(|j| active.on(*j)) {
-                let at = At { wheel: j, ..at };
-                let mut x =
-                    Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
-                active.effect.unsense(active.params(), &at, &mut x);
-                (reading.current[j], reading.wheel_speed[j]) = (x.current, x.wheel_speed);
-            }
-        }
-        reading
-    }
-
-    fn remember(
-        &self,
-        state: &State<N, T>,
-        memory: &mut [T],
-        truth: &Reading<N, T>,
-        source: &Source<'_, N, T>,
-        bus: T,
-        dt: T,
-    ) {
-        let at = self.at(state, dt);
-        for active in self.effects.with_memory() {
-            if active.whole() {
-                let mut drawn = T::zero();
-                for j in 0..N {
-                    drawn += source.command(j) / self.robot.supply * truth.current[j];
-                }
-                let done = Turn { bus, bus_current: drawn, ..Turn::default() };
-                active.effect.advance(active.params(), &mut memory[active.memory(0)], &at, &done);
-                continue;
-            }
-            for j in (0..N).filter(|j| active.on(*j)) {
-                let at = self.at_wheel(&at, state, j, truth.wheel_speed[j]);
-                let done = Turn {
-                    command: source.command(j),
-                    current: truth.current[j],
-                    wheel_speed: truth.wheel_speed[j],
-                    bus,
-                    ..Turn::default()
-                };
-                active.effect.advance(active.params(), &mut memory[active.memory(j)], &at, &done);
-            }
-        }
     }
 
     #[inline]

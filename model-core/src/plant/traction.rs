@@ -102,33 +102,31 @@ fn cross<T: Real>(line: &Line<T>, c: &Contact<T>, rim_speed: T) -> Grip<T> {
     };
     // a motor that pushes harder than the floor can take, with nothing to accelerate, has no speed to settle at
     let held = |speed: T| speed.clamp(T::lit(-FASTEST), T::lit(FASTEST));
+    // between rolling, where the floor takes nothing, and the speed at which the motor gives nothing
     let rolling = (rim_speed / r).value();
-    let mut speed = line.speed.value();
-    let (mut lo, mut hi): (Option<T>, Option<T>) = (None, None);
-    if balance(rolling).0 > zero {
-        lo = Some(rolling);
-    } else {
-        hi = Some(rolling);
-    }
-    for _ in 0..16 {
+    let fall = line.fall + line.inertia;
+    let drives = line.torque + line.fall * (line.speed - rolling) + line.inertia * (line.before - rolling);
+    let idle = if fall > zero { held(rolling + drives / fall) } else { held(drives * T::lit(FASTEST)) }.value();
+    let (mut lo, mut hi) = if rolling < idle { (rolling, idle) } else { (idle, rolling) };
+    // where the wheel was is close to where it will be
+    let mut speed = line.before.value().clamp(lo, hi);
+    for _ in 0..24 {
         let (g, fall, ..) = balance(speed);
         if g > zero {
-            lo = Some(speed);
+            lo = speed;
         } else {
-            hi = Some(speed);
+            hi = speed;
         }
-        let mut next = held(speed + g / fall).value();
+        let mut next = (speed + g / fall).value();
         // the last step below carries the derivative, and carries it right from as near as this
         if (next - speed).abs() <= T::lit(1e-7) * (speed.abs() + T::one()) {
             speed = next;
             break;
         }
-        if let (Some(lo), Some(hi)) = (lo, hi)
-            && (next <= lo || next >= hi)
-        {
-            next = T::lit(0.5) * (lo + hi).value();
+        if next <= lo || next >= hi {
+            next = T::lit(0.5) * (lo + hi);
         }
-        speed = next;
+        speed = next.value();
     }
     let (g, fall, ..) = balance(speed);
     let speed = held(speed + g / fall.value());

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use model_core::robot::Nominal;
 use omni_gap::check::check;
-use omni_gap::identify::{Fit, Free, Prior, Windows, fit};
+use omni_gap::identify::{Fit, Prior, Windows, fit_tempered, nominal_free};
 use omni_gap::log::{RobotFile, corrected, write_whole};
 use omni_gap::report::num;
 use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded, Slot};
@@ -26,10 +26,6 @@ pub struct Identify {
 
 /// Length of a window of the fit [s]
 const WINDOW_S: f64 = 0.5;
-/// Rounds of the fit at the most.
-const ROUNDS: usize = 30;
-/// A factor on a nominal value stays within these.
-const FACTOR: (f64, f64) = (0.1, 4.0);
 /// A fit with a larger error per sample leaves something unexplained [σ]
 const MORE_THAN_NOISE: f64 = 1.2;
 
@@ -66,9 +62,8 @@ fn fitted<const N: usize>(session: &Session, robot: &std::path::Path) -> Result<
     let largest = runs.iter().map(|r| r.largest_voltage).fold(0.0, f64::max);
     let model = Model::<N>::nominal(&session.robot, if largest > 0.0 { largest } else { 1.0 });
     let windows: Vec<Windows> = runs.iter().map(|r| Windows::new(r, WINDOW_S)).collect();
-    let free: Vec<Free> = Nominal::ALL.iter().map(|p| Free { slot: Slot::Nominal(*p), within: FACTOR }).collect();
     let runs: Vec<&Recorded<N>> = runs.iter().collect();
-    let fit = fit(model, &runs, &windows, None, &free, &Prior::stated(&session.robot), ROUNDS);
+    let fit = fit_tempered(model, &runs, &windows, None, &nominal_free(), &Prior::stated(&session.robot));
     let changes: Vec<_> =
         NOMINAL_KEYS.iter().flat_map(|key| key.scaled(&session.robot, key.factor(&fit.model.factor))).collect();
     let text = corrected(&session.robot_text, &changes)?;

@@ -27,7 +27,7 @@ pub(super) fn places<const N: usize>(
     let model =
         if effect || matches!(verdict.outcome, Outcome::Unknown) { &verdict.refitted.fit.model } else { nominal };
     let plant = model.plant();
-    let split = links(&plant, &data.held, horizon);
+    let split = links(&plant, &verdict.corrected.fit.model.plant(), &data.held, horizon);
     let weights = stage_weights(verdict);
     let mut shares = [0.0; 5];
     for (link, share) in &split.shares {

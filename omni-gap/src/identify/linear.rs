@@ -13,9 +13,6 @@ use rayon::prelude::*;
 use super::shoot::{Starts, Windows, run_windows};
 use crate::simulate::{Model, Recorded, Slot};
 
-/// Derivatives carried in one pass.
-const LANES: usize = 8;
-
 /// Parameters of a window's start: x, y, θ, v, vn, ω.
 pub const START: usize = 6;
 
@@ -115,15 +112,31 @@ fn linearise_run<const N: usize>(
             WindowLinear { places, error: DVector::zeros(rows), jacobian: DMatrix::zeros(rows, START + free.len()) }
         })
         .collect();
+    // as few derivatives a pass as two passes allow
     let lanes = TWIST + free.len();
-    for first in (0..lanes).step_by(LANES) {
-        pass(model, run, windows, starts, free, first, &mut linear);
+    if lanes <= 16 {
+        passes::<N, 8>(model, run, windows, starts, free, &mut linear);
+    } else {
+        passes::<N, 10>(model, run, windows, starts, free, &mut linear);
     }
     linear
 }
 
+fn passes<const N: usize, const LANES: usize>(
+    model: &Model<N>,
+    run: &Recorded<N>,
+    windows: &Windows,
+    starts: &Starts,
+    free: &[Slot],
+    linear: &mut [WindowLinear],
+) {
+    for first in (0..TWIST + free.len()).step_by(LANES) {
+        pass::<N, LANES>(model, run, windows, starts, free, first, linear);
+    }
+}
+
 /// One pass: the plant in dual numbers whose lanes are the derivatives `first..first + LANES` of (v, vn, ω, free…).
-fn pass<const N: usize>(
+fn pass<const N: usize, const LANES: usize>(
     model: &Model<N>,
     run: &Recorded<N>,
     windows: &Windows,
@@ -132,24 +145,27 @@ fn pass<const N: usize>(
     first: usize,
     linear: &mut [WindowLinear],
 ) {
-    type D = Dual<LANES>;
     let lane = |index: usize, x: f64| match index.checked_sub(first) {
-        Some(lane) if lane < LANES => D::variable(x, lane),
-        _ => D::constant(x),
+        Some(lane) if lane < LANES => Dual::<LANES>::variable(x, lane),
+        _ => Dual::<LANES>::constant(x),
     };
-    let plant = model.plant_with::<D>(|slot, x| match free.iter().position(|f| *f == slot) {
+    let plant = model.plant_with::<Dual<LANES>>(|slot, x| match free.iter().position(|f| *f == slot) {
         Some(at) => lane(TWIST + at, x),
-        None => D::constant(x),
+        None => Dual::<LANES>::constant(x),
     });
     let own = TWIST.saturating_sub(first);
     let lanes = LANES.min(TWIST + free.len() - first);
     let start = |k: usize| {
         let [x, y, theta, v, vn, w] = starts[k];
-        let pose = Pose { x: D::constant(x), y: D::constant(y), theta: D::constant(theta) };
+        let pose = Pose {
+            x: Dual::<LANES>::constant(x),
+            y: Dual::<LANES>::constant(y),
+            theta: Dual::<LANES>::constant(theta),
+        };
         (pose, BodyTwist { v: lane(0, v), vn: lane(1, vn), w: lane(2, w) })
     };
     // what the memory holds does not depend on the start of this window
-    let enter = |memory: &mut [D]| memory.iter_mut().for_each(|m| m.eps[..own.min(LANES)].fill(0.0));
+    let enter = |memory: &mut [Dual<LANES>]| memory.iter_mut().for_each(|m| m.eps[..own.min(LANES)].fill(0.0));
     let count = Recorded::<N>::channels().count();
     let mut at = 0;
     let mut last = usize::MAX;

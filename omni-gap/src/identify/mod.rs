@@ -9,8 +9,10 @@ mod fit;
 mod linear;
 mod prior;
 mod shoot;
+mod tempered;
 
 pub use fit::{Fit, Free, fit, profile};
 pub use linear::{Linearised, WindowLinear, linearise};
 pub use prior::{Prior, PriorRow, Release};
 pub use shoot::{Starts, Windows, first_starts, run_windows};
+pub use tempered::{fit_tempered, nominal_free};

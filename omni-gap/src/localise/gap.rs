@@ -77,11 +77,17 @@ pub fn measure<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], hor
     Measured { windows: per_run.into_iter().flatten().collect() }
 }
 
+/// Seed of the noise of simulated runs.
+pub(super) const FLOOR_SEED: u64 = 20_080_511;
+
 /// What the protocol would measure if the model were the truth: the same runs, simulated from it with the sensors' noise.
-pub fn floor<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], horizon: f64, seed: u64) -> Measured {
-    let replayed: Vec<Recorded<N>> =
-        runs.par_iter().enumerate().map(|(k, run)| replay(plant, run, seed.wrapping_add(k as u64))).collect();
-    measure(plant, &replayed.iter().collect::<Vec<_>>(), horizon)
+pub fn floor<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], horizon: f64) -> Measured {
+    measure(plant, &replayed(plant, runs, FLOOR_SEED).iter().collect::<Vec<_>>(), horizon)
+}
+
+/// The runs, simulated from a model with the sensors' noise.
+pub(super) fn replayed<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], seed: u64) -> Vec<Recorded<N>> {
+    runs.par_iter().enumerate().map(|(k, run)| replay(plant, run, seed.wrapping_add(k as u64))).collect()
 }
 
 /// A run of the same input and the same holes, simulated from the model with white noise of the sensors' sigma.

@@ -10,7 +10,7 @@ use model_core::frames::{BodyTwist, Pose};
 use model_core::plant::{Input, Plant};
 use rayon::prelude::*;
 
-use super::gap::GROUPS;
+use super::gap::{FLOOR_SEED, GROUPS, replayed};
 use crate::simulate::{Recorded, Row, restart_rows, start_at};
 
 /// A link between two measured signals.
@@ -36,21 +36,22 @@ pub struct Links {
     pub shares: Vec<(Link, f64)>,
 }
 
-/// Splits the error of free runs among the links.
-pub fn links<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], horizon: f64) -> Links {
+/// Splits the error of free runs among the links, over what noise alone would leave: `right` is the model that explains
+/// the runs best, and what it would leave of runs simulated from itself is nobody's share.
+pub fn links<const N: usize>(
+    plant: &Plant<N, f64>,
+    right: &Plant<N, f64>,
+    runs: &[&Recorded<N>],
+    horizon: f64,
+) -> Links {
     let seen = GROUPS.map(|group| runs.iter().any(|run| run.has_group(group)));
     let players: Vec<usize> = (0..3).filter(|k| seen[*k]).collect();
     // mean square error per group of each subset of substituted links
-    let parts: Vec<[[(f64, f64); 3]; 8]> = runs.par_iter().map(|run| subsets(plant, run, horizon)).collect();
-    let worth = |subset: usize| -> f64 {
-        (0..3)
-            .map(|g| {
-                let (sum, n) = parts.iter().fold((0.0, 0.0), |s, p| (s.0 + p[subset][g].0, s.1 + p[subset][g].1));
-                if n > 0.0 { sum / n } else { 0.0 }
-            })
-            .sum()
-    };
-    let mut shares = vec![0.0; 3];
+    let quiet = replayed(right, runs, FLOOR_SEED);
+    let parts: Vec<Subsets> = runs.par_iter().map(|run| subsets(plant, run, horizon)).collect();
+    let floors: Vec<Subsets> = quiet.par_iter().map(|run| subsets(right, run, horizon)).collect();
+    let worth = |subset: usize| mean_squares(&parts, subset) - mean_squares(&floors, subset);
+    let mut shares = [0.0; 3];
     let orders = orders(&players);
     for order in &orders {
         let mut subset = 0;
@@ -63,6 +64,18 @@ pub fn links<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], horiz
     let total: f64 = shares.iter().map(|s| s.max(0.0)).sum();
     let share = |k: usize| if total > 0.0 { shares[k].max(0.0) / total } else { 1.0 / players.len().max(1) as f64 };
     Links { shares: players.iter().map(|k| (Link::ALL[*k], share(*k))).collect() }
+}
+
+/// Σ error² and count per group, for every subset of substituted links (bit 0 electrical, 1 motion, 2 contact).
+type Subsets = [[(f64, f64); 3]; 8];
+
+fn mean_squares(parts: &[Subsets], subset: usize) -> f64 {
+    (0..3)
+        .map(|g| {
+            let (sum, n) = parts.iter().fold((0.0, 0.0), |s, p| (s.0 + p[subset][g].0, s.1 + p[subset][g].1));
+            if n > 0.0 { sum / n } else { 0.0 }
+        })
+        .sum()
 }
 
 fn orders(players: &[usize]) -> Vec<Vec<usize>> {
@@ -85,8 +98,7 @@ struct Paths {
     by_speed: Vec<Row>,
 }
 
-/// Σ error² and count per group for every subset of substituted links (bit 0 electrical, 1 motion, 2 contact).
-fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon: f64) -> [[(f64, f64); 3]; 8] {
+fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon: f64) -> Subsets {
     let paths = Paths {
         plain: free_run(plant, run, horizon, |row| run.input(row)),
         by_current: free_run(plant, run, horizon, |row| measured(run, row, 0).map_or(run.input(row), Input::Current)),

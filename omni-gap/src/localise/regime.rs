@@ -27,13 +27,12 @@ struct Feature {
     unit: &'static str,
 }
 
-const FEATURES: [Feature; 6] = [
+const FEATURES: [Feature; 5] = [
     Feature { name: "wheel_speed", words: "|wheel speed|", unit: "rad/s" },
     Feature { name: "current", words: "|current|", unit: "A" },
     Feature { name: "wheel_acceleration", words: "|wheel acceleration|", unit: "rad/s²" },
     Feature { name: "turning", words: "|yaw rate × speed|", unit: "m/s²" },
     Feature { name: "heading", words: "heading modulo a turn", unit: "rad" },
-    Feature { name: "time", words: "time since the start of the run", unit: "s" },
 ];
 
 /// The hotspots of a prediction's error on its wheel speeds and currents (on the pose where neither was measured), the
@@ -57,7 +56,7 @@ pub fn regimes<const N: usize>(runs: &[(&Recorded<N>, &Prediction)]) -> Vec<Hots
                 let yaw = (p[2 * N + 2] - before[2 * N + 2]) / span;
                 let turning = if restarted { 0.0 } else { (speed * yaw).abs() };
                 let heading = p[2 * N + 2].rem_euclid(std::f64::consts::TAU);
-                samples.push(([p[N + j].abs(), p[j].abs(), rate.abs(), turning, heading, run.t[row]], error));
+                samples.push(([p[N + j].abs(), p[j].abs(), rate.abs(), turning, heading], error));
             }
         }
     }

@@ -1,35 +1,27 @@
 //! From candidates to an order: fit the best, judge them on runs that no fit has seen.
 
 use model_core::card::Role;
-use model_core::robot::Nominal;
 use rayon::prelude::*;
 
 use super::candidate::{Cause, candidates, releases};
 use super::screen::{Screened, parameter_gains, screen};
-use crate::identify::{Fit, Free, Prior, Windows, fit, profile};
+use crate::identify::{Fit, Free, Prior, Windows, fit_tempered, nominal_free, profile};
 use crate::simulate::{Carried, Model, Recorded, Slot};
 
 /// Effects that are fitted after the screen, at the most.
-const FITTED_EFFECTS: usize = 7;
+const FITTED_EFFECTS: usize = 6;
 /// Parameter causes that are fitted, at the most.
 const FITTED_PARAMETERS: usize = 3;
 /// A promise below this is not worth a fit [σ²].
 const PROMISING: f64 = 9.0;
-/// Beyond the best three, a promise below this share of the best is not worth a fit.
-const WORTH_A_FIT: f64 = 0.2;
+/// Beyond the best two, a promise below this share of the best is not worth a fit.
+const WORTH_A_FIT: f64 = 0.25;
+/// What a single wheel has to promise of what all wheels together do.
+const NEARLY: f64 = 0.6;
 /// Runs that the screen looks at, at the most.
 const SCREENED_RUNS: usize = 4;
 /// What each free number of a cause costs in the score.
 const PRICE_OF_FREEDOM: f64 = 2.0;
-/// Rounds of a fit at one temper.
-const ROUNDS: usize = 6;
-/// Times that the temper is brought to what the fit sees, at the most.
-const TEMPERINGS: usize = 8;
-/// A first fit starts from what was stated: its temper is this many times what the errors alone suggest.
-const CAUTION: f64 = 300.0;
-/// The temper stays when its logarithm would move by less than this.
-const SETTLED: f64 = 0.2;
-
 /// The runs to fit on and the runs to judge by, with their windows.
 #[derive(Debug)]
 pub struct Data<'a, const N: usize> {
@@ -103,10 +95,6 @@ pub struct Ranking<const N: usize> {
     pub scale: f64,
 }
 
-fn nominal_free() -> Vec<Free> {
-    Nominal::ALL.iter().map(|p| Free { slot: Slot::Nominal(*p), within: (0.1, 4.0) }).collect()
-}
-
 /// The free numbers of a model's effects from place `first` of the list given.
 fn effect_free<const N: usize>(model: &Model<N>) -> Vec<Free> {
     let mut free = Vec::new();
@@ -121,35 +109,10 @@ fn effect_free<const N: usize>(model: &Model<N>) -> Vec<Free> {
 }
 
 impl<const N: usize> Data<'_, N> {
-    /// Σ error² per number of a model as it is, its starts free; at least one.
-    fn misfit(&self, model: &Model<N>) -> f64 {
-        let (_, windows) = profile(model, &self.fit, &self.fit_windows);
-        let (cost, n) = windows.iter().flatten().fold((0.0, 0), |(c, n), w| (c + w.0, n + w.1));
-        (cost / n.max(1) as f64).max(1.0)
-    }
-
     /// Fits a model (all nominal values within what `prior` states, all sizes and shapes of its effects) and judges it.
     pub fn judge(&self, model: Model<N>, from: Option<&Fit<N>>, prior: &Prior, extra: usize) -> Scored<N> {
         let free: Vec<Free> = nominal_free().into_iter().chain(effect_free(&model)).collect();
-        let mut temper = from.map_or_else(|| CAUTION * self.misfit(&model), |f| f.spread);
-        let mut fitted = fit(
-            model,
-            &self.fit,
-            &self.fit_windows,
-            from.map(|f| f.starts.clone()),
-            &free,
-            prior,
-            temper,
-            ROUNDS,
-        );
-        for _ in 0..TEMPERINGS {
-            if (fitted.spread / temper).ln().abs() < SETTLED {
-                break;
-            }
-            temper = fitted.spread;
-            let Fit { model, starts, .. } = fitted;
-            fitted = fit(model, &self.fit, &self.fit_windows, Some(starts), &free, prior, temper, ROUNDS);
-        }
+        let fitted = fit_tempered(model, &self.fit, &self.fit_windows, from, &free, prior);
         let (_, windows) = profile(&fitted.model, &self.held, &self.held_windows);
         let per_window: Vec<(f64, usize)> = windows.into_iter().flatten().collect();
         let samples: usize = per_window.iter().map(|(_, n)| *n).sum();
@@ -161,6 +124,29 @@ impl<const N: usize> Data<'_, N> {
             extra,
         }
     }
+}
+
+/// The candidates, best first, whose promise is worth a fit: of one effect on all wheels and on single ones, those on
+/// single wheels only if they promise nearly as much as all together.
+fn worth_a_fit(screened: &[Screened]) -> Vec<&Screened> {
+    let most = screened.first().map_or(0.0, |s| s.gain);
+    let together = |s: &Screened| {
+        screened
+            .iter()
+            .find(|o| o.candidate.card.id == s.candidate.card.id && o.candidate.wheel.is_none())
+            .map(|o| o.gain)
+    };
+    let mut worth: Vec<&Screened> = Vec::new();
+    for s in screened.iter().filter(|s| s.gain > PROMISING) {
+        let single = s.candidate.wheel.is_some();
+        let outdone = single && together(s).is_some_and(|all| s.gain < NEARLY * all);
+        let again = single && worth.iter().filter(|w| w.candidate.card.id == s.candidate.card.id).count() >= 2;
+        if !outdone && !again && (worth.len() < 2 || s.gain > WORTH_A_FIT * most) {
+            worth.push(s);
+        }
+    }
+    worth.truncate(FITTED_EFFECTS);
+    worth
 }
 
 /// Tries every cause on top of a fitted model. `released` are the statements already struck out.
@@ -176,13 +162,9 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
     parameters.sort_by(|a, b| b.1.total_cmp(&a.1));
     drop(whole);
 
-    let most = screened.first().map_or(0.0, |s| s.gain);
-    let effects = screened
-        .iter()
-        .enumerate()
-        .filter(|(k, s)| s.gain > PROMISING && (*k < 3 || s.gain > WORTH_A_FIT * most))
-        .take(FITTED_EFFECTS)
-        .map(|(_, s)| (Cause::Effect(s.candidate.card, s.candidate.wheel), Some(s.from.clone()), prior.clone()));
+    let effects = worth_a_fit(&screened)
+        .into_iter()
+        .map(|s| (Cause::Effect(s.candidate.card, s.candidate.wheel), Some(s.from.clone()), prior.clone()));
     let released = parameters
         .iter()
         .filter(|(_, gain)| *gain > PROMISING)

@@ -1,10 +1,12 @@
 //! The verdict: which causes a corrected model needs, and when to say that nothing known explains the gap.
 
+use model_core::card::Role;
+
 use super::candidate::Cause;
 use super::order::{Data, Ranked, Ranking, Scored, explain};
 use crate::identify::Prior;
 use crate::localise::{floor, measure};
-use crate::simulate::Model;
+use crate::simulate::{Model, Slot};
 
 /// Causes that one corrected model may need, at the most.
 const MOST_CAUSES: usize = 3;
@@ -21,6 +23,8 @@ const ENOUGH: f64 = 1.03;
 /// Score within which two causes are not told apart, and standard errors of their difference that count as none.
 const TIE: f64 = 8.0;
 const TIE_ERRORS: f64 = 2.0;
+/// Standard errors by which an effect's size has to be away from absent.
+const SIZE_ERRORS: f64 = 3.0;
 /// Least share of the gap that known causes have to close; with less the answer is `unknown`.
 pub const LEAST_CLOSED: f64 = 0.6;
 /// Free-run error over its floor above which a re-fitted plain model leaves a gap.
@@ -61,7 +65,8 @@ pub struct Verdict<const N: usize> {
     pub refitted: Scored<N>,
     /// What was tried last, on top of the corrected model.
     pub last: Ranking<N>,
-    /// Share of the gap between the re-fitted plain model and the floor that the causes close.
+    /// Share of the gap that the causes close: over the re-fitted plain model for effects, over the nominal one for
+    /// parameters alone.
     pub closed: f64,
 }
 
@@ -101,9 +106,11 @@ pub fn decide<const N: usize>(
     progress("measuring the gap");
     let total = |scored: &Scored<N>| measure(&scored.fit.model.plant(), &data.held, horizon).total();
     let (before, after) = (total(&refitted), total(&current));
-    let least = floor(&current.fit.model.plant(), &data.held, horizon, 0).total();
-    let closed = if before > least { ((before - after) / (before - least)).clamp(0.0, 1.0) } else { 1.0 };
+    let least = floor(&current.fit.model.plant(), &data.held, horizon).total();
     let parameters_only = !found.is_empty() && found.iter().all(|f| matches!(f.cause, Cause::Parameter(_)));
+    // a re-fit within what was stated already leans towards a wrong parameter's true value
+    let from = if parameters_only { measure(&nominal.plant(), &data.held, horizon).total() } else { before };
+    let closed = if from > least { ((from - after) / (from - least)).clamp(0.0, 1.0) } else { 1.0 };
     let outcome = if found.is_empty() {
         if after > INADEQUATE * least { Outcome::Unknown } else { Outcome::NoGap }
     } else if parameters_only {
@@ -129,9 +136,23 @@ fn convincing<const N: usize>(best: &Ranked<N>, ranking: &Ranking<N>, further: b
         Cause::Parameter(_) => !further || taken > RELEVANT,
         Cause::Effect(..) => {
             let least = if further { RELEVANT_FURTHER } else { RELEVANT };
-            taken > least && gain > TIE_ERRORS * error
+            taken > least && gain > TIE_ERRORS * error && has_size(best)
         }
     }
+}
+
+/// True if a size of the effect is away from absent by more than its uncertainty allows.
+fn has_size<const N: usize>(ranked: &Ranked<N>) -> bool {
+    let Cause::Effect(card, wheel) = ranked.cause else { return true };
+    let fit = &ranked.scored.fit;
+    let Some(at) = fit.model.effects.iter().position(|e| e.id == card.id && e.wheel == wheel) else { return true };
+    let mut numbers = card.params.iter().enumerate().filter(|(_, p)| p.role != Role::Fixed).peekable();
+    // an effect without free numbers is there or not
+    numbers.peek().is_none()
+        || numbers.any(|(k, p)| {
+            let std = fit.std(Slot::Param(at, k)).unwrap_or(0.0);
+            (fit.model.effects[at].params[k] - p.absent).abs() > SIZE_ERRORS * std
+        })
 }
 
 /// Causes whose models do as well, by the data, as the best one.

@@ -1,0 +1,89 @@
+//! Sensors, forwards and backwards, and what the effects remember of a step.
+
+use super::{Plant, Reading, Source, State};
+use crate::card::Seam;
+use crate::frames::BodyTwist;
+use crate::scalar::Real;
+use crate::seams::{At, Sense, Turn};
+
+impl<const N: usize, T: Real> Plant<N, T> {
+    /// What the sensors make of the truth.
+    #[inline]
+    pub(super) fn read(&self, at: &At<T>, state: &State<N, T>, memory: &[T], truth: Reading<N, T>) -> Reading<N, T> {
+        if self.effects.none_at(Seam::Sense) {
+            return truth;
+        }
+        let mut reading = truth;
+        for active in self.effects.at(Seam::Sense) {
+            if active.whole() {
+                let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
+                active.effect.sense(active.params(), &memory[active.memory(0)], at, &mut x);
+                (reading.pose, reading.gyro) = (x.pose, x.gyro);
+                continue;
+            }
+            for j in (0..N).filter(|j| active.on(*j)) {
+                let at = self.at_wheel(at, state, j, truth.wheel_speed[j]);
+                let mut x =
+                    Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
+                active.effect.sense(active.params(), &memory[active.memory(j)], &at, &mut x);
+                (reading.current[j], reading.wheel_speed[j]) = (x.current, x.wheel_speed);
+            }
+        }
+        reading
+    }
+
+    /// The truth behind a smoothed reading: the way back through the sensing effects, last one first.
+    pub fn unread(&self, time: T, twist: BodyTwist<T>, mut reading: Reading<N, T>) -> Reading<N, T> {
+        let at = At { time, pose: reading.pose, twist, nominal_supply: self.robot.supply, ..At::default() };
+        for active in self.effects.at(Seam::Sense) {
+            if active.whole() {
+                let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
+                active.effect.unsense(active.params(), &at, &mut x);
+                (reading.pose, reading.gyro) = (x.pose, x.gyro);
+                continue;
+            }
+            for j in (0..N).filter(|j| active.on(*j)) {
+                let at = At { wheel: j, ..at };
+                let mut x =
+                    Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
+                active.effect.unsense(active.params(), &at, &mut x);
+                (reading.current[j], reading.wheel_speed[j]) = (x.current, x.wheel_speed);
+            }
+        }
+        reading
+    }
+
+    pub(super) fn remember(
+        &self,
+        state: &State<N, T>,
+        memory: &mut [T],
+        truth: &Reading<N, T>,
+        source: &Source<'_, N, T>,
+        bus: T,
+        dt: T,
+    ) {
+        let at = self.at(state, dt);
+        for active in self.effects.with_memory() {
+            if active.whole() {
+                let mut drawn = T::zero();
+                for j in 0..N {
+                    drawn += source.command(j) / self.robot.supply * truth.current[j];
+                }
+                let done = Turn { bus, bus_current: drawn, ..Turn::default() };
+                active.effect.advance(active.params(), &mut memory[active.memory(0)], &at, &done);
+                continue;
+            }
+            for j in (0..N).filter(|j| active.on(*j)) {
+                let at = self.at_wheel(&at, state, j, truth.wheel_speed[j]);
+                let done = Turn {
+                    command: source.command(j),
+                    current: truth.current[j],
+                    wheel_speed: truth.wheel_speed[j],
+                    bus,
+                    ..Turn::default()
+                };
+                active.effect.advance(active.params(), &mut memory[active.memory(j)], &at, &done);
+            }
+        }
+    }
+}
