@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use model_core::robot::Nominal;
 use omni_gap::check::check;
-use omni_gap::identify::{Fit, Prior, Windows, fit_tempered, nominal_free};
+use omni_gap::identify::{Fit, Prior, Shots, Windows, fit_tempered, nominal_free};
 use omni_gap::log::{RobotFile, corrected, write_whole};
 use omni_gap::report::num;
 use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded, Slot};
@@ -63,7 +63,13 @@ fn fitted<const N: usize>(session: &Session, robot: &std::path::Path) -> Result<
     let model = Model::<N>::nominal(&session.robot, if largest > 0.0 { largest } else { 1.0 });
     let windows: Vec<Windows> = runs.iter().map(|r| Windows::new(r, WINDOW_S)).collect();
     let runs: Vec<&Recorded<N>> = runs.iter().collect();
-    let fit = fit_tempered(model, &runs, &windows, None, &nominal_free(), &Prior::stated(&session.robot));
+    let fit = fit_tempered(
+        model,
+        Shots { runs: &runs, windows: &windows },
+        None,
+        &nominal_free(),
+        &Prior::stated(&session.robot),
+    );
     let changes: Vec<_> =
         NOMINAL_KEYS.iter().flat_map(|key| key.scaled(&session.robot, key.factor(&fit.model.factor))).collect();
     let text = corrected(&session.robot_text, &changes)?;

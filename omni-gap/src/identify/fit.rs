@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::linear::{Linearised, Reduced, linearise};
 use super::prior::Prior;
-use super::shoot::{Starts, Windows, first_starts, run_windows};
+use super::shoot::{Shots, Starts, first_starts, run_windows};
 use crate::simulate::{Model, Recorded, Slot};
 use model_core::frames::{BodyTwist, Pose};
 
@@ -64,8 +64,7 @@ impl<const N: usize> Fit<N> {
 /// Fits the free numbers of `model` to the runs; `starts` are where to begin, if known from a fit before.
 pub fn fit<const N: usize>(
     mut model: Model<N>,
-    runs: &[&Recorded<N>],
-    windows: &[Windows],
+    shots: Shots<'_, N>,
     starts: Option<Vec<Starts>>,
     free: &[Free],
     prior: &Prior,
@@ -75,10 +74,10 @@ pub fn fit<const N: usize>(
     let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
     let mut starts = starts.unwrap_or_else(|| {
         let plant = model.plant();
-        runs.iter().zip(windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect()
+        shots.runs.iter().zip(shots.windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect()
     });
     let mut damping = 1e-7;
-    let mut linear = linearise(&model, runs, windows, &starts, &slots, false);
+    let mut linear = linearise(&model, shots, &starts, &slots, false);
     let mut total = linear.cost().0 / temper + prior.cost(&model);
     for _ in 0..rounds {
         let reduced = with_prior(linear.reduced().tempered(temper), &model, free, prior);
@@ -90,7 +89,7 @@ pub fn fit<const N: usize>(
             };
             let (trial, taken) = stepped(&model, free, &step);
             let moved = linear.starts_after(&starts, &taken);
-            let cost = cost_of(&trial, runs, windows, &moved) / temper + prior.cost(&trial);
+            let cost = cost_of(&trial, shots, &moved) / temper + prior.cost(&trial);
             if cost.is_finite() && cost < total {
                 damping = (damping * 0.1).max(1e-10);
                 better = Some((trial, moved, cost));
@@ -101,7 +100,7 @@ pub fn fit<const N: usize>(
         let Some((trial, moved, cost)) = better else { break };
         let gained = total - cost;
         (model, starts, total) = (trial, moved, cost);
-        linear = linearise(&model, runs, windows, &starts, &slots, false);
+        linear = linearise(&model, shots, &starts, &slots, false);
         if gained < 0.1 + 1e-6 * total {
             break;
         }
@@ -124,19 +123,15 @@ pub fn fit<const N: usize>(
 }
 
 /// The best starts for a model as it is, and each window's Σ error² and count: how well whole runs are predicted.
-pub fn profile<const N: usize>(
-    model: &Model<N>,
-    runs: &[&Recorded<N>],
-    windows: &[Windows],
-) -> (Vec<Starts>, Vec<Vec<(f64, usize)>>) {
+pub fn profile<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -> (Vec<Starts>, Vec<Vec<(f64, usize)>>) {
     let none = DVector::zeros(0);
     let plant = model.plant();
     let mut starts: Vec<Starts> =
-        runs.iter().zip(windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect();
-    let mut linear = linearise(model, runs, windows, &starts, &[], false);
+        shots.runs.iter().zip(shots.windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect();
+    let mut linear = linearise(model, shots, &starts, &[], false);
     for _ in 0..3 {
         let moved = linear.starts_after(&starts, &none);
-        let trial = linearise(model, runs, windows, &moved, &[], false);
+        let trial = linearise(model, shots, &moved, &[], false);
         // each window on its own: a start that got worse stays
         let (old, new) = (linear.cost_by_window(), trial.cost_by_window());
         for (run, (old, new)) in old.iter().zip(&new).enumerate() {
@@ -147,7 +142,7 @@ pub fn profile<const N: usize>(
             }
         }
         let gained: f64 = old.iter().flatten().zip(new.iter().flatten()).map(|(o, n)| (o.0 - n.0).max(0.0)).sum();
-        linear = linearise(model, runs, windows, &starts, &[], false);
+        linear = linearise(model, shots, &starts, &[], false);
         if gained < 0.1 {
             break;
         }
@@ -156,9 +151,10 @@ pub fn profile<const N: usize>(
     (starts, cost)
 }
 
-fn cost_of<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>], windows: &[Windows], starts: &[Starts]) -> f64 {
+fn cost_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, starts: &[Starts]) -> f64 {
     let plant = model.plant();
     let count = Recorded::<N>::channels().count();
+    let Shots { runs, windows } = shots;
     let costs: Vec<f64> = (0..runs.len())
         .into_par_iter()
         .map(|k| {
@@ -268,9 +264,9 @@ fn covariance(reduced: &Reduced, data: Reduced, n: usize) -> DMatrix<f64> {
 /// The windows linearised at a fit, kept whole for a screening.
 impl<const N: usize> Fit<N> {
     /// The errors and derivatives of every window at this fit.
-    pub fn linearised(&self, runs: &[&Recorded<N>], windows: &[Windows]) -> Linearised {
+    pub fn linearised(&self, shots: Shots<'_, N>) -> Linearised {
         let slots: Vec<Slot> = self.free.iter().map(|f| f.slot).collect();
-        linearise(&self.model, runs, windows, &self.starts, &slots, true)
+        linearise(&self.model, shots, &self.starts, &slots, true)
     }
 
     /// The reduced equations with what was stated, at this fit.

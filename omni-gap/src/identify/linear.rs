@@ -10,7 +10,7 @@ use model_core::frames::{BodyTwist, Pose};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::shoot::{Starts, Windows, run_windows};
+use super::shoot::{Shots, Starts, Windows, run_windows};
 use crate::simulate::{Model, Recorded, Slot};
 
 /// Parameters of a window's start: x, y, θ, v, vn, ω.
@@ -76,12 +76,12 @@ impl Reduced {
 /// Linearises a model on runs. `keep` keeps the windows' own matrices, which a screening of effects needs.
 pub fn linearise<const N: usize>(
     model: &Model<N>,
-    runs: &[&Recorded<N>],
-    windows: &[Windows],
+    shots: Shots<'_, N>,
     starts: &[Starts],
     free: &[Slot],
     keep: bool,
 ) -> Linearised {
+    let Shots { runs, windows } = shots;
     let done: Vec<(Vec<Block>, Vec<WindowLinear>)> = (0..runs.len())
         .into_par_iter()
         .map(|k| {

@@ -14,5 +14,5 @@ mod tempered;
 pub use fit::{Fit, Free, fit, profile};
 pub use linear::{Linearised, WindowLinear, linearise};
 pub use prior::{Prior, PriorRow, Release};
-pub use shoot::{Starts, Windows, first_starts, run_windows};
+pub use shoot::{Shots, Starts, Windows, first_starts, run_windows};
 pub use tempered::{fit_tempered, nominal_free};

@@ -43,6 +43,23 @@ impl Windows {
     }
 }
 
+/// Runs and their windows: what a model is compared with.
+#[derive(Clone, Copy, Debug)]
+pub struct Shots<'a, const N: usize> {
+    /// The runs.
+    pub runs: &'a [&'a Recorded<N>],
+    /// Each run's windows.
+    pub windows: &'a [Windows],
+}
+
+impl<const N: usize> Shots<'_, N> {
+    /// The first `count` runs alone.
+    pub fn first(&self, count: usize) -> Self {
+        let count = count.min(self.runs.len());
+        Self { runs: &self.runs[..count], windows: &self.windows[..count] }
+    }
+}
+
 /// Starts from the smoothed measurements, through the inverse of the plant's sensing effects.
 pub fn first_starts<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, windows: &Windows) -> Starts {
     let mut before = plant.start(0.0, Pose::default(), BodyTwist::default());

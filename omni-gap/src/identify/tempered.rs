@@ -7,8 +7,8 @@ use model_core::robot::Nominal;
 
 use super::fit::{Fit, Free, fit, profile};
 use super::prior::Prior;
-use super::shoot::Windows;
-use crate::simulate::{Model, Recorded, Slot};
+use super::shoot::Shots;
+use crate::simulate::{Model, Slot};
 
 /// Rounds of a fit at one temper.
 const ROUNDS: usize = 6;
@@ -29,29 +29,28 @@ pub fn nominal_free() -> Vec<Free> {
 /// Fits a model within what was stated; `from` is a fit of a model like it, to start from.
 pub fn fit_tempered<const N: usize>(
     model: Model<N>,
-    runs: &[&Recorded<N>],
-    windows: &[Windows],
+    shots: Shots<'_, N>,
     from: Option<&Fit<N>>,
     free: &[Free],
     prior: &Prior,
 ) -> Fit<N> {
-    let mut temper = from.map_or_else(|| CAUTION * misfit(&model, runs, windows), |f| f.spread);
+    let mut temper = from.map_or_else(|| CAUTION * misfit(&model, shots), |f| f.spread);
     let starts = from.map(|f| f.starts.clone());
-    let mut fitted = fit(model, runs, windows, starts, free, prior, temper, ROUNDS);
+    let mut fitted = fit(model, shots, starts, free, prior, temper, ROUNDS);
     for _ in 0..TEMPERINGS {
         if (fitted.spread / temper).ln().abs() < SETTLED {
             break;
         }
         temper = fitted.spread;
         let Fit { model, starts, .. } = fitted;
-        fitted = fit(model, runs, windows, Some(starts), free, prior, temper, ROUNDS);
+        fitted = fit(model, shots, Some(starts), free, prior, temper, ROUNDS);
     }
     fitted
 }
 
 /// Σ error² per number of a model as it is, its starts free; at least one.
-fn misfit<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>], windows: &[Windows]) -> f64 {
-    let (_, windows) = profile(model, runs, windows);
+fn misfit<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -> f64 {
+    let (_, windows) = profile(model, shots);
     let (cost, n) = windows.iter().flatten().fold((0.0, 0), |(c, n), w| (c + w.0, n + w.1));
     (cost / n.max(1) as f64).max(1.0)
 }

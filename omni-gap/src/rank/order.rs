@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::candidate::{Cause, candidates, releases};
 use super::screen::{Screened, parameter_gains, screen};
-use crate::identify::{Fit, Free, Prior, Windows, fit_tempered, nominal_free, profile};
+use crate::identify::{Fit, Free, Prior, Shots, Windows, fit_tempered, nominal_free, profile};
 use crate::simulate::{Carried, Model, Recorded, Slot};
 
 /// Effects that are fitted after the screen, at the most.
@@ -109,11 +109,21 @@ fn effect_free<const N: usize>(model: &Model<N>) -> Vec<Free> {
 }
 
 impl<const N: usize> Data<'_, N> {
+    /// What models are fitted to.
+    pub fn to_fit(&self) -> Shots<'_, N> {
+        Shots { runs: &self.fit, windows: &self.fit_windows }
+    }
+
+    /// What models are judged by.
+    pub fn to_judge(&self) -> Shots<'_, N> {
+        Shots { runs: &self.held, windows: &self.held_windows }
+    }
+
     /// Fits a model (all nominal values within what `prior` states, all sizes and shapes of its effects) and judges it.
     pub fn judge(&self, model: Model<N>, from: Option<&Fit<N>>, prior: &Prior, extra: usize) -> Scored<N> {
         let free: Vec<Free> = nominal_free().into_iter().chain(effect_free(&model)).collect();
-        let fitted = fit_tempered(model, &self.fit, &self.fit_windows, from, &free, prior);
-        let (_, windows) = profile(&fitted.model, &self.held, &self.held_windows);
+        let fitted = fit_tempered(model, self.to_fit(), from, &free, prior);
+        let (_, windows) = profile(&fitted.model, self.to_judge());
         let per_window: Vec<(f64, usize)> = windows.into_iter().flatten().collect();
         let samples: usize = per_window.iter().map(|(_, n)| *n).sum();
         Scored {
@@ -151,13 +161,13 @@ fn worth_a_fit(screened: &[Screened]) -> Vec<&Screened> {
 
 /// Tries every cause on top of a fitted model. `released` are the statements already struck out.
 pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prior) -> Ranking<N> {
-    let few = data.fit.len().min(SCREENED_RUNS);
-    let linear = base.fit.linearised(&data.fit[..few], &data.fit_windows[..few]);
+    let few = data.to_fit().first(SCREENED_RUNS);
+    let linear = base.fit.linearised(few);
     let all = candidates::<N>(&base.fit.model.effects);
-    let mut screened = screen(&base.fit, &linear, prior, &data.fit[..few], &data.fit_windows[..few], all);
+    let mut screened = screen(&base.fit, &linear, prior, few, all);
     screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     drop(linear);
-    let whole = base.fit.linearised(&data.fit, &data.fit_windows);
+    let whole = base.fit.linearised(data.to_fit());
     let mut parameters = parameter_gains(&base.fit, &whole, prior, &releases());
     parameters.sort_by(|a, b| b.1.total_cmp(&a.1));
     drop(whole);

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
-use crate::identify::{Fit, Linearised, Prior, Release, Starts, Windows, run_windows};
+use crate::identify::{Fit, Linearised, Prior, Release, Shots, Starts, run_windows};
 use crate::simulate::{Carried, Recorded, Slot};
 
 /// A candidate and what the screen says of it.
@@ -35,14 +35,13 @@ pub fn screen<const N: usize>(
     fit: &Fit<N>,
     linear: &Linearised,
     prior: &Prior,
-    runs: &[&Recorded<N>],
-    windows: &[Windows],
+    shots: Shots<'_, N>,
     candidates: Vec<Candidate>,
 ) -> Vec<Screened> {
     let reduced = fit.reduced(linear, prior);
     let Some(hess) = reduced.hess.clone().cholesky() else { return Vec::new() };
     let toward: DVector<f64> = hess.solve(&reduced.grad);
-    let plain = predictions(&fit.model.plant(), runs, windows, &fit.starts, linear);
+    let plain = predictions(&fit.model.plant(), shots, &fit.starts, linear);
     let tried: Vec<Vec<Trial>> = candidates
         .par_iter()
         .map(|candidate| {
@@ -52,7 +51,7 @@ pub fn screen<const N: usize>(
                 .map(|trial| {
                     let mut model = fit.model.clone();
                     model.carry(trial.clone());
-                    let mut signature = predictions(&model.plant(), runs, windows, &fit.starts, linear);
+                    let mut signature = predictions(&model.plant(), shots, &fit.starts, linear);
                     for (with, without) in signature.iter_mut().flatten().zip(plain.iter().flatten()) {
                         *with -= without;
                     }
@@ -124,12 +123,12 @@ fn scaled(candidate: &Candidate, trial: &Carried, amplitude: f64) -> Carried {
 /// What a plant predicts for every number that was measured, in sigma, run by run and window by window.
 fn predictions<const N: usize>(
     plant: &Plant<N, f64>,
-    runs: &[&Recorded<N>],
-    windows: &[Windows],
+    shots: Shots<'_, N>,
     starts: &[Starts],
     linear: &Linearised,
 ) -> Vec<Vec<DVector<f64>>> {
     let count = Recorded::<N>::channels().count();
+    let Shots { runs, windows } = shots;
     (0..runs.len())
         .map(|k| {
             let run = runs[k];
