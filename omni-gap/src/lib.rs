@@ -11,6 +11,9 @@
 //! A room imports only rooms before it; [`diagnosis`] walks through them all, [`stage`] makes recordings whose truth is
 //! known.
 
+// A unit in brackets, [V], is not a link.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod error;
 
 pub mod log;
