@@ -6,17 +6,21 @@
 //! - [`matrices`]: A, B and K of `dx/dt = A·x + B·u + K·sign(x)`, as printed and as derived from virtual work;
 //! - [`flow`]: the exact solution between two sign changes, and when the next one comes;
 //! - [`mod@reference`]: the f64 robot that every other implementation is measured against;
-//! - [`excite`]: seeded robots, and voltage sequences that start, stop, reverse and rest.
+//! - [`excite`]: seeded robots, and voltage sequences that start, stop, reverse and rest;
+//! - [`catalogue`]: the benchmark of the diagnosis, on recordings whose truth is known;
+//! - [`real`]: what the diagnosis says of recordings of real robots.
 //!
 //! The paper is Oliveira, Sousa, Moreira and Costa, *Dynamical Models for Omni-directional Robots with 3 and 4 Wheels*
-//! (ICINCO 2008). Nothing in this library depends on the core: two implementations that agree prove something only if
-//! they share no line.
+//! (ICINCO 2008). Nothing in the first five rooms depends on the core: two implementations that agree prove something only
+//! if they share no line.
 
 // A unit in brackets, [V], is not a link.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+pub mod catalogue;
 pub mod excite;
 pub mod flow;
 pub mod matrices;
 pub mod paper;
+pub mod real;
 pub mod reference;

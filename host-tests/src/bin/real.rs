@@ -1,0 +1,47 @@
+//! Diagnoses recordings of real robots and rewrites the golden page.
+//!
+//! The argument is the folder that holds them, as [`host_tests::real::sessions`] names them.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use host_tests::real::page::{page, warning};
+use host_tests::real::sessions::SESSIONS;
+use omni_gap::log::write_whole;
+use omni_gap::report::terminal;
+use omni_gap::{Diagnosis, Error, Options};
+
+fn main() -> ExitCode {
+    let Some(folder) = std::env::args_os().nth(1).map(PathBuf::from) else {
+        eprintln!("no folder of recordings: name the one that holds robotino/ and ssl2018/");
+        return ExitCode::from(2);
+    };
+    match diagnosed(&folder) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn diagnosed(folder: &Path) -> Result<(), Error> {
+    let mut answered = Vec::new();
+    for real in SESSIONS {
+        println!("{}: {}", real.title, real.recorded);
+        let session = real.session(folder)?;
+        let start = Instant::now();
+        let report = Diagnosis::of(&session, &Options::default()).report;
+        println!("{}{:.1} s", terminal(&report, None), start.elapsed().as_secs_f64());
+        if let Some(warning) = warning(&real, &report) {
+            println!("warning: {warning}");
+        }
+        println!();
+        answered.push((real, report));
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join("real.md");
+    write_whole(&path, page(&answered).as_bytes())?;
+    println!("written: host-tests/golden/real.md; read the difference before you commit it: git diff");
+    Ok(())
+}

@@ -1,0 +1,188 @@
+//! One session diagnosed, and the answer held to the truth.
+
+use std::path::Path;
+use std::time::Instant;
+
+use omni_gap::error::Result;
+use omni_gap::localise::{floor, measure};
+use omni_gap::log::{RobotFile, Session};
+use omni_gap::report::{Estimate, Report, Verdict};
+use omni_gap::simulate::{Model, NominalKey, Recorded};
+use omni_gap::{Diagnosis, Options, known_effects};
+
+use super::sessions::{Case, Hidden, truth};
+
+/// A gap smaller than this is not divided by [σ].
+pub const TOO_SMALL: f64 = 0.1;
+
+/// The diagnosis holds out every third run of a session that holds out none.
+const HOLD_OUT: usize = 3;
+
+const FLOOR_SEED: u64 = 20_080_511;
+
+/// How good the answer is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judged {
+    /// The hidden cause comes first; where nothing is hidden, the answer is `no_gap`.
+    First,
+    /// The hidden cause is named as one that the data cannot tell from the first.
+    Named,
+    /// Neither.
+    Wrong,
+}
+
+/// Errors of the free runs of the held-out runs [σ].
+#[derive(Clone, Copy, Debug)]
+pub struct Oracle {
+    /// With the session's own robot file.
+    pub before: f64,
+    /// With the true model.
+    pub after: f64,
+    /// With the true model, on runs that it made itself with the sensors' noise.
+    pub floor: f64,
+}
+
+/// A number of the hidden cause, against the truth.
+#[derive(Clone, Debug)]
+pub struct Number {
+    /// Its key.
+    pub key: String,
+    /// The true value, SI.
+    pub truth: f64,
+    /// What the diagnosis says of it; none where it does not speak of it.
+    pub estimate: Option<Estimate>,
+}
+
+impl Number {
+    /// How many of its own standard deviations the estimate is off.
+    pub fn off(&self) -> Option<f64> {
+        let estimate = self.estimate.as_ref()?;
+        estimate.std.filter(|std| *std > 0.0).map(|std| (estimate.value - self.truth).abs() / std)
+    }
+}
+
+/// A diagnosed session.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// What was diagnosed.
+    pub case: Case,
+    /// The answer.
+    pub report: Report,
+    /// What the true model achieves.
+    pub oracle: Oracle,
+    /// The hidden cause's numbers.
+    pub numbers: Vec<Number>,
+    /// How long the diagnosis took [s]
+    pub seconds: f64,
+}
+
+/// Stages and diagnoses a session.
+///
+/// # Errors
+/// Where the true robot's file is not sound.
+pub fn diagnosed(case: &Case) -> Result<Outcome> {
+    let session = case.session()?;
+    let start = Instant::now();
+    let report = Diagnosis::of(&session, &Options::default()).report;
+    let seconds = start.elapsed().as_secs_f64();
+    let file = RobotFile::parse(truth(case.wheels), Path::new("robot.toml"), &known_effects())?;
+    let oracle = match case.wheels {
+        3 => oracle::<3>(case, &session, &file),
+        _ => oracle::<4>(case, &session, &file),
+    };
+    let numbers = numbers(case, &report, &file);
+    Ok(Outcome { case: case.clone(), report, oracle, numbers, seconds })
+}
+
+fn oracle<const N: usize>(case: &Case, session: &Session, file: &RobotFile) -> Oracle {
+    let voltage = case.plan().voltage;
+    let mut model = Model::<N>::nominal(file, voltage);
+    if let Hidden::Effect(effect) = &case.hidden {
+        model.carry(effect.clone());
+    }
+    let held: Vec<Recorded<N>> = session
+        .runs
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| k % HOLD_OUT == HOLD_OUT - 1)
+        .filter_map(|(_, run)| Recorded::new(run, &session.robot))
+        .collect();
+    let held: Vec<&Recorded<N>> = held.iter().collect();
+    let horizon = Options::default().horizon_s;
+    let (nominal, true_) = (Model::<N>::nominal(&session.robot, voltage).plant(), model.plant());
+    Oracle {
+        before: measure(&nominal, &held, horizon).total(),
+        after: measure(&true_, &held, horizon).total(),
+        floor: floor(&true_, &held, horizon, FLOOR_SEED).total(),
+    }
+}
+
+fn numbers(case: &Case, report: &Report, file: &RobotFile) -> Vec<Number> {
+    let Some((cause, _)) = case.hidden.cause() else { return Vec::new() };
+    let said = report.cause(cause);
+    let number = |key: &str, truth: f64| Number {
+        key: key.to_owned(),
+        truth,
+        estimate: said.and_then(|which| which.parameters.get(key)).cloned(),
+    };
+    match &case.hidden {
+        Hidden::Effect(effect) => {
+            effect.card().params.iter().zip(&effect.params).map(|(p, x)| number(p.key, *x)).collect()
+        }
+        Hidden::Parameter(wrong) => {
+            NominalKey::of(wrong.key).map(|k| number(k.key, k.value(file))).into_iter().collect()
+        }
+        Hidden::Nothing => Vec::new(),
+    }
+}
+
+impl Outcome {
+    /// The cause that the diagnosis puts first, with its wheel; none where it names none.
+    pub fn first(&self) -> Option<(&str, Option<usize>)> {
+        let id = self.report.causes.first()?;
+        Some((id, self.report.cause(id).and_then(|which| which.wheel)))
+    }
+
+    /// Causes that the diagnosis cannot tell from its first.
+    pub fn alike(&self) -> &[String] {
+        let first = self.report.causes.first().and_then(|id| self.report.cause(id));
+        first.map_or(&[], |which| &which.not_told_apart_from)
+    }
+
+    /// How good the answer is.
+    pub fn judged(&self) -> Judged {
+        let Some((cause, wheel)) = self.case.hidden.cause() else {
+            return if self.report.verdict == Verdict::NoGap { Judged::First } else { Judged::Wrong };
+        };
+        let in_place = self.report.cause(cause).is_some_and(|which| which.wheel == wheel);
+        match self.first() {
+            Some((first, _)) if first == cause && in_place => Judged::First,
+            Some(_) if in_place && self.alike().iter().any(|id| id == cause) => Judged::Named,
+            _ => Judged::Wrong,
+        }
+    }
+
+    /// What the true model closes of its gap; none where there is none worth dividing by.
+    pub fn closed_by_truth(&self) -> Option<f64> {
+        let Oracle { before, after, floor } = self.oracle;
+        (before - floor >= TOO_SMALL).then(|| (before - after) / (before - floor))
+    }
+
+    /// What the diagnosis closes of what the true model closes.
+    pub fn closed_of_truth(&self) -> Option<f64> {
+        let Oracle { before, after, .. } = self.oracle;
+        (before - after >= TOO_SMALL).then_some(())?;
+        Some((before - self.report.shrink.after?) / (before - after))
+    }
+
+    /// True where the report's gap before is the one that was measured here: both then speak of the same runs.
+    pub fn same_runs(&self) -> bool {
+        self.report.shrink.before.is_some_and(|before| (before - self.oracle.before).abs() < 1e-6 * before)
+    }
+
+    /// The probability that the diagnosis gives to the hidden cause.
+    pub fn probability(&self) -> f64 {
+        let cause = self.case.hidden.cause().map_or("no_gap", |(cause, _)| cause);
+        self.report.cause(cause).map_or(0.0, |which| which.probability)
+    }
+}

@@ -1,0 +1,160 @@
+//! The sessions: every effect on both robots, nothing at all, and numbers that are plainly wrong.
+
+use std::fmt;
+
+use model_core::card::Place;
+use model_core::effects;
+use omni_gap::error::Result;
+use omni_gap::known_effects;
+use omni_gap::log::Session;
+use omni_gap::simulate::Carried;
+use omni_gap::stage::{Stage, stage};
+
+/// The seed of the first session; the others count up from it, in the order of [`cases`]. Nobody chose them by result.
+pub const FIRST_SEED: u64 = 2000;
+
+/// Sessions with nothing hidden, on each robot.
+pub const NOTHING_EACH: usize = 5;
+
+/// The wheel of an effect that sits on one wheel alone.
+pub const THE_WHEEL: usize = 1;
+
+/// Wheels of the two robots.
+pub const WHEELS: [usize; 2] = [3, 4];
+
+/// A number of the robot file that is plainly wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrong {
+    /// Its key.
+    pub key: &'static str,
+    /// The cause that names it.
+    pub cause: &'static str,
+    /// True value over the file's.
+    pub ratio: f64,
+    /// What the file states of its relative uncertainty, one sigma.
+    pub stated: f64,
+}
+
+/// The wrong numbers, each well beyond what is stated of it.
+pub const WRONG: [Wrong; 3] = [
+    Wrong { key: "mass_kg", cause: "mass", ratio: 1.25, stated: 0.01 },
+    Wrong { key: "resistance_ohm", cause: "resistance", ratio: 1.6, stated: 0.1 },
+    Wrong { key: "coulomb_v_N", cause: "coulomb_friction", ratio: 2.5, stated: 0.2 },
+];
+
+/// What the simulator does not know.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Hidden {
+    /// An effect that it lacks.
+    Effect(Carried),
+    /// Nothing beyond the stated uncertainty.
+    Nothing,
+    /// A number that is wrong.
+    Parameter(Wrong),
+}
+
+impl Hidden {
+    /// The cause that the diagnosis should name, and the wheel that it sits on alone.
+    pub fn cause(&self) -> Option<(&'static str, Option<usize>)> {
+        match self {
+            Hidden::Effect(effect) => Some((effect.id, effect.wheel)),
+            Hidden::Nothing => None,
+            Hidden::Parameter(wrong) => Some((wrong.cause, None)),
+        }
+    }
+}
+
+impl fmt::Display for Hidden {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Hidden::Effect(effect) => match effect.wheel {
+                Some(wheel) => write!(f, "`{}` on wheel {wheel}", effect.id),
+                None => write!(f, "`{}`", effect.id),
+            },
+            Hidden::Nothing => write!(f, "nothing"),
+            Hidden::Parameter(wrong) => write!(f, "`{}` × {}", wrong.key, wrong.ratio),
+        }
+    }
+}
+
+/// One session of the benchmark.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Seed of everything random in it.
+    pub seed: u64,
+    /// Wheels of its robot.
+    pub wheels: usize,
+    /// What the simulator does not know.
+    pub hidden: Hidden,
+}
+
+/// All sessions, in the order of their seeds.
+pub fn cases() -> Vec<Case> {
+    let effects = effects::catalogue::<f64>().iter().map(|effect| {
+        let card = effect.card();
+        Hidden::Effect(Carried::typical(card, (card.place == Place::OneWheel).then_some(THE_WHEEL)))
+    });
+    let nothing = std::iter::repeat_n(Hidden::Nothing, NOTHING_EACH);
+    let all = effects.chain(nothing).chain(WRONG.map(Hidden::Parameter));
+    let on_both = all.flat_map(|hidden| WHEELS.map(|wheels| (wheels, hidden.clone())));
+    let numbered = (FIRST_SEED..).zip(on_both);
+    numbered.map(|(seed, (wheels, hidden))| Case { seed, wheels, hidden }).collect()
+}
+
+/// The text of the true robot's file.
+pub fn truth(wheels: usize) -> &'static str {
+    match wheels {
+        3 => include_str!("../../../examples/feup-3w/robot.toml"),
+        _ => include_str!("../../../examples/feup-4w/robot.toml"),
+    }
+}
+
+impl Case {
+    /// How it is staged: as long, as noisy and as uncertain as [`Stage`] is by default.
+    pub fn plan(&self) -> Stage {
+        let mut plan = Stage { seed: self.seed, ..Stage::default() };
+        match &self.hidden {
+            Hidden::Effect(effect) => plan.hidden.push(effect.clone()),
+            Hidden::Nothing => {}
+            Hidden::Parameter(wrong) => plan.wrong.push((wrong.key, wrong.ratio)),
+        }
+        plan
+    }
+
+    /// Its recordings and its robot file.
+    ///
+    /// # Errors
+    /// Where the true robot's file is not sound.
+    pub fn session(&self) -> Result<Session> {
+        stage(truth(self.wheels), &self.plan(), &known_effects())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use omni_gap::log::RobotFile;
+    use std::path::Path;
+
+    #[test]
+    fn there_are_as_many_sessions_as_the_promise_speaks_of_each_with_its_own_seed() {
+        let all = cases();
+        let count = |of: fn(&Hidden) -> bool| all.iter().filter(|case| of(&case.hidden)).count();
+        assert_eq!(count(|h| matches!(h, Hidden::Effect(_))), 2 * effects::catalogue::<f64>().len());
+        assert_eq!(count(|h| matches!(h, Hidden::Nothing)), 10);
+        assert_eq!(count(|h| matches!(h, Hidden::Parameter(_))), 6);
+        assert!(all.windows(2).all(|pair| pair[1].seed == pair[0].seed + 1));
+    }
+
+    #[test]
+    fn wrong_numbers_lie_far_beyond_what_the_robot_files_state() {
+        for wheels in WHEELS {
+            let file = RobotFile::parse(truth(wheels), Path::new("robot.toml"), &known_effects()).unwrap();
+            assert_eq!(file.wheel.len(), wheels);
+            for wrong in WRONG {
+                assert_eq!(file.relative_uncertainty(wrong.key), Some(wrong.stated), "{}", wrong.key);
+                assert!(wrong.ratio.ln() > 4.0 * wrong.stated, "{}", wrong.key);
+            }
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! The page: what was recorded, what was answered, and whether a person believes it.
+
+use std::fmt::Write;
+
+use omni_gap::report::{Report, Which, estimate, num, percent};
+
+use super::sessions::{Real, judged};
+use crate::catalogue::page::{plain, word};
+
+/// Causes below this probability are left out.
+const WORTH_A_LINE: f64 = 0.05;
+
+const OPENING: &str = "# What the diagnosis says of real robots
+
+Two public recordings, both under the Apache licence 2.0: a Festo Robotino v2 with three omni wheels
+(github.com/BrOleg5/research-wheel-slippage) and a small-size robot of RoboJackets with four
+(github.com/RoboJackets/robocup-firmware-data). They are read through the robot files and mappings in `examples/`; no code
+was made for them. Nobody knows the truth of a real robot, so below each answer stands whether it is to be believed.
+
+`cargo xtask real FOLDER` makes this page again, where FOLDER holds the recordings as `robotino/` and `ssl2018/`.
+";
+
+/// The whole page, of sessions and their answers.
+pub fn page(answered: &[(Real, Report)]) -> String {
+    answered.iter().fold(OPENING.to_owned(), |text, (real, report)| text + &section(real, report))
+}
+
+/// The answer in a line, as a judgement names it.
+pub fn answer(report: &Report) -> String {
+    std::iter::once(word(report.verdict)).chain(report.causes.iter().map(String::as_str)).collect::<Vec<_>>().join(", ")
+}
+
+/// What to say where the answer is another than the one that was judged.
+pub fn warning(real: &Real, report: &Report) -> Option<String> {
+    let (of, is) = (judged(real.judgement).0, answer(report));
+    (of != is).then(|| format!("This was written of the answer \"{of}\"; the answer is now \"{is}\": judge it again."))
+}
+
+fn section(real: &Real, report: &Report) -> String {
+    let mut text = format!("\n## {}\n\n", real.title);
+    let mut line = |label: &str, said: &str| {
+        let _ = writeln!(text, "- **{label}**: {}", plain(said));
+    };
+    line("recorded", &format!("{} (`{}`)", real.recorded, real.folder));
+    line("verdict", &format!("`{}`", word(report.verdict)));
+    for place in &report.where_ {
+        let wheel = place.wheel.map_or(String::new(), |wheel| format!(", wheel {wheel}"));
+        let axis = place.axis.map_or(String::new(), |axis| format!(", axis {}", format!("{axis:?}").to_lowercase()));
+        let regime = place.regime.as_ref();
+        let regime = regime.map_or(String::new(), |r| format!("; {} of it where {}", percent(r.share), r.text));
+        let stage = format!("{:?}", place.stage).to_lowercase();
+        line("where", &format!("{stage}{wheel}{axis}: {}{regime}", percent(place.share)));
+    }
+    for which in report.which.iter().filter(|w| w.probability >= WORTH_A_LINE || report.causes.contains(&w.cause)) {
+        line("which", &cause(which));
+    }
+    line("how far", &how_far(report));
+    report.not_seen.iter().for_each(|missing| line("not seen", missing));
+    for fault in &report.faults {
+        let file = fault.file.as_ref().map_or(String::new(), |file| format!("{file}: "));
+        line("fault", &format!("`{}`, {file}{}", fault.code, fault.what));
+    }
+    report.notices.iter().for_each(|notice| line("notice", notice));
+    text += "\n**Is this to be believed?** ";
+    if let Some(warning) = warning(real, report) {
+        let _ = write!(text, "*{warning}* ");
+    }
+    text += judged(real.judgement).1;
+    text.push('\n');
+    text
+}
+
+fn cause(which: &Which) -> String {
+    let mut said = format!("`{}`", which.cause);
+    if let Some(wheel) = which.wheel {
+        let _ = write!(said, " on wheel {wheel}");
+    }
+    let _ = write!(said, ", probability {}", percent(which.probability));
+    let fitted = which.parameters.iter().filter(|(_, e)| e.std.is_some());
+    let numbers: Vec<String> = fitted.map(|(key, e)| format!("`{key}` {}", estimate(e.value, e.std, ""))).collect();
+    if !numbers.is_empty() {
+        let _ = write!(said, "; {}", numbers.join(", "));
+    }
+    if !which.not_told_apart_from.is_empty() {
+        let _ = write!(said, "; not told apart from {}", which.not_told_apart_from.join(", "));
+    }
+    if let Some(settle) = &which.settle_by {
+        let _ = write!(said, "; settle it by: {settle}");
+    }
+    said
+}
+
+fn how_far(report: &Report) -> String {
+    let s = &report.shrink;
+    let sigmas = |x: Option<f64>| x.map_or("–".to_owned(), num);
+    let mut said = format!("{} → {} σ, floor {}", sigmas(s.before), sigmas(s.after), sigmas(s.noise_floor));
+    if let Some(closed) = s.closed {
+        let _ = write!(said, ": {} closed", percent(closed));
+    }
+    if let Some(refit) = s.closed_by_refit_alone {
+        let _ = write!(said, ", {} by re-fitting the numbers alone", percent(refit));
+    }
+    for (group, gap) in &report.gap.signals {
+        let _ = write!(said, "; `{group}` {} → {}, floor {}", num(gap.before), num(gap.after), num(gap.noise_floor));
+    }
+    said
+}

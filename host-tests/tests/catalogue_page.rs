@@ -1,0 +1,104 @@
+//! The promises of the diagnosis: as the golden page states them, and on four sessions small enough for every test run.
+
+use std::path::Path;
+
+use host_tests::catalogue::page::{Promise, read_promises};
+use host_tests::catalogue::sessions::{Hidden, WHEELS, cases, truth};
+use model_core::effects;
+use omni_gap::report::{Report, Verdict};
+use omni_gap::simulate::Carried;
+use omni_gap::stage::{Stage, stage};
+use omni_gap::{Options, diagnose, known_effects};
+
+fn golden() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/catalogue.md");
+    std::fs::read_to_string(path).expect("the page is there: cargo xtask benchmark makes it")
+}
+
+/// The cells of the rows of "The answers".
+fn answers(page: &str) -> Vec<Vec<&str>> {
+    let rows = page.lines().map(|line| line.trim_matches('|').split('|').map(str::trim).collect::<Vec<_>>());
+    rows.filter(|cells| cells.len() == 8 && cells[0].parse::<u64>().is_ok()).collect()
+}
+
+#[test]
+fn the_page_speaks_of_every_effect_on_three_and_on_four_wheels_and_of_nothing_else() {
+    let page = golden();
+    let rows = answers(&page);
+    for effect in effects::catalogue::<f64>() {
+        for wheels in WHEELS {
+            let (name, wheels) = (format!("`{}`", effect.card().id), wheels.to_string());
+            let speaks = |cells: &&Vec<&str>| cells[1] == wheels && cells[2].split(" on ").next() == Some(&name);
+            assert_eq!(rows.iter().filter(speaks).count(), 1, "{name} on {wheels} wheels");
+        }
+    }
+    let stated: Vec<[String; 3]> =
+        cases().iter().map(|c| [c.seed.to_string(), c.wheels.to_string(), c.hidden.to_string()]).collect();
+    let standing: Vec<[String; 3]> = rows.iter().map(|cells| [0, 1, 2].map(|k| cells[k].to_owned())).collect();
+    assert_eq!(standing, stated, "the sessions of the page are not those of the benchmark: run it again");
+}
+
+#[test]
+fn the_page_keeps_every_promise() {
+    let promises = read_promises(&golden());
+    assert_eq!(promises.len(), 4);
+    for Promise { what, kept, of, least } in &promises {
+        assert!(kept >= least, "{what}: {kept} of {of}, at least {least} were promised");
+    }
+    let least: Vec<usize> = promises.iter().map(|p| p.least).collect();
+    assert_eq!((least[0], least[2], least[3]), (22, 10, 5), "the bars are not the page's to choose");
+    assert_eq!(promises[1].least, promises[1].of);
+}
+
+#[test]
+fn the_counts_of_the_page_are_those_of_its_rows() {
+    let page = golden();
+    let (rows, promises) = (answers(&page), read_promises(&page));
+    let of = |kind: fn(&Hidden) -> bool, keeps: &dyn Fn(&[&str]) -> bool| {
+        cases().iter().zip(&rows).filter(|(case, cells)| kind(&case.hidden) && keeps(cells)).count()
+    };
+    assert_eq!(promises[0].kept, of(|h| matches!(h, Hidden::Effect(_)), &|cells| cells[7] != "**wrong**"));
+    assert_eq!(promises[2].kept, of(|h| *h == Hidden::Nothing, &|cells| cells[3] == "`no_gap`"));
+    assert_eq!(promises[3].kept, of(|h| matches!(h, Hidden::Parameter(_)), &|cells| cells[3] == "`parameter`"));
+}
+
+/// A session of four short runs.
+fn small(wheels: usize, plan: Stage) -> Report {
+    let plan = Stage { runs: 4, duration: 3.0, rate: 200.0, ..plan };
+    let session = stage(truth(wheels), &plan, &known_effects()).expect("the examples are sound");
+    diagnose(&session, &Options::default())
+}
+
+fn hiding(id: &str, seed: u64) -> Stage {
+    let card = effects::find::<f64>(id).expect("an effect of the catalogue").card();
+    Stage { hidden: vec![Carried::typical(card, None)], seed, ..Stage::default() }
+}
+
+#[test]
+fn an_effect_is_found_on_four_wheels() {
+    let report = small(4, hiding("dead_time", 3000));
+    assert_eq!((report.verdict, report.causes.first().map(String::as_str)), (Verdict::Effect, Some("dead_time")));
+    assert!(report.shrink.closed.is_some_and(|closed| closed > 0.8), "{:?}", report.shrink);
+}
+
+#[test]
+fn an_effect_is_found_on_three_wheels() {
+    let report = small(3, hiding("camera_latency", 3001));
+    assert_eq!((report.verdict, report.causes.first().map(String::as_str)), (Verdict::Effect, Some("camera_latency")));
+    let said = &report.cause("camera_latency").expect("it was found").parameters["latency_s"];
+    let truth = effects::find::<f64>("camera_latency").expect("it is known").card().params[0].typical;
+    // a tenth of the truth: the short runs' own uncertainty is about half of that
+    assert!((said.value - truth).abs() < 0.1 * truth, "{said:?} and not {truth}");
+}
+
+#[test]
+fn where_nothing_is_hidden_nothing_is_found() {
+    let report = small(4, Stage { seed: 3002, ..Stage::default() });
+    assert_eq!((report.verdict, report.causes.len()), (Verdict::NoGap, 0));
+}
+
+#[test]
+fn a_wrong_number_is_called_one() {
+    let report = small(3, Stage { wrong: vec![("resistance_ohm", 1.6)], seed: 3003, ..Stage::default() });
+    assert_eq!((report.verdict, report.causes.first().map(String::as_str)), (Verdict::Parameter, Some("resistance")));
+}
