@@ -23,7 +23,7 @@ pub struct Stage {
     pub hidden: Vec<Carried>,
     /// Parameters in which the robot file is plainly wrong: (key, true value over the file's).
     pub wrong: Vec<(&'static str, f64)>,
-    /// True: every parameter is off by a Gaussian draw of its stated uncertainty.
+    /// True: every parameter is off by a draw of its stated relative uncertainty, Gaussian in its logarithm.
     pub uncertain: bool,
     /// Runs.
     pub runs: usize,
@@ -65,7 +65,7 @@ pub fn stage(truth: &str, plan: &Stage, catalogue: &Catalogue) -> Result<Session
     for (key, _) in DEFAULT_UNCERTAINTY {
         let draw: f64 = StandardNormal.sample(&mut random);
         let sigma = file.relative_uncertainty(key).unwrap_or(0.0);
-        let off = if plan.uncertain { (1.0 + sigma * draw).max(0.1) } else { 1.0 };
+        let off = if plan.uncertain { (sigma * draw).exp() } else { 1.0 };
         let wrong = plan.wrong.iter().find(|(k, _)| *k == key).map_or(1.0, |(_, true_over_file)| 1.0 / true_over_file);
         if off * wrong != 1.0 {
             changes.extend(NominalKey::of(key).into_iter().flat_map(|k| k.scaled(&file, off * wrong)));

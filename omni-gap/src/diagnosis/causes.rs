@@ -179,7 +179,7 @@ pub(super) fn runner_up<const N: usize>(verdict: &Verdict<N>) -> Option<&Ranked<
 
 /// The robot file's numbers before and after.
 pub(super) fn parameters<const N: usize>(verdict: &Verdict<N>, robot: &RobotFile) -> Vec<Corrected> {
-    let fit = &verdict.corrected.fit;
+    let fit = &verdict.reported().fit;
     let mut rows: Vec<Corrected> = NOMINAL_KEYS
         .iter()
         .map(|key| {
@@ -213,7 +213,7 @@ pub(super) fn parameters<const N: usize>(verdict: &Verdict<N>, robot: &RobotFile
 
 /// What the causes change in the robot file: the fitted model, written in.
 pub(super) fn changes<const N: usize>(verdict: &Verdict<N>, robot: &RobotFile) -> Vec<Change> {
-    let model = &verdict.corrected.fit.model;
+    let model = &verdict.reported().fit.model;
     let mut changes: Vec<Change> =
         NOMINAL_KEYS.iter().flat_map(|key| key.scaled(robot, key.factor(&model.factor))).collect();
     for effect in &model.effects {

@@ -85,7 +85,7 @@ pub(super) fn fitted<const N: usize>(session: &Session, options: &Options) -> Di
 
     let mut report = blank(session, word(&verdict));
     report.notices.extend(notices);
-    let plants = (nominal.plant(), verdict.corrected.fit.model.plant());
+    let plants = (nominal.plant(), verdict.reported().fit.model.plant());
     let refitted = verdict.refitted.fit.model.plant();
     let runner_up = causes::runner_up(&verdict).map(|r| r.scored.fit.model.plant());
     (report.gap, report.shrink) =

@@ -16,6 +16,10 @@ const FITTED_PARAMETERS: usize = 3;
 const PROMISING: f64 = 9.0;
 /// Beyond the best two, a promise below this share of the best is not worth a fit.
 const WORTH_A_FIT: f64 = 0.25;
+/// Σ error² per number below which nothing relevant can be left.
+pub(super) const ENOUGH: f64 = 1.03;
+/// What a look-alike of a cause that leaves nothing has to promise of what that cause did.
+const ALIKE: f64 = 0.5;
 /// What a single wheel has to promise of what all wheels together do.
 const NEARLY: f64 = 0.6;
 /// Runs that the screen looks at, at the most.
@@ -174,28 +178,32 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
 
     let effects = worth_a_fit(&screened)
         .into_iter()
-        .map(|s| (Cause::Effect(s.candidate.card, s.candidate.wheel), Some(s.from.clone()), prior.clone()));
+        .map(|s| (Cause::Effect(s.candidate.card, s.candidate.wheel), Some(s.from.clone()), prior.clone(), s.gain));
     let released = parameters
         .iter()
         .filter(|(_, gain)| *gain > PROMISING)
         .take(FITTED_PARAMETERS)
-        .map(|(release, _)| (Cause::Parameter(*release), None, prior.without(*release)));
-    let jobs: Vec<(Cause, Option<Carried>, Prior)> = effects.chain(released).collect();
-    let mut ranked: Vec<Ranked<N>> = jobs
-        .into_par_iter()
-        .map(|(cause, effect, prior)| {
-            let mut model = base.fit.model.clone();
-            let extra = match (&cause, effect) {
-                (Cause::Effect(card, _), Some(effect)) => {
-                    model.carry(effect);
-                    card.params.iter().filter(|p| p.role != Role::Fixed).count()
-                }
-                _ => cause.freedom(&data.prior),
-            };
-            let scored = data.judge(model, Some(&base.fit), &prior, base.extra + extra);
-            Ranked { cause, scored }
-        })
-        .collect();
+        .map(|(release, gain)| (Cause::Parameter(*release), None, prior.without(*release), *gain));
+    let mut jobs: Vec<(Cause, Option<Carried>, Prior, f64)> = effects.chain(released).collect();
+    jobs.sort_by(|a, b| b.3.total_cmp(&a.3));
+    let fitted = |(cause, effect, prior, _): (Cause, Option<Carried>, Prior, f64)| {
+        let mut model = base.fit.model.clone();
+        if let Some(effect) = effect {
+            model.carry(effect);
+        }
+        let scored = data.judge(model, Some(&base.fit), &prior, base.extra + cause.freedom(&data.prior));
+        Ranked { cause, scored }
+    };
+    // where the best one leaves nothing, only what promised nearly as much can be its look-alike
+    let mut jobs = jobs.into_iter();
+    let first = jobs.next().map(|job| (job.3, fitted(job)));
+    let least = match &first {
+        Some((gain, best)) if best.scored.held() < ENOUGH * best.scored.freedom => ALIKE * gain,
+        _ => 0.0,
+    };
+    let others: Vec<_> = jobs.filter(|job| job.3 >= least).collect();
+    let mut ranked: Vec<Ranked<N>> = first.into_iter().map(|(_, best)| best).collect();
+    ranked.extend(others.into_par_iter().map(fitted).collect::<Vec<_>>());
     let scale = ranked
         .iter()
         .map(|r| &r.scored)

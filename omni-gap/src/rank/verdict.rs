@@ -3,7 +3,7 @@
 use model_core::card::Role;
 
 use super::candidate::Cause;
-use super::order::{Data, Ranked, Ranking, Scored, explain};
+use super::order::{Data, ENOUGH, Ranked, Ranking, Scored, explain};
 use crate::identify::Prior;
 use crate::localise::{floor, measure};
 use crate::simulate::{Model, Slot};
@@ -18,8 +18,6 @@ const CONVINCING_EACH: f64 = 2.0;
 const RELEVANT: f64 = 0.01;
 /// A further cause has to take this share off what the first causes left.
 const RELEVANT_FURTHER: f64 = 0.05;
-/// Σ error² per number below which nothing relevant can be left.
-const ENOUGH: f64 = 1.03;
 /// Score within which two causes are not told apart, and standard errors of their difference that count as none.
 const TIE: f64 = 8.0;
 const TIE_ERRORS: f64 = 2.0;
@@ -68,6 +66,16 @@ pub struct Verdict<const N: usize> {
     /// Share of the gap that the causes close: over the re-fitted plain model for effects, over the nominal one for
     /// parameters alone.
     pub closed: f64,
+}
+
+impl<const N: usize> Verdict<N> {
+    /// The model that a report stands by: with its causes where they explain the gap, else the plain one re-fitted.
+    pub fn reported(&self) -> &Scored<N> {
+        match self.outcome {
+            Outcome::Explained => &self.corrected,
+            Outcome::NoGap | Outcome::Unknown => &self.refitted,
+        }
+    }
 }
 
 /// Searches causes one by one, until a further one explains no more.
