@@ -92,4 +92,7 @@ fn closest(o: &Outcome) {
     for n in &o.numbers {
         println!("    true {} {}", n.key, num(n.truth));
     }
+    for (key, sigmas) in &o.drawn {
+        println!("    the file's {key} is {sigmas:+.1} of its sigmas off");
+    }
 }

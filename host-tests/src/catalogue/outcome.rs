@@ -7,7 +7,7 @@ use omni_gap::error::Result;
 use omni_gap::localise::{floor, measure};
 use omni_gap::log::{RobotFile, Session};
 use omni_gap::report::{Estimate, Report, Verdict};
-use omni_gap::simulate::{Model, NominalKey, Recorded};
+use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded};
 use omni_gap::{Diagnosis, Options, known_effects};
 
 use super::sessions::{Case, Hidden, truth};
@@ -70,6 +70,8 @@ pub struct Outcome {
     pub oracle: Oracle,
     /// The hidden cause's numbers.
     pub numbers: Vec<Number>,
+    /// How far the session's robot file is off the truth, in the sigmas that it states, by key.
+    pub drawn: Vec<(&'static str, f64)>,
     /// How long the diagnosis took [s]
     pub seconds: f64,
 }
@@ -89,7 +91,16 @@ pub fn diagnosed(case: &Case) -> Result<Outcome> {
         _ => oracle::<4>(case, &session, &file),
     };
     let numbers = numbers(case, &report, &file);
-    Ok(Outcome { case: case.clone(), report, oracle, numbers, seconds })
+    let drawn = drawn(&session.robot, &file);
+    Ok(Outcome { case: case.clone(), report, oracle, numbers, drawn, seconds })
+}
+
+fn drawn(nominal: &RobotFile, truth: &RobotFile) -> Vec<(&'static str, f64)> {
+    let off = |key: &NominalKey| {
+        let sigma = truth.relative_uncertainty(key.key)?;
+        Some((key.key, (key.value(nominal) / key.value(truth) - 1.0) / sigma))
+    };
+    NOMINAL_KEYS.iter().filter_map(off).collect()
 }
 
 fn oracle<const N: usize>(case: &Case, session: &Session, file: &RobotFile) -> Oracle {
