@@ -10,6 +10,9 @@ use crate::catalogue::page::{plain, word};
 /// Causes below this probability are left out.
 const WORTH_A_LINE: f64 = 0.05;
 
+/// What stands between an effect and how little it would have moved the recordings.
+const TOO_SMALL: &str = ": at its typical size";
+
 const OPENING: &str = "# What the diagnosis says of real robots
 
 Two public recordings, both under the Apache licence 2.0: a Festo Robotino v2 with three omni wheels
@@ -25,9 +28,15 @@ pub fn page(answered: &[(Real, Report)]) -> String {
     answered.iter().fold(OPENING.to_owned(), |text, (real, report)| text + &section(real, report))
 }
 
-/// The answer in a line, as a judgement names it.
+/// The answer in a line, as a judgement names it: the verdict with its causes, or with the cause that came closest.
 pub fn answer(report: &Report) -> String {
-    std::iter::once(word(report.verdict)).chain(report.causes.iter().map(String::as_str)).collect::<Vec<_>>().join(", ")
+    let verdict = word(report.verdict);
+    let closest = report.which.iter().find(|which| which.kind.is_some() && which.probability >= WORTH_A_LINE);
+    match (report.causes.is_empty(), closest) {
+        (false, _) => format!("{verdict}: {}", report.causes.join(", ")),
+        (true, Some(closest)) => format!("{verdict}, closest: {}", closest.cause),
+        (true, None) => verdict.to_owned(),
+    }
 }
 
 /// What to say where the answer is another than the one that was judged.
@@ -55,12 +64,24 @@ fn section(real: &Real, report: &Report) -> String {
         line("which", &cause(which));
     }
     line("how far", &how_far(report));
-    report.not_seen.iter().for_each(|missing| line("not seen", missing));
+    if let Some(numbers) = numbers(report) {
+        line("numbers", &numbers);
+    }
+    let (small, missing): (Vec<&str>, Vec<&str>) =
+        report.not_seen.iter().map(String::as_str).partition(|said| said.contains(TOO_SMALL));
+    missing.iter().for_each(|said| line("not seen", said));
+    if !small.is_empty() {
+        let ids: Vec<String> =
+            small.iter().filter_map(|said| Some(format!("`{}`", said.split_once(TOO_SMALL)?.0))).collect();
+        line("not seen", &format!("too small here at their typical size: {}", ids.join(", ")));
+    }
     for fault in &report.faults {
         let file = fault.file.as_ref().map_or(String::new(), |file| format!("{file}: "));
         line("fault", &format!("`{}`, {file}{}", fault.code, fault.what));
     }
-    report.notices.iter().for_each(|notice| line("notice", notice));
+    if !report.notices.is_empty() {
+        line("notice", &report.notices.join("; "));
+    }
     text += "\n**Is this to be believed?** ";
     if let Some(warning) = warning(real, report) {
         let _ = write!(text, "*{warning}* ");
@@ -88,6 +109,20 @@ fn cause(which: &Which) -> String {
         let _ = write!(said, "; settle it by: {settle}");
     }
     said
+}
+
+/// The robot file's numbers that the corrected model moves by more than is stated of them.
+fn numbers(report: &Report) -> Option<String> {
+    let moved: Vec<String> = report
+        .parameters
+        .iter()
+        .filter_map(|p| {
+            let (nominal, stated) = (p.nominal?, p.nominal_std?);
+            let beyond = (p.corrected - nominal).abs() > stated;
+            beyond.then(|| format!("`{}` {} instead of {}", p.key, estimate(p.corrected, p.std, ""), num(nominal)))
+        })
+        .collect();
+    (!moved.is_empty()).then(|| format!("moved by more than is stated: {}", moved.join(", ")))
 }
 
 fn how_far(report: &Report) -> String {

@@ -103,7 +103,7 @@ impl Real {
 
 /// A judgement taken apart: the answer that it speaks of, and what it says.
 ///
-/// The answer stands on the first line as `Judged: verdict, cause, cause`.
+/// The answer stands on the first line, after `Judged:`, as [`answer`](super::page::answer) puts it.
 pub fn judged(judgement: &str) -> (&str, &str) {
     let (first, rest) = judgement.split_once('\n').unwrap_or((judgement, ""));
     (first.strip_prefix("Judged:").unwrap_or("").trim(), rest.trim())
@@ -115,5 +115,5 @@ fn every_judgement_says_of_which_answer_it_speaks() {
         let (answer, text) = judged(real.judgement);
         assert!(!answer.is_empty() && !text.is_empty(), "{}", real.title);
     }
-    assert_eq!(judged("Judged: effect, creep\n\nYes.\n"), ("effect, creep", "Yes."));
+    assert_eq!(judged("Judged: effect: creep\n\nYes.\n"), ("effect: creep", "Yes."));
 }
