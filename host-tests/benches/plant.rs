@@ -47,8 +47,14 @@ fn bench(c: &mut Criterion) {
         group.bench_function(name, |b| b.iter(|| black_box(run(black_box(&plant), &mut memory))));
     };
     one("plain", &[]);
-    one("three light: coriolis, floor_tilt, current_sensor_offset", &["coriolis", "floor_tilt", "current_sensor_offset"]);
-    one("three of the chain: motor_mismatch, gear_efficiency, coriolis", &["motor_mismatch", "gear_efficiency", "coriolis"]);
+    one(
+        "three light: coriolis, floor_tilt, current_sensor_offset",
+        &["coriolis", "floor_tilt", "current_sensor_offset"],
+    );
+    one(
+        "three of the chain: motor_mismatch, gear_efficiency, coriolis",
+        &["motor_mismatch", "gear_efficiency", "coriolis"],
+    );
     one("three heavy: dead_time, stribeck, wheel_slip", &["dead_time", "stribeck", "wheel_slip"]);
     for effect in effects::catalogue::<f64>() {
         one(effect.card().id, &[effect.card().id]);

@@ -10,7 +10,7 @@ use crate::identify::Fit;
 use crate::log::{Change, EffectEntry, RobotFile};
 use crate::rank::{Cause, Data, LEAST_CLOSED, Outcome, Ranked, Verdict};
 use crate::report::{Axis, Corrected, Estimate, Kind, NextExperiment, Report, Which};
-use crate::simulate::{NOMINAL_KEYS, NominalKey, Slot};
+use crate::simulate::{Chain, NOMINAL_KEYS, NominalKey, Slot};
 
 /// Score differences are worth less than their face: models are never quite right.
 const TEMPERATURE: f64 = 3.0;
@@ -227,8 +227,13 @@ pub(super) fn changes<const N: usize>(verdict: &Verdict<N>, robot: &RobotFile) -
 pub(super) fn not_seen<const N: usize>(verdict: &Verdict<N>, data: &Data<'_, N>) -> Vec<String> {
     let mut lines = Vec::new();
     let missing = |group: &str| !data.fit.iter().any(|run| run.has_group(group));
-    if missing("i") {
-        lines.push("the electrical stage by itself: no signed current is logged".to_owned());
+    let by_speed = matches!(data.fit[0].chain, Chain::WheelSpeed | Chain::SetSpeed);
+    if by_speed {
+        lines.push(
+            "voltages, currents and forces: the model is driven by wheel speeds and says nothing of them".to_owned(),
+        );
+    } else if missing("i") {
+        lines.push("the electrical stage by itself: no current to compare is logged".to_owned());
     }
     if missing("w") {
         lines.push("slip and drivetrain apart from the body: no measured wheel speed to compare".to_owned());

@@ -57,19 +57,20 @@ fn lay_out<const N: usize>(session: &Session) -> Laid<N> {
 pub(super) fn fitted<const N: usize>(session: &Session, options: &Options) -> Diagnosis {
     let Laid { fit, held, notices } = lay_out::<N>(session);
     if fit.is_empty() || held.is_empty() {
-        let mut report = blank(session, report::Verdict::UnfitData);
-        report.faults.push(report::Fault {
-            code: "nothing_drives_the_model".to_owned(),
-            what: "no run has a voltage, a signed current, a wheel speed or a commanded wheel speed to drive the model with"
-                .to_owned(),
-            mend: "log at least one of u, i, w or wset for every wheel".to_owned(),
-            ..report::Fault::default()
-        });
-        return Diagnosis {
-            report,
-            pictures: report::Pictures::default(),
-            corrected_robot: session.robot_text.clone(),
-        };
+        return unfit(
+            session,
+            "nothing_drives_the_model",
+            "no run has a voltage, a signed current, a wheel speed or a commanded wheel speed to drive the model with",
+            "log at least one of u, i, w or wset for every wheel",
+        );
+    }
+    if fit.iter().chain(&held).all(|run| run.has.iter().all(|has| *has == 0)) {
+        return unfit(
+            session,
+            "nothing_to_compare",
+            "what drives the model is all that was measured, so nothing is left to compare it with",
+            "log the pose, or voltages beside the wheel speeds",
+        );
     }
     let largest = fit.iter().chain(&held).fold(0.0, |most: f64, r| most.max(r.largest_voltage));
     let nominal = Model::<N>::nominal(&session.robot, if largest > 0.0 { largest } else { 1.0 });
@@ -106,6 +107,18 @@ pub(super) fn fitted<const N: usize>(session: &Session, options: &Options) -> Di
     let corrected_robot = corrected(&session.robot_text, &changes).unwrap_or_else(|_| session.robot_text.clone());
     let pictures = pictures::pictures(&plants.0, &plants.1, data.held[0], options.horizon_s);
     Diagnosis { report, pictures, corrected_robot }
+}
+
+/// The answer where the recordings cannot be used.
+fn unfit(session: &Session, code: &str, what: &str, mend: &str) -> Diagnosis {
+    let mut report = blank(session, report::Verdict::UnfitData);
+    report.faults.push(report::Fault {
+        code: code.to_owned(),
+        what: what.to_owned(),
+        mend: mend.to_owned(),
+        ..report::Fault::default()
+    });
+    Diagnosis { report, pictures: report::Pictures::default(), corrected_robot: session.robot_text.clone() }
 }
 
 fn word<const N: usize>(verdict: &Verdict<N>) -> report::Verdict {

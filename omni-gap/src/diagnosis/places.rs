@@ -3,6 +3,7 @@
 use model_core::frames::BodyTwist;
 
 use super::causes::stage_of;
+use crate::identify::Prior;
 use crate::localise::{Hotspot, Link, links, regimes};
 use crate::rank::{Cause, Data, Outcome, Verdict};
 use crate::report::{Axis, Regime, Stage, Where};
@@ -28,7 +29,7 @@ pub(super) fn places<const N: usize>(
         if effect || matches!(verdict.outcome, Outcome::Unknown) { &verdict.refitted.fit.model } else { nominal };
     let plant = model.plant();
     let split = links(&plant, &verdict.corrected.fit.model.plant(), &data.held, horizon);
-    let weights = stage_weights(verdict);
+    let weights = stage_weights(verdict, &data.prior);
     let mut shares = [0.0; 5];
     for (link, share) in &split.shares {
         let stages: Vec<usize> = (0..5).filter(|s| belongs(Stage::ALL[*s], *link)).collect();
@@ -76,13 +77,17 @@ fn belongs(stage: Stage, link: Link) -> bool {
 
 /// How much each stage's causes explain. The measured signals split the gap among links; which stage of a link it is can
 /// only be told by what explains it.
-fn stage_weights<const N: usize>(verdict: &Verdict<N>) -> [f64; 5] {
+fn stage_weights<const N: usize>(verdict: &Verdict<N>, prior: &Prior) -> [f64; 5] {
     // every stage keeps a grain, so that a link no cause speaks of still has somewhere to go
     let mut weights = [1e-6; 5];
     let at = |stage: Stage| Stage::ALL.iter().position(|s| *s == stage).unwrap_or(0);
     if verdict.found.is_empty() {
         for s in &verdict.last.screened {
             weights[at(s.candidate.card.stage().into())] += s.gain.sqrt();
+        }
+        // a nominal value that a re-fit drives far from what was stated speaks for its own stage
+        for (row, violation) in prior.rows.iter().zip(prior.violations(&verdict.refitted.fit.model)) {
+            weights[at(stage_of(row.terms[0].0.cause()))] += violation.abs();
         }
     }
     for found in &verdict.found {

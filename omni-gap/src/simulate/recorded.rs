@@ -143,7 +143,8 @@ impl<const N: usize> Recorded<N> {
         };
         // a current sampled before its row's voltage answers to the voltage of the row above
         let shift = usize::from(run.currents_sampled == Sampled::Before);
-        if chain != Chain::Current {
+        // a model driven by speeds says nothing of the currents
+        if chain == Chain::Voltage {
             put(&run.i, 0, N, shift);
         }
         if chain != Chain::WheelSpeed {
