@@ -5,6 +5,8 @@
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
+// A unit in brackets, [V], is not a link.
+#![allow(rustdoc::broken_intra_doc_links)]
 
 // The numbers
 pub mod scalar;

@@ -2,7 +2,7 @@
 //!
 //! `f32` on the robot, `f64` on the host, a dual number where a derivative is wanted: one source line
 //! serves all three. The trait holds what the equations use and nothing else. No method calls `std`; transcendental
-//! functions come from [`trig`](crate::trig) and from `libm`, so that every machine computes the same bits.
+//! functions come from [`trig`](mod@crate::trig) and from `libm`, so that every machine computes the same bits.
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
