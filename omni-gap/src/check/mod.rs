@@ -8,18 +8,23 @@
 //! `motor` (volts, currents and speeds of each wheel), `pose` (wheels against the pose). `order` searches for wheels that
 //! changed places, `body` turns wheel speeds into body speed.
 
+mod agree;
 mod body;
 mod bunched;
 mod fault;
+mod frame;
 mod frozen;
+mod gram;
 mod motor;
 mod order;
 mod pose;
 mod pushed;
 mod repeated;
+mod rows;
 mod saturated;
 mod time;
 mod units;
+mod windows;
 
 #[cfg(test)]
 mod synthetic;
@@ -35,39 +40,35 @@ pub use fault::Fault;
 use crate::log::{RobotFile, Run, Session};
 
 /// All faults of a session's runs, held-out ones included; the fatal ones first, in the order of the runs.
+///
+/// Wheels, signs and units are judged on all runs together, and on one alone where it differs from the others.
 pub fn check(session: &Session) -> Vec<Fault> {
-    let runs = session.runs.iter().chain(&session.heldout);
-    let mut faults: Vec<Fault> = runs.flat_map(|run| check_run(run, &session.robot)).collect();
-    faults.sort_by_key(|fault| !fault.fatal);
-    faults
+    let runs: Vec<&Run> = session.runs.iter().chain(&session.heldout).collect();
+    check_runs(&runs, &session.robot)
 }
 
 /// All faults of one run.
 pub fn check_run(run: &Run, robot: &RobotFile) -> Vec<Fault> {
-    let mut faults = faults_of(run, robot);
-    for fault in &mut faults {
-        fault.lines = (run.line_of(fault.rows.0), run.line_of(fault.rows.1));
-    }
-    faults
+    check_runs(&[run], robot)
 }
 
-fn faults_of(run: &Run, robot: &RobotFile) -> Vec<Fault> {
-    let mut faults = time::check(run);
-    if run.rows() < 10 || !run.t_s.windows(2).all(|pair| pair[1] > pair[0]) {
-        return faults;
-    }
-    let saturated = saturated::check(run, robot);
-    let others = |fault: &Fault| saturated.iter().all(|known| known.signal != fault.signal);
-    faults.extend(frozen::check(run, robot).into_iter().filter(others));
-    faults.extend(saturated);
-    faults.extend(repeated::check(run, robot));
-    faults.extend(bunched::check(run, robot));
-    faults.extend(pushed::check(run, robot));
-    let motor = motor::check(run, robot);
+fn check_runs(runs: &[&Run], robot: &RobotFile) -> Vec<Fault> {
+    let mut faults: Vec<Fault> = runs.iter().flat_map(|run| rows::check(run, robot)).collect();
+    let dead = |run: &Run| faults.iter().any(|fault| fault.fatal && fault.run == run.name);
+    // a relation of channels says nothing where one of them is dead
+    let sound: Vec<&Run> = runs.iter().copied().filter(|run| run.rows() >= 10 && !dead(run)).collect();
+    let motor = motor::check(&sound, robot);
     // wheels that do not fit their own motors would be blamed a second time on the pose
     if !motor.iter().any(|fault| fault.fatal) {
-        faults.extend(pose::check(run, robot));
+        faults.extend(pose::check(&sound, robot));
     }
     faults.extend(motor);
+    let place = |fault: &Fault| runs.iter().position(|run| run.name == fault.run);
+    faults.sort_by_key(|fault| (!fault.fatal, place(fault)));
+    for fault in &mut faults {
+        if let Some(run) = runs.iter().find(|run| run.name == fault.run) {
+            fault.lines = (run.line_of(fault.rows.0), run.line_of(fault.rows.1));
+        }
+    }
     faults
 }

@@ -1,257 +1,277 @@
-//! Each wheel's own motor: volts against speed and current, u = a·w + b·i with a ≈ Kv·l and b ≈ R, both above zero.
+//! Each wheel's own motor: volts against speed and current, u = a·w + b·i with a ≈ Kv·l and b ≈ R.
 //!
-//! a and b are fitted, so wrong parameters, a weak motor or a dead zone do not matter; what cannot be is a negative one, a
-//! fit that only another wheel's channel makes, or a factor of 1000. Set speeds stand for volts where the drive controls
-//! speed (a ≈ 1).
+//! a and b are fitted within a factor of two and more, and the drive may act late, so wrong parameters, a weak motor, a
+//! dead zone or a delay do not matter; what cannot be is a relation that is bad as it stands, in every run, and good with
+//! another wheel's channel, another sign or another unit. Set speeds stand for volts where the drive controls speed (a ≈ 1).
 
 use super::Fault;
-use super::body::row_of;
+use super::agree::{self, Evidence};
+use super::body::largest;
+use super::gram::{Gram, Term, Within};
 use super::order::{self, Order};
 use super::units::{self, WrongUnit};
-use crate::log::{Group, RobotFile, Run, Sampled};
-
-/// Sums of products over the rows in which every group is there.
-struct Moments {
-    rows: usize,
-    uu: Vec<f64>,
-    uw: Vec<Vec<f64>>,
-    ww: Vec<f64>,
-    ui: Vec<Vec<f64>>,
-    wi: Vec<Vec<f64>>,
-    ii: Vec<f64>,
-}
-
-/// u ≈ a·w + b·i, neither negative, and the squares that remain.
-#[derive(Clone, Copy)]
-struct Fit {
-    a: f64,
-    b: f64,
-    rest: f64,
-}
-
-impl Moments {
-    fn new(run: &Run, drive: &Group, speed: &Group, current: Option<&Group>) -> Moments {
-        let n = drive.channels.len();
-        let square = || vec![vec![0.0; n]; n];
-        let line = || vec![0.0; n];
-        let mut m = Moments { rows: 0, uu: line(), uw: square(), ww: line(), ui: square(), wi: square(), ii: line() };
-        let lag = usize::from(current.is_some() && run.currents_sampled == Sampled::Before);
-        for row in lag..run.rows() {
-            let (Some(u), Some(w)) = (row_of(drive, row - lag), row_of(speed, row)) else {
-                continue;
-            };
-            let i = match current {
-                None => vec![0.0; n],
-                Some(group) => match row_of(group, row) {
-                    Some(i) => i,
-                    None => continue,
-                },
-            };
-            m.rows += 1;
-            for j in 0..n {
-                m.uu[j] += u[j] * u[j];
-                m.ww[j] += w[j] * w[j];
-                m.ii[j] += i[j] * i[j];
-                for k in 0..n {
-                    m.uw[j][k] += u[j] * w[k];
-                    m.ui[j][k] += u[j] * i[k];
-                    m.wi[j][k] += w[j] * i[k];
-                }
-            }
-        }
-        m
-    }
-
-    /// The fit of u[j] on s·w[k] and z·i[l].
-    fn fit(&self, j: usize, (k, s): (usize, f64), (l, z): (usize, f64)) -> Fit {
-        let (uu, ww, ii) = (self.uu[j], self.ww[k], self.ii[l]);
-        let (uw, ui, wi) = (s * self.uw[j][k], z * self.ui[j][l], s * z * self.wi[k][l]);
-        let rest =
-            |a: f64, b: f64| (uu - 2.0 * (a * uw + b * ui) + a * a * ww + 2.0 * a * b * wi + b * b * ii).max(0.0);
-        let made = |a: f64, b: f64| Fit { a, b, rest: rest(a, b) };
-        let determinant = ww * ii - wi * wi;
-        if determinant > 1e-9 * ww * ii {
-            let (a, b) = ((uw * ii - ui * wi) / determinant, (ui * ww - uw * wi) / determinant);
-            if a >= 0.0 && b >= 0.0 {
-                return made(a, b);
-            }
-        }
-        let alone = |product: f64, square: f64| if square > 0.0 { (product / square).max(0.0) } else { 0.0 };
-        let (by_speed, by_current) = (made(alone(uw, ww), 0.0), made(0.0, alone(ui, ii)));
-        if by_speed.rest <= by_current.rest { by_speed } else { by_current }
-    }
-}
+use crate::log::{Group, RobotFile, Run};
 
 /// Which group a guess blames.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Blame {
+    Drive,
     Speed,
     Current,
-    Drive,
 }
 
-impl Moments {
-    fn wheel_fit(&self, blame: Blame, order: &Order, j: usize) -> Fit {
-        let (there, sign) = (order.place[j], order.sign[j]);
-        match blame {
-            Blame::Speed => self.fit(j, (there, sign), (j, 1.0)),
-            Blame::Current => self.fit(j, (j, 1.0), (there, sign)),
-            Blame::Drive => self.fit(there, (j, sign), (j, sign)),
+/// What a guess says.
+#[derive(Debug, Clone)]
+enum What {
+    Wheels(Order),
+    Unit(WrongUnit),
+}
+
+/// A guess, and which groups it could blame as well.
+#[derive(Debug, Clone)]
+pub(super) struct Guess {
+    blame: Blame,
+    what: What,
+    or: Vec<Blame>,
+    better: f64,
+}
+
+/// What can be said of the motors of a run.
+#[derive(Clone)]
+struct Motors {
+    gram: Gram,
+    /// "u" or "wset".
+    drive: &'static str,
+    currents: bool,
+    /// Where a and b may lie.
+    a: Within,
+    b: Within,
+}
+
+/// How much worse than the guess the log must be as given (squares), and how much the guess may leave over.
+const TIMES: f64 = 5.0;
+const LEFT: f64 = 0.15;
+/// The same without currents, whose part in the volts then remains in any case.
+const TIMES_WITHOUT: f64 = 2.5;
+const LEFT_WITHOUT: f64 = 0.4;
+/// What the log must leave over as given.
+const LEAST: f64 = 0.01;
+
+impl Motors {
+    fn new(run: &Run, robot: &RobotFile) -> Option<Motors> {
+        let speed = run.w.as_ref().filter(|group| !group.unsigned)?;
+        let (drive, group, per_speed) = match (&run.u, &run.wset) {
+            (Some(u), _) if !u.unsigned => ("u", u, robot.volts_per_wheel_speed()),
+            (None, Some(set)) if !set.unsigned => ("wset", set, 1.0),
+            _ => return None,
+        };
+        let current = run.i.as_ref().filter(|group| !group.unsigned && drive == "u");
+        let gram = Gram::new(run, group, speed, current);
+        let n = gram.wheels;
+        let moved = |group: usize| (group * n..(group + 1) * n).any(|channel| gram.square(channel) > 0.0);
+        if gram.rows < 20 || !moved(0) || !moved(1) {
+            return None;
+        }
+        let r = robot.motor.resistance_ohm;
+        let (a, b) = match (current, drive) {
+            (Some(_), _) => ((0.5 * per_speed, 2.0 * per_speed), (0.4 * r, 2.5 * r)),
+            // the current's share of the volts falls to the speed
+            (None, "u") => ((0.48 * per_speed, 5.0 * per_speed), (0.0, 0.0)),
+            (None, _) => ((0.4, 2.5), (0.0, 0.0)),
+        };
+        Some(Motors { gram, drive, currents: current.is_some(), a, b })
+    }
+
+    /// The share that remains of wheel j's volts if a group's channel is another one's.
+    fn wheel(&self, blame: Blame, j: usize, there: usize, times: f64) -> f64 {
+        let n = self.gram.wheels;
+        let mut terms = [0, n, 2 * n].map(|group| Term { channel: group + j, times: 1.0 });
+        let group = blame as usize;
+        terms[group] = Term { channel: group * n + there, times };
+        let [u, w, i] = terms;
+        let within = |within: Within, factor: f64| (within.0 / factor, within.1 * factor);
+        // a unit is told from a wrong parameter only where it fits more closely
+        let tight = if times.abs() < 1.0 && (self.currents || self.drive == "wset") { 0.8 } else { 1.0 };
+        self.gram.rest(u, w, i, within(self.a, tight), within(self.b, tight))
+    }
+
+    fn as_given(&self, j: usize) -> f64 {
+        self.wheel(Blame::Speed, j, j, 1.0)
+    }
+
+    /// Volts squared of a wheel, by which its share counts.
+    fn weight(&self, j: usize) -> f64 {
+        self.gram.square(j)
+    }
+
+    fn mean(&self, wheels: &[usize], share: impl Fn(usize) -> f64) -> f64 {
+        let all: f64 = wheels.iter().map(|&j| self.weight(j)).sum();
+        let left: f64 = wheels.iter().map(|&j| self.weight(j) * share(j)).sum();
+        if all > 0.0 { left / all } else { 0.0 }
+    }
+
+    fn all(&self) -> Vec<usize> {
+        (0..self.gram.wheels).collect()
+    }
+
+    fn blames(&self) -> &'static [Blame] {
+        if self.currents { &[Blame::Speed, Blame::Current, Blame::Drive] } else { &[Blame::Speed] }
+    }
+
+    fn units(&self) -> Vec<(Blame, WrongUnit)> {
+        let speeds = units::SPEEDS.map(|unit| (Blame::Speed, unit)).to_vec();
+        let currents = units::AMPERES.map(|unit| (Blame::Current, unit)).to_vec();
+        let volts = units::VOLTS.map(|unit| (Blame::Drive, unit)).to_vec();
+        let sets = units::SPEEDS.map(|unit| (Blame::Drive, unit)).to_vec();
+        match (self.drive, self.currents) {
+            ("u", true) => [speeds, currents, volts].concat(),
+            ("u", false) => [speeds, volts].concat(),
+            _ => [speeds, sets].concat(),
         }
     }
 
-    fn rest(&self, blame: Blame, order: &Order) -> f64 {
-        (0..order.place.len()).map(|j| self.wheel_fit(blame, order, j).rest).sum()
+    /// Every guess: how many things it changes, and what it leaves over.
+    fn tried(&self) -> Vec<((Blame, What), usize, bool, f64)> {
+        let wheels = self.all();
+        let mut tried = Vec::new();
+        for &blame in self.blames() {
+            let n = wheels.len();
+            let fits: Vec<f64> = (0..n * n * 2)
+                .map(|k| self.wheel(blame, k / 2 / n, k / 2 % n, if k % 2 == 1 { -1.0 } else { 1.0 }))
+                .collect();
+            for order in order::all(n) {
+                let rest =
+                    self.mean(&wheels, |j| fits[(j * n + order.place[j]) * 2 + usize::from(order.sign[j] < 0.0)]);
+                let (changes, moved) = (order.changes(), order.moved());
+                tried.push(((blame, What::Wheels(order)), changes, moved, rest));
+            }
+        }
+        for (blame, unit) in self.units() {
+            let rest = self.mean(&wheels, |j| self.wheel(blame, j, j, 1.0 / unit.per_unit));
+            tried.push(((blame, What::Unit(unit)), 1, true, rest));
+        }
+        tried
     }
 }
 
-pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
-    let Some(speed) = run.w.as_ref().filter(|group| !group.unsigned) else {
-        return stall(run, robot);
-    };
-    let (name, drive, per_speed) = match (&run.u, &run.wset) {
-        (Some(u), _) if !u.unsigned => ("u", u, robot.volts_per_wheel_speed()),
-        (None, Some(set)) if !set.unsigned => ("wset", set, 1.0),
-        _ => return stall(run, robot),
-    };
-    let current = run.i.as_ref().filter(|group| !group.unsigned && name == "u");
-    let moments = Moments::new(run, drive, speed, current);
-    let driven: f64 = moments.uu.iter().sum();
-    if moments.rows < 20 || driven <= 0.0 || moments.ww.iter().all(|ww| *ww <= 0.0) {
-        return Vec::new();
+impl Evidence for Motors {
+    type Guess = Guess;
+
+    fn add(&mut self, other: &Motors) {
+        self.gram.add(&other.gram);
     }
-    let mut faults: Vec<Fault> = wrong_order(run, &moments, name, current.is_some()).into_iter().collect();
-    if faults.is_empty() {
-        faults.extend(wrong_unit(run, robot, &moments, (name, per_speed), current.is_some()));
+
+    fn best(&self) -> Option<Guess> {
+        let tried = self.tried();
+        let ((blame, what), _) = order::best(&tried, 0.002)?;
+        if matches!(&what, What::Wheels(order) if order.is_as_given()) {
+            return None;
+        }
+        let mut guess = Guess { blame, what, or: Vec::new(), better: 1.0 };
+        let (given, otherwise) = self.rests(&guess);
+        let (times, left) = if self.currents { (TIMES, LEFT) } else { (TIMES_WITHOUT, LEFT_WITHOUT) };
+        if given < times * otherwise || otherwise > left || given < LEAST {
+            return None;
+        }
+        guess.better = (given / otherwise.max(1e-6)).sqrt();
+        let as_well = |other: &&Blame| {
+            let other = Guess { blame: **other, ..guess.clone() };
+            let (given, rest) = self.rests(&other);
+            other.blame != blame && rest < 2.0 * otherwise + 0.002 && given > times * rest
+        };
+        guess.or = self.blames().iter().filter(as_well).copied().collect();
+        Some(guess)
     }
-    if current.is_none() {
-        faults.extend(stall(run, robot));
+
+    fn rests(&self, guess: &Guess) -> (f64, f64) {
+        match &guess.what {
+            What::Unit(unit) => {
+                let otherwise = |j| self.wheel(guess.blame, j, j, 1.0 / unit.per_unit);
+                (self.rest_as_given(), self.mean(&self.all(), otherwise))
+            }
+            // only the wheels that the guess changes are compared
+            What::Wheels(order) => {
+                let changed: Vec<usize> = self.all().into_iter().filter(|&j| order.changed(j)).collect();
+                let otherwise = |j: usize| self.wheel(guess.blame, j, order.place[j], order.sign[j]);
+                (self.mean(&changed, |j| self.as_given(j)), self.mean(&changed, otherwise))
+            }
+        }
     }
+
+    fn rest_as_given(&self) -> f64 {
+        self.mean(&self.all(), |j| self.as_given(j))
+    }
+}
+
+/// Whether the drive of a run says in which unit its wheel speeds are.
+pub(super) fn knows_speeds(run: &Run) -> bool {
+    let moved = |group: &Group| !group.unsigned && group.channels.iter().any(|channel| largest(channel) > 0.0);
+    run.w.as_ref().is_some_and(moved) && run.u.as_ref().or(run.wset.as_ref()).is_some_and(moved)
+}
+
+pub(super) fn check<'a>(runs: &[&'a Run], robot: &RobotFile) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for kind in [("u", true), ("u", false), ("wset", false)] {
+        let of = |&run: &&'a Run| Some((run, Motors::new(run, robot).filter(|m| (m.drive, m.currents) == kind)?));
+        let (runs, motors): (Vec<&Run>, Vec<Motors>) = runs.iter().filter_map(of).unzip();
+        let found = agree::guesses(&motors);
+        faults.extend(found.into_iter().map(|(guess, which)| {
+            let fault = told(runs[which[0]], &motors[which[0]], &guess);
+            let sentence = fault.sentence.clone() + &agree::in_which(which.len(), runs.len());
+            Fault { sentence, ..fault }
+        }));
+    }
+    let unsure = runs.iter().filter(|run| !(run.i.is_some() && run.u.is_some() && knows_speeds(run)));
+    faults.extend(unsure.filter_map(|run| stall(run, robot)));
     faults
 }
 
-/// Channels that fit their wheels only in another order or with another sign.
-fn wrong_order(run: &Run, moments: &Moments, drive: &str, currents: bool) -> Option<Fault> {
-    let orders = order::all(moments.uu.len());
-    let given = orders[0].clone();
-    let blames: &[Blame] = if currents { &[Blame::Speed, Blame::Current, Blame::Drive] } else { &[Blame::Speed] };
-    let guess = |blame: Blame, order: &Order| {
-        ((blame, order.clone()), order.changes(), order.moved(), moments.rest(blame, order))
+fn told(run: &Run, motors: &Motors, guess: &Guess) -> Fault {
+    let stem = |blame: Blame| match blame {
+        Blame::Drive => motors.drive,
+        Blame::Speed => "w",
+        Blame::Current => "i",
     };
-    let guesses: Vec<_> =
-        blames.iter().flat_map(|&blame| orders.iter().map(move |order| guess(blame, order))).collect();
-    let driven: f64 = moments.uu.iter().sum();
-    let ((blame, order), _) = order::best(&guesses, 0.005 * driven)?;
-    if order.is_as_given() {
-        return None;
-    }
-    // only the wheels that the guess changes are compared
-    let changed: Vec<usize> = (0..order.place.len()).filter(|&j| order.changed(j)).collect();
-    let over = |order: &Order| changed.iter().map(|&j| moments.wheel_fit(blame, order, j).rest).sum::<f64>();
-    let (as_given, otherwise) = (over(&given), over(&order));
-    let moved: f64 = changed.iter().map(|&j| moments.uu[j]).sum();
-    let (times, share) = if currents { (4.0, 0.15) } else { (2.5, 0.4) };
-    if as_given < times * otherwise || otherwise > share * moved || as_given < 0.02 * moved {
-        return None;
-    }
-    let (stem, with) = match blame {
-        Blame::Speed if currents => ("w", "voltages and currents".to_string()),
-        Blame::Speed => ("w", if drive == "u" { "voltages".into() } else { "set speeds".to_string() }),
-        Blame::Current => ("i", "voltages and wheel speeds".to_string()),
-        Blame::Drive => ("u", "wheel speeds and currents".to_string()),
+    let drive = if motors.drive == "u" { "voltages" } else { "set speeds" };
+    let with = match guess.blame {
+        Blame::Speed if motors.currents => "voltages and currents".to_string(),
+        Blame::Speed => drive.to_string(),
+        Blame::Current => "voltages and wheel speeds".to_string(),
+        Blame::Drive if motors.currents => "wheel speeds and currents".to_string(),
+        Blame::Drive => "wheel speeds".to_string(),
     };
-    let better = (as_given / otherwise.max(1e-6 * moved)).sqrt();
-    let code = if order.moved() { "swapped_wheels" } else { "wrong_sign" };
-    let fault = Fault::of(run, code, stem, true);
-    let told = format!("{}: the `{stem}` columns fit the {with} {better:.0} times better so.", order.words(stem));
-    let mend = if order.moved() {
-        "Put the columns into wheel order, or change `from` in columns.toml."
-    } else {
-        "Turn the sign, or set sign = -1 in columns.toml."
-    };
-    Some(fault.says(told, mend))
-}
-
-/// A factor between groups that only a wrong unit makes.
-fn wrong_unit(run: &Run, robot: &RobotFile, moments: &Moments, drive: (&str, f64), currents: bool) -> Option<Fault> {
-    let (name, per_speed) = drive;
-    let largest = moments.uu.iter().copied().fold(0.0, f64::max);
-    let as_given = &order::all(moments.uu.len())[0];
-    let (mut a, mut b) = (Vec::new(), Vec::new());
-    for j in (0..moments.uu.len()).filter(|&j| moments.uu[j] > 0.05 * largest) {
-        let fit = moments.wheel_fit(Blame::Speed, as_given, j);
-        if fit.rest > 0.4 * moments.uu[j] {
-            continue;
+    let name = stem(guess.blame);
+    let signal = [&[guess.blame], &guess.or[..]].concat().into_iter().map(stem).collect::<Vec<_>>().join(", ");
+    let better = format!("the `{name}` columns fit the {with} {:.0} times better so.", guess.better);
+    let or: String = guess.or.iter().map(|&b| format!(" It may be the `{}` columns instead.", stem(b))).collect();
+    let (code, what, mend) = match &guess.what {
+        What::Unit(unit) => (
+            "wrong_unit",
+            format!("The `{name}` columns look like {}", unit.name),
+            "Convert the columns to SI units, or state `unit` in columns.toml.",
+        ),
+        What::Wheels(order) if order.moved() => {
+            ("swapped_wheels", order.words(name), "Put the columns into wheel order, or change `from` in columns.toml.")
         }
-        // a part counts where leaving it out would show
-        let without = |a: f64, b: f64| a * a * moments.ww[j] + b * b * moments.ii[j] > 0.02 * moments.uu[j];
-        a.extend(without(fit.a, 0.0).then_some(fit.a / per_speed));
-        b.extend((currents && without(0.0, fit.b)).then_some(fit.b / robot.motor.resistance_ohm));
-    }
-    let a = middle(&mut a);
-    let b = middle(&mut b);
-    let fault = |signal: &str, unit: WrongUnit, than: &str| {
-        let sentence = format!(
-            "The `{signal}` columns look like {}: against the {than} they are {:.0} times too large.",
-            unit.name, unit.per_unit
-        );
-        let mend = "Convert the columns to SI units, or state `unit` in columns.toml.";
-        Some(Fault::of(run, "wrong_unit", signal, true).says(sentence, mend))
+        What::Wheels(order) => ("wrong_sign", order.words(name), "Turn the sign, or set sign = -1 in columns.toml."),
     };
-    if let (Some(a), false, "u") = (a, currents, name) {
-        let volts = units::explains_without_current(&units::VOLTS, a, true);
-        let speeds = units::explains_without_current(&units::SPEEDS, 1.0 / a, false);
-        return volts
-            .and_then(|unit| fault("u", unit, "wheel speeds"))
-            .or_else(|| speeds.and_then(|unit| fault("w", unit, "voltages")));
-    }
-    match (a, b) {
-        (Some(a), b) => {
-            let with_b = |fits: bool| b.is_none_or(|b| (b > 100.0) == fits);
-            if let Some(unit) = units::explains(&units::VOLTS, a).filter(|_| name == "u" && with_b(true)) {
-                return fault("u", unit, "wheel speeds");
-            }
-            if let Some(unit) = units::explains(&units::SPEEDS, 1.0 / a).filter(|_| with_b(false)) {
-                return fault("w", unit, if name == "u" { "voltages" } else { "set speeds" });
-            }
-            if let Some(unit) = units::explains(&units::SPEEDS, a).filter(|_| name == "wset") {
-                return fault("wset", unit, "measured wheel speeds");
-            }
-            b.and_then(|b| units::explains(&units::AMPERES, 1.0 / b)).and_then(|unit| fault("i", unit, "voltages"))
-        }
-        (None, Some(b)) => {
-            if let Some(unit) = units::explains(&units::VOLTS, b) {
-                return fault("u", unit, "currents");
-            }
-            units::explains(&units::AMPERES, 1.0 / b).and_then(|unit| fault("i", unit, "voltages"))
-        }
-        (None, None) => None,
-    }
-}
-
-fn middle(values: &mut [f64]) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+    Fault::of(run, code, signal, true).says(format!("{what}: {better}{or}"), mend)
 }
 
 /// Currents far above what the supply could drive through a motor held still.
-fn stall(run: &Run, robot: &RobotFile) -> Vec<Fault> {
-    let (Some(group), Some(supply)) = (&run.i, run.supply_v(robot)) else {
-        return Vec::new();
-    };
+fn stall(run: &Run, robot: &RobotFile) -> Option<Fault> {
+    let (group, supply) = (run.i.as_ref()?, run.supply_v(robot)?);
     let stall_a = 2.0 * supply / robot.motor.resistance_ohm;
     let mut all: Vec<f64> = group.channels.iter().flat_map(|c| c.present()).map(|(_, i)| i.abs()).collect();
     all.sort_by(f64::total_cmp);
     let high = all.get(all.len() * 9 / 10).copied().unwrap_or(0.0);
     if high < 10.0 * stall_a {
-        return Vec::new();
+        return None;
     }
     let sentence = format!(
         "The `i` columns look like milliamperes: a tenth of them exceed {high:.0} A, a stalled motor draws {:.1} A.",
         stall_a / 2.0
     );
-    vec![
-        Fault::of(run, "wrong_unit", "i", true)
-            .says(sentence, "Convert the columns to amperes, or state `unit` in columns.toml."),
-    ]
+    let mend = "Convert the columns to amperes, or state `unit` in columns.toml.";
+    Some(Fault::of(run, "wrong_unit", "i", true).says(sentence, mend))
 }

@@ -12,9 +12,21 @@ impl Order {
         self.changes() == 0
     }
 
-    /// How many wheels moved or changed sign.
+    /// How many things went wrong: exchanges of two wheels, and signs, all signs at once being one.
     pub fn changes(&self) -> usize {
-        (0..self.place.len()).filter(|&j| self.changed(j)).count()
+        let n = self.place.len();
+        let mut seen = vec![false; n];
+        let mut cycles = 0;
+        for start in 0..n {
+            cycles += usize::from(!seen[start]);
+            let mut j = start;
+            while !seen[j] {
+                seen[j] = true;
+                j = self.place[j];
+            }
+        }
+        let flipped = self.sign.iter().filter(|sign| **sign < 0.0).count();
+        (n - cycles) + if flipped == n { 1 } else { flipped }
     }
 
     pub fn changed(&self, wheel: usize) -> bool {

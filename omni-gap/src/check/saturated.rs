@@ -72,6 +72,10 @@ fn extremes(group: &Group, channel: &Channel, noise: f64, asked: impl Fn(usize) 
         }
     }
     rows.sort_unstable();
+    // one stretch alone is a channel that froze
+    if rows.windows(2).all(|pair| pair[1] == pair[0] + 1) {
+        return None;
+    }
     let (first, last) = (*rows.first()?, *rows.last()?);
     let share = rows.len() as f64 / moving as f64;
     (share > 0.02).then_some(Found {
