@@ -1,25 +1,30 @@
 //! A channel that repeats one value while what drives it moves.
 //!
-//! A robot at rest, a stuck wheel under little voltage, and a coarse signal under a constant drive are not frozen.
+//! Or one that shows noise elsewhere and none there. A robot at rest, a stuck wheel under little voltage, and a coarse signal under a constant drive are not frozen.
 
 use super::Fault;
 use super::body::{BodyFromWheels, input, largest, row_of};
 use crate::log::{Channel, RobotFile, Run};
 
 /// A stretch of one value must last as long as this (s), and over as many rows, to count.
-const LONG_S: f64 = 0.5;
+pub(super) const LONG_S: f64 = 0.5;
 const LONG_ROWS: usize = 20;
 /// What the wheels must have travelled (m), or turned (rad), while the pose stood.
 const TRAVEL_M: f64 = 0.15;
 const TURN_RAD: f64 = 0.5;
+/// With fewer volts (RMS) a bridge's losses may be all of them.
+const LEAST_V: f64 = 1.5;
 
 pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
-    let mut faults = Vec::new();
+    let mut faults: Vec<Fault> = Vec::new();
     if let (Some(speed), Some((name, drive))) = (&run.w, input(run)) {
         for (j, channel) in speed.channels.iter().enumerate() {
+            let (noisy, dead) = (noisy(channel), dead(&speed.channels, j));
             let moved = |a, b| {
-                drive_moves(robot, (name, &drive.channels[j]), channel.get(a) == Ok(0.0), (a, b))
-                    && others_move(&speed.channels, j, (a, b))
+                dead || noisy && alive(&speed.channels, j, (a, b))
+                    || others_move(&speed.channels, j, (a, b))
+                        && (drive_moves(robot, (name, &drive.channels[j]), channel.get(a) == Ok(0.0), (a, b))
+                            || turned(run, j, (a, b)))
             };
             faults.extend(stretches(run, channel, moved).map(|s| told(run, &format!("w{j}_rad_s"), s)));
         }
@@ -27,15 +32,21 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
     if let (Some(current), Some(_), Some(_)) = (&run.i, &run.u, &run.w) {
         for (j, channel) in current.channels.iter().enumerate() {
             let step = robot.sensors.current_noise_a + current.quantum.unwrap_or(0.0);
-            let moved = |a, b| current_asked(run, robot, j, (a, b)).is_some_and(|asked| asked > 10.0 * step);
+            let (noisy, dead) = (noisy(channel), dead(&current.channels, j));
+            let moved = |a, b| {
+                dead || noisy && alive(&current.channels, j, (a, b))
+                    || current_asked(run, robot, j, (a, b)).is_some_and(|asked| asked > 10.0 * step)
+            };
             faults.extend(stretches(run, channel, moved).map(|s| told(run, &format!("i{j}_A"), s)));
         }
     }
     if let Some(pose) = &run.pose {
         for (axis, name) in ["x_m", "y_m", "theta_rad"].iter().enumerate() {
+            let noisy = noisy(&pose.channels[axis]);
             let moved = |a, b| {
-                travelled(run, robot, (a, b))
-                    .is_some_and(|by| by[axis].abs() > if axis < 2 { TRAVEL_M } else { TURN_RAD })
+                noisy && alive(&pose.channels, axis, (a, b))
+                    || travelled(run, robot, (a, b))
+                        .is_some_and(|by| by[axis].abs() > if axis < 2 { TRAVEL_M } else { TURN_RAD })
             };
             faults.extend(stretches(run, &pose.channels[axis], moved).map(|s| told(run, name, s)));
         }
@@ -64,6 +75,27 @@ fn stretches(
         from = to;
     }
     found.into_iter()
+}
+
+/// Whether a channel's last digits never stand still where it lives: then a stretch of one value is frozen, whatever the
+/// robot does.
+///
+/// Noise turns the channel's way at two rows of three; motion without noise hardly ever.
+fn noisy(channel: &Channel) -> bool {
+    let values: Vec<f64> = channel.present().map(|(_, value)| value).collect();
+    let (mut same, mut steps, mut turns, mut stretch) = (0usize, 0usize, 0usize, 1usize);
+    for k in 1..values.len() {
+        if values[k] == values[k - 1] {
+            stretch += 1;
+            // a long stretch is what is in question
+            same = if stretch == LONG_ROWS { same + 2 - LONG_ROWS } else { same + usize::from(stretch < LONG_ROWS) };
+            continue;
+        }
+        stretch = 1;
+        steps += 1;
+        turns += usize::from(k > 1 && (values[k] - values[k - 1]) * (values[k - 1] - values[k - 2]) < 0.0);
+    }
+    steps >= LONG_ROWS && (same as f64) < 0.02 * steps as f64 && turns as f64 > 0.35 * steps as f64
 }
 
 fn told(run: &Run, signal: &str, (first, last, length_s): (usize, usize, f64)) -> Fault {
@@ -101,6 +133,35 @@ fn drive_moves(robot: &RobotFile, (name, drive): (&str, &Channel), stands: bool,
         _ => 3.0 * robot.sensors.wheel_speed_noise_rad_s,
     };
     high - low > 0.4 * top && rms > 0.2 * top && (rms > least || !stands)
+}
+
+/// Whether a channel stands at something else than zero while another of its group goes on changing.
+fn alive(channels: &[Channel], this: usize, rows: (usize, usize)) -> bool {
+    let changes = |channel: &Channel| range(channel, rows).is_some_and(|(low, high, _)| high > low);
+    channels[this].get(rows.0) != Ok(0.0) && channels.iter().enumerate().any(|(j, c)| j != this && changes(c))
+}
+
+/// Whether a channel is zero all along while all others of its group show noise, at rest as well.
+fn dead(channels: &[Channel], this: usize) -> bool {
+    let awake = |channel: &Channel| {
+        let slow = 0.05 * largest(channel);
+        let near = channel.present().filter(|(_, value)| *value != 0.0 && value.abs() < slow).count();
+        noisy(channel) && near >= LONG_ROWS && !channel.present().any(|(_, value)| value == 0.0)
+    };
+    largest(&channels[this]) == 0.0 && channels.iter().enumerate().all(|(j, c)| j == this || awake(c))
+}
+
+/// Whether volts and current say that a wheel turns: held still, its volts are its current's.
+fn turned(run: &Run, wheel: usize, (first, last): (usize, usize)) -> bool {
+    let (Some(u), Some(i)) = (&run.u, &run.i) else { return false };
+    let pairs =
+        (first..=last).filter_map(|row| Some((u.channels[wheel].get(row).ok()?, i.channels[wheel].get(row).ok()?)));
+    let (mut uu, mut ui, mut ii, mut rows) = (0.0, 0.0, 0.0, 0.0);
+    for (u, i) in pairs {
+        (uu, ui, ii, rows) = (uu + u * u, ui + u * i, ii + i * i, rows + 1.0);
+    }
+    let left = if ii > 0.0 { uu - ui * ui / ii } else { 0.0 };
+    left > 0.3 * uu && uu > rows * LEAST_V * LEAST_V
 }
 
 /// Whether another channel of the group changes over these rows.

@@ -56,6 +56,8 @@ const TIMES_WITHOUT: f64 = 2.5;
 const LEFT_WITHOUT: f64 = 0.4;
 /// What the log must leave over as given.
 const LEAST: f64 = 0.01;
+/// Of the most driven wheel's volts squared, what the guess must explain.
+const COUNTS: f64 = 0.015;
 
 impl Motors {
     fn new(run: &Run, robot: &RobotFile) -> Option<Motors> {
@@ -104,9 +106,10 @@ impl Motors {
         self.gram.square(j)
     }
 
-    fn mean(&self, wheels: &[usize], share: impl Fn(usize) -> f64) -> f64 {
-        let all: f64 = wheels.iter().map(|&j| self.weight(j)).sum();
-        let left: f64 = wheels.iter().map(|&j| self.weight(j) * share(j)).sum();
+    /// The mean share of some relations; `drive` says whose volts each one explains.
+    fn mean(&self, wheels: &[usize], drive: impl Fn(usize) -> usize, share: impl Fn(usize) -> f64) -> f64 {
+        let all: f64 = wheels.iter().map(|&j| self.weight(drive(j))).sum();
+        let left: f64 = wheels.iter().map(|&j| self.weight(drive(j)) * share(j)).sum();
         if all > 0.0 { left / all } else { 0.0 }
     }
 
@@ -130,27 +133,57 @@ impl Motors {
         }
     }
 
-    /// Every guess: how many things it changes, and what it leaves over.
-    fn tried(&self) -> Vec<((Blame, What), usize, bool, f64)> {
-        let wheels = self.all();
-        let mut tried = Vec::new();
+    /// Every guess that holds: how many things it changes, and what it leaves over on all wheels.
+    fn holding(&self) -> Vec<((Blame, What), usize, bool, f64)> {
+        let n = self.gram.wheels;
+        let mut holding = Vec::new();
+        let given: Vec<f64> = (0..n).map(|j| self.as_given(j)).collect();
         for &blame in self.blames() {
-            let n = wheels.len();
-            let fits: Vec<f64> = (0..n * n * 2)
-                .map(|k| self.wheel(blame, k / 2 / n, k / 2 % n, if k % 2 == 1 { -1.0 } else { 1.0 }))
-                .collect();
-            for order in order::all(n) {
-                let rest =
-                    self.mean(&wheels, |j| fits[(j * n + order.place[j]) * 2 + usize::from(order.sign[j] < 0.0)]);
-                let (changes, moved) = (order.changes(), order.moved());
-                tried.push(((blame, What::Wheels(order)), changes, moved, rest));
+            let sign = |k: usize| if k % 2 == 1 { -1.0 } else { 1.0 };
+            let fits: Vec<f64> = (0..n * n * 2).map(|k| self.wheel(blame, k / 2 / n, k / 2 % n, sign(k))).collect();
+            for order in order::all(n).into_iter().skip(1) {
+                let fit = |j: usize| fits[(j * n + order.place[j]) * 2 + usize::from(order.sign[j] < 0.0)];
+                let changed: Vec<usize> = (0..n).filter(|&j| order.changed(j)).collect();
+                let rests = self.over(&changed, &given, blame, &order, fit);
+                if self.holds(rests) && self.counts(&changed, rests) {
+                    let rest = self.over(&self.all(), &given, blame, &order, fit).1;
+                    let (changes, moved) = (order.changes(), order.moved());
+                    holding.push(((blame, What::Wheels(order)), changes, moved, rest));
+                }
             }
         }
         for (blame, unit) in self.units() {
-            let rest = self.mean(&wheels, |j| self.wheel(blame, j, j, 1.0 / unit.per_unit));
-            tried.push(((blame, What::Unit(unit)), 1, true, rest));
+            let rests = self.rests(&Guess { blame, what: What::Unit(unit), or: Vec::new(), better: 1.0 });
+            if self.holds(rests) {
+                holding.push(((blame, What::Unit(unit)), 1, true, rests.1));
+            }
         }
-        tried
+        holding
+    }
+
+    /// What some wheels leave over, as given and with an order.
+    fn over(
+        &self,
+        wheels: &[usize],
+        given: &[f64],
+        blame: Blame,
+        order: &Order,
+        fit: impl Fn(usize) -> f64,
+    ) -> (f64, f64) {
+        let place = |j: usize| if blame == Blame::Drive { order.place[j] } else { j };
+        (self.mean(wheels, |j| j, |j| given[j]), self.mean(wheels, place, fit))
+    }
+
+    /// Whether what some wheels leave over counts against the volts of the most driven one: a wheel that is hardly driven
+    /// shows little but its bridge's losses.
+    fn counts(&self, wheels: &[usize], (given, otherwise): (f64, f64)) -> bool {
+        let top = self.all().into_iter().map(|j| self.weight(j)).fold(0.0, f64::max);
+        (given - otherwise) * wheels.iter().map(|&j| self.weight(j)).sum::<f64>() > COUNTS * top
+    }
+
+    fn holds(&self, (given, otherwise): (f64, f64)) -> bool {
+        let (times, left) = if self.currents { (TIMES, LEFT) } else { (TIMES_WITHOUT, LEFT_WITHOUT) };
+        given > times * otherwise && otherwise < left && given > LEAST
     }
 }
 
@@ -162,22 +195,14 @@ impl Evidence for Motors {
     }
 
     fn best(&self) -> Option<Guess> {
-        let tried = self.tried();
-        let ((blame, what), _) = order::best(&tried, 0.002)?;
-        if matches!(&what, What::Wheels(order) if order.is_as_given()) {
-            return None;
-        }
+        let holding = self.holding();
+        let ((blame, what), _) = order::best(&holding, 0.002)?;
         let mut guess = Guess { blame, what, or: Vec::new(), better: 1.0 };
         let (given, otherwise) = self.rests(&guess);
-        let (times, left) = if self.currents { (TIMES, LEFT) } else { (TIMES_WITHOUT, LEFT_WITHOUT) };
-        if given < times * otherwise || otherwise > left || given < LEAST {
-            return None;
-        }
         guess.better = (given / otherwise.max(1e-6)).sqrt();
         let as_well = |other: &&Blame| {
-            let other = Guess { blame: **other, ..guess.clone() };
-            let (given, rest) = self.rests(&other);
-            other.blame != blame && rest < 2.0 * otherwise + 0.002 && given > times * rest
+            let rests = self.rests(&Guess { blame: **other, ..guess.clone() });
+            **other != blame && rests.1 < 2.0 * otherwise + 0.002 && self.holds(rests)
         };
         guess.or = self.blames().iter().filter(as_well).copied().collect();
         Some(guess)
@@ -187,19 +212,20 @@ impl Evidence for Motors {
         match &guess.what {
             What::Unit(unit) => {
                 let otherwise = |j| self.wheel(guess.blame, j, j, 1.0 / unit.per_unit);
-                (self.rest_as_given(), self.mean(&self.all(), otherwise))
+                (self.rest_as_given(), self.mean(&self.all(), |j| j, otherwise))
             }
             // only the wheels that the guess changes are compared
             What::Wheels(order) => {
+                let given: Vec<f64> = self.all().iter().map(|&j| self.as_given(j)).collect();
                 let changed: Vec<usize> = self.all().into_iter().filter(|&j| order.changed(j)).collect();
-                let otherwise = |j: usize| self.wheel(guess.blame, j, order.place[j], order.sign[j]);
-                (self.mean(&changed, |j| self.as_given(j)), self.mean(&changed, otherwise))
+                let fit = |j: usize| self.wheel(guess.blame, j, order.place[j], order.sign[j]);
+                self.over(&changed, &given, guess.blame, order, fit)
             }
         }
     }
 
     fn rest_as_given(&self) -> f64 {
-        self.mean(&self.all(), |j| self.as_given(j))
+        self.mean(&self.all(), |j| j, |j| self.as_given(j))
     }
 }
 

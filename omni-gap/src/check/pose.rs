@@ -46,7 +46,9 @@ fn heading_alone(run: &Run) -> Option<Fault> {
 }
 
 /// How well two numbers must go together (0 to 1) before their ratio says anything.
-const TOGETHER: f64 = 0.8;
+const TOGETHER: f64 = 0.5;
+/// How well for a body that is too slow for its wheels.
+const CLOSELY: f64 = 0.9;
 /// Slip makes the body slower than its wheels, up to this many times; nothing makes it faster than half as fast again.
 const SLIP: f64 = 6.0;
 
@@ -62,7 +64,7 @@ fn wrong_unit(run: &Run, robot: &RobotFile, windows: &[Window]) -> Option<Fault>
     };
     // a pose that is too fast for its wheels: slip cannot make that
     let too_fast = |unit: &units::WrongUnit, ratio: f64| ratio > unit.per_unit / SLIP && ratio < 1.6 * unit.per_unit;
-    let going = go.filter(|go| go.fit > TOGETHER).map(|go| go.times);
+    let going = go.as_ref().filter(|go| go.fit > TOGETHER).map(|go| go.times);
     let turning = turn.filter(|turn| turn.fit > TOGETHER).map(|turn| turn.times);
     let lengths = going.and_then(|go| units::LENGTHS.into_iter().rev().find(|unit| too_fast(unit, go)));
     if let Some(turn) = turning.filter(|turn| lengths.is_none() && units::ANGLES.iter().any(|u| too_fast(u, *turn))) {
@@ -73,6 +75,9 @@ fn wrong_unit(run: &Run, robot: &RobotFile, windows: &[Window]) -> Option<Fault>
     }
     // a body that is too slow for its wheels may slip; speeds that the motors confirm, or could reach, are no fault
     if super::motor::knows_speeds(run) || !out_of_reach(run, robot) {
+        return None;
+    }
+    if go.is_none_or(|go| go.fit < CLOSELY) {
         return None;
     }
     let unit = units::explains(&units::SPEEDS, 1.0 / going?)?;

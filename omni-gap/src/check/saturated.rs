@@ -2,6 +2,7 @@
 
 use super::Fault;
 use super::body::largest;
+use super::frozen::LONG_S;
 use crate::log::{Channel, Group, RobotFile, Run};
 
 pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
@@ -17,14 +18,14 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
                 )
             };
             let step = robot.sensors.current_noise_a;
-            faults.extend(extremes(i, channel, step, asked).map(|found| told(run, &format!("i{j}_A"), found)));
+            faults.extend(extremes(run, i, channel, step, asked).map(|found| told(run, &format!("i{j}_A"), found)));
         }
     }
     if let Some(w) = &run.w {
         for (j, channel) in w.channels.iter().enumerate() {
             let asked = |row| Some(u.channels[j].get(row).ok()? / per_speed);
             let step = robot.sensors.wheel_speed_noise_rad_s;
-            faults.extend(extremes(w, channel, step, asked).map(|found| told(run, &format!("w{j}_rad_s"), found)));
+            faults.extend(extremes(run, w, channel, step, asked).map(|found| told(run, &format!("w{j}_rad_s"), found)));
         }
     }
     faults
@@ -39,7 +40,13 @@ struct Found {
 }
 
 /// The rows at an extreme, where they are many, more than next to it, and what drives the channel differs among them.
-fn extremes(group: &Group, channel: &Channel, noise: f64, asked: impl Fn(usize) -> Option<f64>) -> Option<Found> {
+fn extremes(
+    run: &Run,
+    group: &Group,
+    channel: &Channel,
+    noise: f64,
+    asked: impl Fn(usize) -> Option<f64>,
+) -> Option<Found> {
     let top = largest(channel);
     let first = channel.present().next()?.1;
     if channel.present().all(|(_, value)| value == first) {
@@ -72,8 +79,9 @@ fn extremes(group: &Group, channel: &Channel, noise: f64, asked: impl Fn(usize) 
         }
     }
     rows.sort_unstable();
-    // one stretch alone is a channel that froze
-    if rows.windows(2).all(|pair| pair[1] == pair[0] + 1) {
+    // one long stretch alone is a channel that froze
+    let length_s = run.t_s[*rows.last()?] - run.t_s[*rows.first()?];
+    if length_s >= LONG_S && rows.windows(2).all(|pair| pair[1] == pair[0] + 1) {
         return None;
     }
     let (first, last) = (*rows.first()?, *rows.last()?);

@@ -17,13 +17,6 @@ pub(super) const LENGTHS: [WrongUnit; 2] =
     [WrongUnit { name: "millimetres", per_unit: 1000.0 }, WrongUnit { name: "centimetres", per_unit: 100.0 }];
 pub(super) const ANGLES: [WrongUnit; 1] = [WrongUnit { name: "degrees", per_unit: 180.0 / PI }];
 
-/// The same where a ratio of volts to speed is known without the current's part: it can only be larger than Kv·l, and by
-/// the friction's share, up to four times.
-pub(super) fn explains_without_current(units: &[WrongUnit], ratio: f64, volts: bool) -> Option<WrongUnit> {
-    let free = if volts { 0.6..5.0 } else { 0.35..2.1 };
-    units.iter().copied().find(|unit| free.contains(&(ratio / unit.per_unit)))
-}
-
 /// The unit that explains why the log's numbers are `ratio` times what they should be.
 ///
 /// Parameters may be wrong by 30 % and effects add to it: within a factor of 1.6 either way.
