@@ -100,10 +100,15 @@ pub fn decide<const N: usize>(
             _ => "trying what is left after the causes found",
         });
         let ranking = explain(data, current.clone(), &prior);
-        let Some(best) = ranking.ranked.first().filter(|_| found.len() < MOST_CAUSES) else { break ranking };
-        if !convincing(best, &ranking, !found.is_empty(), &prior) {
-            break ranking;
-        }
+        // of causes that score alike, the first that convinces: a friction wrong on one axis may stand behind all three
+        let least = ranking.ranked.first().map_or(0.0, |r| r.scored.score(ranking.scale));
+        let best = ranking
+            .ranked
+            .iter()
+            .filter(|_| found.len() < MOST_CAUSES)
+            .take_while(|r| r.scored.score(ranking.scale) - least < TIE)
+            .find(|r| convincing(r, &ranking, !found.is_empty(), &prior));
+        let Some(best) = best else { break ranking };
         if let Cause::Parameter(release) = best.cause {
             prior = prior.without(release);
         }
@@ -166,7 +171,7 @@ fn has_size<const N: usize>(ranked: &Ranked<N>) -> bool {
 /// Causes whose models do as well, by the data, as the best one.
 fn look_alikes<const N: usize>(best: &Ranked<N>, ranking: &Ranking<N>) -> Vec<Cause> {
     let mut alike: Vec<Cause> = Vec::new();
-    for other in &ranking.ranked[1..] {
+    for other in &ranking.ranked {
         let (behind, error) = best.scored.better_than(&other.scored, ranking.scale);
         let data = (other.scored.held() - best.scored.held()) / ranking.scale;
         let close = behind < TIE || (data < TIE && behind < TIE_ERRORS * error);
