@@ -8,7 +8,9 @@ pub(super) trait Evidence: Clone {
     fn add(&mut self, other: &Self);
 
     /// The guess that explains these recordings much better than the log as it is, and well.
-    fn best(&self) -> Option<Self::Guess>;
+    ///
+    /// `usual` is what remains in other runs of the session: a guess that brings the rest back to it may explain less.
+    fn best(&self, usual: Option<f64>) -> Option<Self::Guess>;
 
     /// What remains with the log as it is, and with the guess, as shares of what is to be explained.
     fn rests(&self, guess: &Self::Guess) -> (f64, f64);
@@ -17,6 +19,8 @@ pub(super) trait Evidence: Clone {
     fn rest_as_given(&self) -> f64;
 }
 
+/// A run in which neither the log nor the guess leaves more than this share does not object.
+const SILENT: f64 = 0.02;
 /// A single run must be this many times worse than the good runs of its session.
 const WORSE: f64 = 4.0;
 
@@ -26,10 +30,10 @@ pub(super) fn guesses<E: Evidence>(runs: &[E]) -> Vec<(E::Guess, Vec<usize>)> {
         return Vec::new();
     };
     runs[1..].iter().for_each(|run| pooled.add(run));
-    if let Some(guess) = pooled.best() {
+    if let Some(guess) = pooled.best(None) {
         let better = |run: &E| {
             let (given, otherwise) = run.rests(&guess);
-            given > 1.3 * otherwise || given < 0.02
+            given > 1.3 * otherwise || given.max(otherwise) < SILENT
         };
         if runs.iter().all(better) {
             return vec![(guess, (0..runs.len()).collect())];
@@ -42,7 +46,8 @@ pub(super) fn guesses<E: Evidence>(runs: &[E]) -> Vec<(E::Guess, Vec<usize>)> {
     sorted.sort_by(f64::total_cmp);
     let good = sorted[sorted.len() / 4];
     let one = |(k, run): (usize, &E)| {
-        let guess = run.best().filter(|_| run.rest_as_given() > WORSE * good)?;
+        let worse = run.rest_as_given() > WORSE * good;
+        let guess = if worse { run.best(None).or_else(|| run.best(Some(good)))? } else { return None };
         Some((guess, vec![k]))
     };
     runs.iter().enumerate().filter_map(one).collect()

@@ -15,6 +15,9 @@ const FEWEST: usize = 8;
 const TIMES: f64 = 6.0;
 const LEFT: f64 = 0.2;
 const LEAST: f64 = 0.1;
+/// The same, and what may remain, where the guess brings a run back to what remains in the others.
+const LEAST_BACK: f64 = 0.04;
+const BACK: f64 = 1.5;
 
 /// What a guess says: the pose's frame is otherwise, or the wheels are.
 #[derive(Clone)]
@@ -110,7 +113,7 @@ impl Evidence for Seen {
         self.late.iter_mut().zip(&other.late).for_each(|(mine, theirs)| mine.extend_from_slice(theirs));
     }
 
-    fn best(&self) -> Option<Guess> {
+    fn best(&self, usual: Option<f64>) -> Option<Guess> {
         let mut tried = self.orders();
         tried.extend(self.frames());
         let (what, otherwise) = order::best(&tried, 0.005)?;
@@ -120,7 +123,9 @@ impl Evidence for Seen {
             What::Frame { mirrored: false, heading_negated: false, offset } => offset.abs() < 0.35,
             _ => false,
         };
-        let told = !small && otherwise < LEFT && given > TIMES * otherwise && given > LEAST;
+        let back = usual.is_some_and(|usual| given > TIMES * usual && otherwise < BACK * usual);
+        let told =
+            !small && otherwise < LEFT && given > TIMES * otherwise && given > if back { LEAST_BACK } else { LEAST };
         told.then(|| Guess { what, better: (given / otherwise.max(1e-6)).sqrt() })
     }
 

@@ -95,7 +95,7 @@ fn noisy(channel: &Channel) -> bool {
         steps += 1;
         turns += usize::from(k > 1 && (values[k] - values[k - 1]) * (values[k - 1] - values[k - 2]) < 0.0);
     }
-    steps >= LONG_ROWS && (same as f64) < 0.02 * steps as f64 && turns as f64 > 0.35 * steps as f64
+    steps >= LONG_ROWS && (same as f64) < 0.02 * steps as f64 && turns as f64 > 0.2 * steps as f64
 }
 
 fn told(run: &Run, signal: &str, (first, last, length_s): (usize, usize, f64)) -> Fault {

@@ -58,6 +58,9 @@ const LEFT_WITHOUT: f64 = 0.4;
 const LEAST: f64 = 0.01;
 /// Of the most driven wheel's volts squared, what the guess must explain.
 const COUNTS: f64 = 0.015;
+/// The same, and what may remain, where the guess brings a run back to what remains in the others.
+const COUNTS_BACK: f64 = 0.003;
+const BACK: f64 = 2.0;
 
 impl Motors {
     fn new(run: &Run, robot: &RobotFile) -> Option<Motors> {
@@ -134,7 +137,7 @@ impl Motors {
     }
 
     /// Every guess that holds: how many things it changes, and what it leaves over on all wheels.
-    fn holding(&self) -> Vec<((Blame, What), usize, bool, f64)> {
+    fn holding(&self, usual: Option<f64>) -> Vec<((Blame, What), usize, bool, f64)> {
         let n = self.gram.wheels;
         let mut holding = Vec::new();
         let given: Vec<f64> = (0..n).map(|j| self.as_given(j)).collect();
@@ -145,8 +148,11 @@ impl Motors {
                 let fit = |j: usize| fits[(j * n + order.place[j]) * 2 + usize::from(order.sign[j] < 0.0)];
                 let changed: Vec<usize> = (0..n).filter(|&j| order.changed(j)).collect();
                 let rests = self.over(&changed, &given, blame, &order, fit);
-                if self.holds(rests) && self.counts(&changed, rests) {
-                    let rest = self.over(&self.all(), &given, blame, &order, fit).1;
+                let rest = self.over(&self.all(), &given, blame, &order, fit).1;
+                let holds = self.holds(rests) && self.counts(&changed, rests, COUNTS) && rests.0 > LEAST;
+                let back =
+                    |usual: f64| self.holds(rests) && self.counts(&changed, rests, COUNTS_BACK) && rest < BACK * usual;
+                if holds || usual.is_some_and(back) {
                     let (changes, moved) = (order.changes(), order.moved());
                     holding.push(((blame, What::Wheels(order)), changes, moved, rest));
                 }
@@ -154,7 +160,7 @@ impl Motors {
         }
         for (blame, unit) in self.units() {
             let rests = self.rests(&Guess { blame, what: What::Unit(unit), or: Vec::new(), better: 1.0 });
-            if self.holds(rests) {
+            if self.holds(rests) && rests.0 > LEAST {
                 holding.push(((blame, What::Unit(unit)), 1, true, rests.1));
             }
         }
@@ -176,14 +182,14 @@ impl Motors {
 
     /// Whether what some wheels leave over counts against the volts of the most driven one: a wheel that is hardly driven
     /// shows little but its bridge's losses.
-    fn counts(&self, wheels: &[usize], (given, otherwise): (f64, f64)) -> bool {
+    fn counts(&self, wheels: &[usize], (given, otherwise): (f64, f64), share: f64) -> bool {
         let top = self.all().into_iter().map(|j| self.weight(j)).fold(0.0, f64::max);
-        (given - otherwise) * wheels.iter().map(|&j| self.weight(j)).sum::<f64>() > COUNTS * top
+        (given - otherwise) * wheels.iter().map(|&j| self.weight(j)).sum::<f64>() > share * top
     }
 
     fn holds(&self, (given, otherwise): (f64, f64)) -> bool {
         let (times, left) = if self.currents { (TIMES, LEFT) } else { (TIMES_WITHOUT, LEFT_WITHOUT) };
-        given > times * otherwise && otherwise < left && given > LEAST
+        given > times * otherwise && otherwise < left
     }
 }
 
@@ -194,8 +200,8 @@ impl Evidence for Motors {
         self.gram.add(&other.gram);
     }
 
-    fn best(&self) -> Option<Guess> {
-        let holding = self.holding();
+    fn best(&self, usual: Option<f64>) -> Option<Guess> {
+        let holding = self.holding(usual);
         let ((blame, what), _) = order::best(&holding, 0.002)?;
         let mut guess = Guess { blame, what, or: Vec::new(), better: 1.0 };
         let (given, otherwise) = self.rests(&guess);

@@ -47,6 +47,8 @@ fn heading_alone(run: &Run) -> Option<Fault> {
 
 /// How well two numbers must go together (0 to 1) before their ratio says anything.
 const TOGETHER: f64 = 0.5;
+/// How well for a heading, which may hardly turn.
+const TURNS: f64 = 0.85;
 /// How well for a body that is too slow for its wheels.
 const CLOSELY: f64 = 0.9;
 /// Slip makes the body slower than its wheels, up to this many times; nothing makes it faster than half as fast again.
@@ -62,13 +64,20 @@ fn wrong_unit(run: &Run, robot: &RobotFile, windows: &[Window]) -> Option<Fault>
         let mend = "Convert the columns to SI units, or state `unit` in columns.toml.";
         Some(Fault::of(run, "wrong_unit", signal, true).says(sentence, mend))
     };
+    // against the rims, lest a robot that spins on the spot be taken for one that is too fast for its wheels
+    let rims = windows.iter().map(|w| w.rims.iter().map(|v| v * v).sum::<f64>() / w.rims.len() as f64).sum::<f64>();
+    let world = windows.iter().map(|w| w.world[0].powi(2) + w.world[1].powi(2)).sum::<f64>();
+    let travelling = go.as_ref().filter(|go| go.fit > TOGETHER).map(|_| (world / rims).sqrt());
     // a pose that is too fast for its wheels: slip cannot make that
     let too_fast = |unit: &units::WrongUnit, ratio: f64| ratio > unit.per_unit / SLIP && ratio < 1.6 * unit.per_unit;
     let going = go.as_ref().filter(|go| go.fit > TOGETHER).map(|go| go.times);
-    let turning = turn.filter(|turn| turn.fit > TOGETHER).map(|turn| turn.times);
-    let lengths = going.and_then(|go| units::LENGTHS.into_iter().rev().find(|unit| too_fast(unit, go)));
-    if let Some(turn) = turning.filter(|turn| lengths.is_none() && units::ANGLES.iter().any(|u| too_fast(u, *turn))) {
-        return Some(frame::degrees(run, format!("The heading turns {turn:.0} times as fast as the wheels say.")));
+    let yaw = windows.iter().map(|w| (robot.wheel[0].distance_m * w.yaw).powi(2)).sum::<f64>();
+    let spinning = turn.as_ref().filter(|turn| turn.fit > TOGETHER).map(|_| (yaw / rims).sqrt());
+    let turning = turn.filter(|turn| turn.fit > TURNS).map(|turn| turn.times);
+    let lengths = travelling.and_then(|go| units::LENGTHS.into_iter().rev().find(|unit| too_fast(unit, go)));
+    let degrees = |times: &f64| lengths.is_none() && units::ANGLES.iter().any(|unit| too_fast(unit, *times));
+    if let Some(times) = turning.filter(degrees).or(spinning.filter(degrees)) {
+        return Some(frame::degrees(run, format!("The heading turns {times:.0} times as fast as the wheels say.")));
     }
     if let Some(unit) = lengths {
         return told("x_m, y_m", unit.name, unit.per_unit);
