@@ -53,7 +53,7 @@ pub(super) fn guesses<E: Evidence>(runs: &[E]) -> Vec<(E::Guess, Vec<usize>)> {
     runs.iter().enumerate().filter_map(one).collect()
 }
 
-/// "", "in all 6 runs" or "in this run alone".
+/// Which runs a guess holds for, as a sentence; nothing where there is only one.
 pub(super) fn in_which(found: usize, runs: usize) -> String {
     match (found, runs) {
         (_, 1) => String::new(),

@@ -4,9 +4,10 @@
 //! this kind are used (a motor's volts against its speed and current, wheels against the body), and only differences far
 //! beyond what wrong parameters or unmodelled effects can make.
 //!
-//! Reading order: [`Fault`], then one file per idea: `time`, `frozen`, `saturated`, `repeated`, `bunched`, `pushed`,
-//! `motor` (volts, currents and speeds of each wheel), `pose` (wheels against the pose). `order` searches for wheels that
-//! changed places, `body` turns wheel speeds into body speed.
+//! Reading order: [`Fault`]; `rows` with one file per idea about a single run: `time`, `frozen`, `saturated`, `repeated`,
+//! `bunched`, `pushed`; then the relations, judged on all runs of a session (`agree`): `motor` (volts, currents and speeds
+//! of each wheel, from the sums in `gram`) and `pose` (wheels against the pose, over `windows`, with the guesses of
+//! `frame`). `order` lists the ways in which wheels can have changed places, `body` turns wheel speeds into body speed.
 
 mod agree;
 mod body;
