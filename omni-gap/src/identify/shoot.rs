@@ -96,12 +96,7 @@ pub fn run_windows<const N: usize, T: Real>(
         plant.restart(&state, &mut memory);
         for row in rows {
             let input = run.input::<T>(row);
-            let steps = run.steps(row);
-            let dt = T::lit(run.dt[row] / steps as f64);
-            let reading = plant.step(&mut state, &mut memory, &input, dt);
-            for _ in 1..steps {
-                plant.step(&mut state, &mut memory, &input, dt);
-            }
+            let reading = run.take_row(plant, &mut state, &mut memory, &input, row);
             each(window, row, &run.row_of(&reading));
         }
     }

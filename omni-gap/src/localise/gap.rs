@@ -99,13 +99,8 @@ fn replay<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, seed: u64) -
     let mut state = start_at(run, 0).state(plant, &rest);
     plant.restart(&state, &mut memory);
     for row in 0..run.rows() {
-        let steps = run.steps(row);
-        let dt = run.dt[row] / steps as f64;
         let input = run.input::<f64>(row);
-        let reading = plant.step(&mut state, &mut memory, &input, dt);
-        for _ in 1..steps {
-            plant.step(&mut state, &mut memory, &input, dt);
-        }
+        let reading = run.take_row(plant, &mut state, &mut memory, &input, row);
         let mut says = run.row_of(&reading);
         for (c, x) in says.iter_mut().enumerate() {
             let noise: f64 = StandardNormal.sample(&mut random);

@@ -166,12 +166,7 @@ fn free_run<const N: usize>(
                 state = start_at(run, row).state(plant, &state);
                 plant.restart(&state, &mut memory);
             }
-            let steps = run.steps(row);
-            let (held, dt) = (input(row), run.dt[row] / steps as f64);
-            let reading = plant.step(&mut state, &mut memory, &held, dt);
-            for _ in 1..steps {
-                plant.step(&mut state, &mut memory, &held, dt);
-            }
+            let reading = run.take_row(plant, &mut state, &mut memory, &input(row), row);
             run.row_of(&reading)
         })
         .collect()

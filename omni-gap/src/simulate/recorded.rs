@@ -1,6 +1,6 @@
 //! A recording, laid out row by row for the plant: what drives the model, and what it is compared with.
 
-use model_core::plant::{Input, Reading};
+use model_core::plant::{Input, Plant, Reading, State};
 use model_core::scalar::Real;
 
 use crate::log::{Group, RobotFile, Run, Sampled};
@@ -255,6 +255,25 @@ impl<const N: usize> Recorded<N> {
     #[inline]
     pub fn steps(&self, row: usize) -> usize {
         ((self.dt[row] / LONGEST_STEP_S).ceil() as usize).max(1)
+    }
+
+    /// Takes the plant through a row with the input held, and returns the reading at the row's beginning.
+    #[inline]
+    pub fn take_row<T: Real>(
+        &self,
+        plant: &Plant<N, T>,
+        state: &mut State<N, T>,
+        memory: &mut [T],
+        input: &Input<N, T>,
+        row: usize,
+    ) -> Reading<N, T> {
+        let steps = self.steps(row);
+        let dt = T::lit(self.dt[row] / steps as f64);
+        let reading = plant.step(state, memory, input, dt);
+        for _ in 1..steps {
+            plant.step(state, memory, input, dt);
+        }
+        reading
     }
 
     /// A reading as a row of channels, currents as magnitudes where the log keeps only those.
