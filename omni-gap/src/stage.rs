@@ -86,7 +86,7 @@ fn perform<const N: usize>(file: &RobotFile, plan: &Stage) -> Vec<Run> {
         model.carry(effect.clone());
     }
     let plant: Plant<N, f64> = model.plant();
-    let how = Recording { steps_a_row: 10, camera_rate: 60.0, dropouts: 0.03, sensors: file.sensors };
+    let how = Recording { sensors: file.sensors, ..Recording::default() };
     (0..plan.runs)
         .map(|k| {
             let seed = plan.seed.wrapping_mul(1000).wrapping_add(k as u64);

@@ -73,6 +73,7 @@ impl Simulate {
             camera_rate: EVERY_ROW,
             dropouts: 0.0,
             sensors: if self.noise { given.robot.sensors } else { silent },
+            ..Recording::default()
         };
         let input: Vec<_> = (0..rows).map(|row| recorded.input(row)).collect();
         let mut run = record(&plant, &given.run.name, &given.run.t_s, &input, &how, self.seed);

@@ -27,6 +27,8 @@ pub struct Columns {
 pub(crate) struct Flags {
     pub unsigned: bool,
     pub quantum: Option<f64>,
+    /// Of wheel speeds taken from the time between edges: edges in a turn of the wheel.
+    pub edges_per_turn: Option<f64>,
 }
 
 /// Where a column comes from.
@@ -184,8 +186,19 @@ fn files(top: &Section) -> Result<Vec<String>> {
 
 fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> Result<(Target, Rule)> {
     let Some(target) = Target::named(name) else {
-        let known =
-            ["t_s", "u0_V", "i0_A", "w0_rad_s", "wset0_rad_s", "x_m", "y_m", "theta_rad", "vbat_V", "gyro_rad_s"];
+        let known = [
+            "t_s",
+            "u0_V",
+            "i0_A",
+            "w0_rad_s",
+            "wset0_rad_s",
+            "x_m",
+            "y_m",
+            "theta_rad",
+            "vbat_V",
+            "gyro_rad_s",
+            "enable",
+        ];
         let mend = nearest(name, known)
             .map_or(format!("Known are {}", known.join(", ")), |near| format!("Did you mean `{near}`?"));
         return Err(columns.key_error(name, "this is not a column of the run log", mend));
@@ -265,9 +278,12 @@ fn groups(all: &Section) -> Result<BTreeMap<String, Flags>> {
     let read = |(name, item): (&str, &toml_edit::Item)| {
         let title = format!("[groups] {name}");
         let s = Section::new(all.source, &title, item)?;
-        s.only_keys(&["unsigned", "quantum"])?;
-        let quantum = s.number("quantum")?.map(|_| s.positive("quantum")).transpose()?;
-        Ok((name.to_string(), Flags { unsigned: s.flag("unsigned")?.unwrap_or(false), quantum }))
+        let keys: &[&str] =
+            if name == "w" { &["unsigned", "quantum", "edges_per_turn"] } else { &["unsigned", "quantum"] };
+        s.only_keys(keys)?;
+        let positive = |key: &str| s.number(key)?.map(|_| s.positive(key)).transpose();
+        let (quantum, edges_per_turn) = (positive("quantum")?, positive("edges_per_turn")?);
+        Ok((name.to_string(), Flags { unsigned: s.flag("unsigned")?.unwrap_or(false), quantum, edges_per_turn }))
     };
     all.table.iter().map(read).collect()
 }

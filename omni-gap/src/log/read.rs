@@ -2,6 +2,7 @@
 
 use super::columns::{Columns, Rule};
 use super::csv::{Layout, Table};
+use super::edges::retimed;
 use super::run::{Channel, Missing, Run};
 use super::target::Target;
 use crate::error::{Error, Result};
@@ -209,6 +210,7 @@ fn place(run: &mut Run, target: Target, channel: Channel) {
         Target::Theta => return run.pose.get_or_insert_default().channels.push(channel.unwrapped()),
         Target::Vbat => return run.vbat = Some(channel),
         Target::Gyro => return run.gyro = Some(channel),
+        Target::Enable => return run.enable = Some(channel),
         Target::Time => return,
     };
     group.get_or_insert_default().channels.push(channel);
@@ -228,6 +230,11 @@ fn finish(run: &mut Run, columns: Option<&Columns>, notices: &mut Vec<String>) -
         if let (Some(group), Some(flags)) = (group.as_mut(), columns.and_then(|columns| columns.groups.get(name))) {
             group.unsigned = flags.unsigned;
             group.quantum = flags.quantum;
+            if let Some(edges_per_turn) = flags.edges_per_turn {
+                for channel in &mut group.channels {
+                    *channel = retimed(channel, &run.t_s, edges_per_turn);
+                }
+            }
         }
         if let Some(group) = group {
             any = true;
@@ -241,10 +248,26 @@ fn finish(run: &mut Run, columns: Option<&Columns>, notices: &mut Vec<String>) -
             *channel = None;
         }
     }
+    open_bridges_apply_nothing(run)?;
     match any {
         true => Ok(()),
         false => Err(Error::input(&run.path, "every signal is empty throughout", "Record the run again")),
     }
+}
+
+/// Where the bridges are open no voltage is applied, whatever the log says of it.
+fn open_bridges_apply_nothing(run: &mut Run) -> Result<()> {
+    let switch = |value: f64| value == 0.0 || value == 1.0;
+    if let Some((row, found)) = run.enable.iter().flat_map(Channel::present).find(|(_, value)| !switch(*value)) {
+        let problem = format!("found {found}, expected 1 (bridges driven) or 0 (bridges open)");
+        let error = Error::input(&run.path, problem, "Log whether the bridges are enabled, or remove the column");
+        return Err(error.at_line(run.line_of(row)).in_column("enable"));
+    }
+    let open: Vec<bool> = (0..run.rows()).map(|row| run.is_open(row)).collect();
+    for channel in run.u.iter_mut().flat_map(|group| &mut group.channels) {
+        *channel = channel.iter().zip(&open).map(|(u, open)| if *open { Err(Missing::Blank) } else { u }).collect();
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -206,6 +206,8 @@ pub struct Run {
     pub vbat: Option<Channel>,
     /// Yaw rate (rad/s).
     pub gyro: Option<Channel>,
+    /// One where the bridges are driven, zero where they are open and no current can flow; absent: always driven.
+    pub enable: Option<Channel>,
     /// When, relative to the row's voltage, its currents were measured.
     pub currents_sampled: Sampled,
 }
@@ -214,6 +216,11 @@ impl Run {
     /// How many rows it has.
     pub fn rows(&self) -> usize {
         self.t_s.len()
+    }
+
+    /// Whether the bridges are open on a row.
+    pub fn is_open(&self, row: usize) -> bool {
+        self.enable.as_ref().is_some_and(|enable| enable.get(row) == Ok(0.0))
     }
 
     /// The line of the file on which a row stands; for a run made in memory, of the file that it would be written to.
@@ -245,6 +252,7 @@ impl Run {
         all.extend(per_wheel("wset", "rad_s", &self.wset));
         all.extend(self.vbat.iter().map(|c| ("vbat_V".to_string(), c)));
         all.extend(self.gyro.iter().map(|c| ("gyro_rad_s".to_string(), c)));
+        all.extend(self.enable.iter().map(|c| ("enable".to_string(), c)));
         all
     }
 

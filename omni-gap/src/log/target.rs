@@ -15,6 +15,7 @@ pub(crate) enum Target {
     Theta,
     Vbat,
     Gyro,
+    Enable,
 }
 
 /// What a column measures.
@@ -26,6 +27,7 @@ pub(crate) enum Quantity {
     Rate,
     Length,
     Angle,
+    Switch,
 }
 
 impl Target {
@@ -38,6 +40,7 @@ impl Target {
             "theta_rad" => return Some(Target::Theta),
             "vbat_V" => return Some(Target::Vbat),
             "gyro_rad_s" => return Some(Target::Gyro),
+            "enable" => return Some(Target::Enable),
             _ => {}
         }
         let (stem, unit) = name.split_once('_')?;
@@ -70,6 +73,7 @@ impl Target {
             Target::W(_) | Target::Wset(_) | Target::Gyro => Quantity::Rate,
             Target::X | Target::Y => Quantity::Length,
             Target::Theta => Quantity::Angle,
+            Target::Enable => Quantity::Switch,
         }
     }
 }
@@ -87,6 +91,7 @@ impl fmt::Display for Target {
             Target::Theta => write!(f, "theta_rad"),
             Target::Vbat => write!(f, "vbat_V"),
             Target::Gyro => write!(f, "gyro_rad_s"),
+            Target::Enable => write!(f, "enable"),
         }
     }
 }
@@ -97,8 +102,9 @@ mod tests {
 
     #[test]
     fn every_name_is_read_as_it_is_written() {
+        let others = ["vbat_V", "gyro_rad_s", "enable"];
         for name in
-            ["t_s", "u0_V", "i3_A", "w2_rad_s", "wset1_rad_s", "x_m", "y_m", "theta_rad", "vbat_V", "gyro_rad_s"]
+            ["t_s", "u0_V", "i3_A", "w2_rad_s", "wset1_rad_s", "x_m", "y_m", "theta_rad"].into_iter().chain(others)
         {
             assert_eq!(Target::named(name).map(|t| t.to_string()).as_deref(), Some(name));
         }

@@ -6,6 +6,7 @@
 //! that is not there, and [`excite`] tells it what to do.
 
 mod excite;
+mod halls;
 mod keys;
 mod model;
 mod predict;
@@ -17,6 +18,6 @@ pub use excite::{Excitation, excite};
 pub use keys::{NOMINAL_KEYS, NominalKey};
 pub use model::{Carried, Model, Slot, robot_of};
 pub use predict::{Prediction, predict, restart_rows};
-pub use record::{Recording, record};
+pub use record::{Recording, SpeedSensor, record};
 pub use recorded::{Chain, Channels, MAX_CHANNELS, Recorded, Row};
 pub use start::{Start, start_at};

@@ -6,10 +6,11 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::log::{Channel, Group, Missing, Run, SensorsFile};
+use super::halls::Halls;
+use crate::log::{Channel, Group, Missing, Run, SensorsFile, retimed};
 
 /// How a recording is made.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recording {
     /// Plant steps in a row of mean length; a longer row takes as many more.
     pub steps_a_row: usize,
@@ -19,11 +20,44 @@ pub struct Recording {
     pub dropouts: f64,
     /// Noise of the sensors.
     pub sensors: SensorsFile,
+    /// Time over which the camera's errors stay alike [s]; zero: each frame's are its own
+    pub camera_correlation: f64,
+    /// Where wheel speeds come from.
+    pub speed: SpeedSensor,
+}
+
+/// Where wheel speeds come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpeedSensor {
+    /// There is none.
+    None,
+    /// An encoder fine enough to count as continuous.
+    Encoder,
+    /// Hall sensors: the time between edges, as the reader of a log makes of it.
+    Halls {
+        /// Edges in a turn of the wheel.
+        edges_per_turn: f64,
+    },
+}
+
+impl Default for Recording {
+    /// What a diagnosis is staged with: ten plant steps a row, a camera of 60 frames a second that loses some, encoders.
+    fn default() -> Self {
+        Self {
+            steps_a_row: 10,
+            camera_rate: 60.0,
+            dropouts: 0.03,
+            sensors: SensorsFile::default(),
+            camera_correlation: 0.0,
+            speed: SpeedSensor::Encoder,
+        }
+    }
 }
 
 /// Drives the plant with one input a row, `dt` [s] long, and records what its sensors say.
 ///
-/// The noise is white and Gaussian; the same seed gives the same run.
+/// The noise is Gaussian, and white unless the camera's is said to be otherwise; the same seed gives the same run. A row
+/// of currents among voltages is one with the bridges open.
 pub fn record<const N: usize>(
     plant: &Plant<N, f64>,
     name: &str,
@@ -45,24 +79,42 @@ pub fn record<const N: usize>(
     let mut i = vec![Channel::with_capacity(rows); N];
     let mut w = vec![Channel::with_capacity(rows); N];
     let mut pose = vec![Channel::with_capacity(rows); 3];
-    let mut frames = -1.0;
+    let mut halls = [Halls::default(); N];
+    let (mut frames, mut wander, mut wandered) = (-1.0, [0.0; 3], f64::NEG_INFINITY);
     for (row, held) in input.iter().enumerate().take(rows) {
         let length = t.get(row + 1).map_or(step, |next| next - t[row]);
         let steps = if step > 0.0 { (length / step * how.steps_a_row as f64).round().max(1.0) as usize } else { 1 };
         let dt = length / steps as f64;
         let reading: Reading<N, f64> = plant.step(&mut state, &mut memory, held, dt);
-        for _ in 1..steps {
-            plant.step(&mut state, &mut memory, held, dt);
-        }
         for j in 0..N {
             i[j].push(reading.current[j] + noise(how.sensors.current_noise_a));
-            w[j].push(reading.wheel_speed[j] + noise(how.sensors.wheel_speed_noise_rad_s));
+            let speed_noise = noise(how.sensors.wheel_speed_noise_rad_s);
+            match how.speed {
+                SpeedSensor::None => {}
+                SpeedSensor::Encoder => w[j].push(reading.wheel_speed[j] + speed_noise),
+                SpeedSensor::Halls { .. } => w[j].push(halls[j].told(speed_noise)),
+            }
         }
-        let seen = [
-            reading.pose.x + noise(how.sensors.position_noise_m),
-            reading.pose.y + noise(how.sensors.position_noise_m),
-            reading.pose.theta + noise(how.sensors.heading_noise_rad),
-        ];
+        let mut turn = |reading: &Reading<N, f64>, k: usize| {
+            let SpeedSensor::Halls { edges_per_turn } = how.speed else { return };
+            for (halls, speed) in halls.iter_mut().zip(reading.wheel_speed) {
+                halls.turn(t[row] - t[0] + k as f64 * dt, speed, dt, edges_per_turn);
+            }
+        };
+        turn(&reading, 0);
+        for k in 1..steps {
+            let reading = plant.step(&mut state, &mut memory, held, dt);
+            turn(&reading, k);
+        }
+        // an Ornstein–Uhlenbeck process: n ← ρ·n + √(1 − ρ²)·white, ρ = e^(−Δt/τ)
+        let rho =
+            if how.camera_correlation > 0.0 { (-(t[row] - wandered) / how.camera_correlation).exp() } else { 0.0 };
+        let sigmas = [how.sensors.position_noise_m, how.sensors.position_noise_m, how.sensors.heading_noise_rad];
+        for (wander, sigma) in wander.iter_mut().zip(sigmas) {
+            *wander = rho * *wander + (1.0 - rho * rho).sqrt() * noise(sigma);
+        }
+        wandered = t[row];
+        let seen = [reading.pose.x + wander[0], reading.pose.y + wander[1], reading.pose.theta + wander[2]];
         let frame = ((t[row] - t[0]) * how.camera_rate + 1e-9).floor();
         let came = frame > frames && !gaps.random_bool(how.dropouts);
         frames = frame;
@@ -74,24 +126,33 @@ pub fn record<const N: usize>(
             }
         }
     }
-    let mut u = vec![Vec::with_capacity(rows); N];
+    let opens = |held: &Input<N, f64>| matches!(held, Input::Current(_)) && !matches!(input[0], Input::Current(_));
+    let mut driving = vec![Channel::with_capacity(rows); N];
     for held in input {
-        let held = match held {
-            Input::Voltage(x) | Input::Current(x) | Input::Speed(x) => x,
-        };
-        for (column, x) in u.iter_mut().zip(held) {
-            column.push(*x);
+        let (Input::Voltage(x) | Input::Current(x) | Input::Speed(x)) = held;
+        for (column, x) in driving.iter_mut().zip(x) {
+            if opens(held) {
+                column.push_missing(Missing::Blank);
+            } else {
+                column.push(*x);
+            }
         }
     }
-    let driving = Some(Group::from_columns(u));
+    let driving = Some(Group::new(driving));
+    if let SpeedSensor::Halls { edges_per_turn } = how.speed {
+        w = w.iter().map(|held| retimed(held, t, edges_per_turn)).collect();
+    }
     let mut run = Run {
         name: name.to_owned(),
         t_s: t.to_vec(),
         i: Some(Group::new(i)),
-        w: Some(Group::new(w)),
+        w: (how.speed != SpeedSensor::None).then(|| Group::new(w)),
         pose: Some(Group::new(pose)),
         ..Run::default()
     };
+    if input.iter().any(opens) {
+        run.enable = Some(Channel::from_values(input.iter().map(|held| if opens(held) { 0.0 } else { 1.0 })));
+    }
     match input.first() {
         Some(Input::Speed(_)) => (run.wset, run.i) = (driving, None),
         Some(Input::Current(_)) => run.i = driving,

@@ -68,6 +68,8 @@ pub struct Recorded<const N: usize> {
     pub chain: Chain,
     /// The driving signal, row by row [V], [A] or [rad/s]; holes hold the last value
     pub input: Vec<[f64; N]>,
+    /// Whether the bridges are open, row by row: then no current flows, whatever the driving signal says
+    pub open: Vec<bool>,
     /// What was measured; only where [`Recorded::has`] says so
     pub measured: Vec<Row>,
     /// Bit c: channel c was measured on this row
@@ -176,6 +178,7 @@ impl<const N: usize> Recorded<N> {
             dt,
             chain,
             input,
+            open: (0..rows).map(|row| run.is_open(row)).collect(),
             measured,
             has,
             sigma,
@@ -196,6 +199,7 @@ impl<const N: usize> Recorded<N> {
                 t: self.t[first..end].iter().map(|t| t - self.t[first]).collect(),
                 dt: self.dt[first..end].to_vec(),
                 input: self.input[first..end].to_vec(),
+                open: self.open[first..end].to_vec(),
                 measured: self.measured[first..end].to_vec(),
                 has: self.has[first..end].to_vec(),
                 gyro: self.gyro[first..end].to_vec(),
@@ -210,6 +214,7 @@ impl<const N: usize> Recorded<N> {
             t: Vec::new(),
             dt: Vec::new(),
             input: Vec::new(),
+            open: Vec::new(),
             measured: Vec::new(),
             has: Vec::new(),
             gyro: Vec::new(),
@@ -245,6 +250,7 @@ impl<const N: usize> Recorded<N> {
     pub fn input<T: Real>(&self, row: usize) -> Input<N, T> {
         let held = self.input[row].map(T::lit);
         match self.chain {
+            Chain::Voltage | Chain::Current if self.open[row] => Input::Current([T::zero(); N]),
             Chain::Voltage => Input::Voltage(held),
             Chain::Current => Input::Current(held),
             Chain::WheelSpeed | Chain::SetSpeed => Input::Speed(held),
