@@ -34,6 +34,8 @@ pub mod diagnosis;
 
 pub mod stage;
 
+pub mod rehearse;
+
 mod known;
 
 pub use diagnosis::{Diagnosis, Options, diagnose};

@@ -5,6 +5,7 @@
 //! (the plant is run in dual numbers), and what the robot file says of its own uncertainty enters as a [`Prior`]. Every
 //! number comes with its uncertainty, which holds under errors that go on through a window.
 
+pub mod experiments;
 mod fit;
 mod linear;
 mod prior;

@@ -12,6 +12,8 @@ mod model;
 mod predict;
 mod record;
 mod recorded;
+mod script;
+mod sensing;
 mod start;
 
 pub use excite::{Excitation, excite};
@@ -20,4 +22,6 @@ pub use model::{Carried, Model, Slot, robot_of};
 pub use predict::{Prediction, predict, restart_rows};
 pub use record::{Recording, SpeedSensor, record};
 pub use recorded::{Chain, Channels, MAX_CHANNELS, Recorded, Row};
+pub use script::{AXES, Experiment, Plan, Script, along, scripts};
+pub use sensing::Sensing;
 pub use start::{Start, start_at};

@@ -1,0 +1,51 @@
+//! # Rehearse: the experiments, played by a robot that is just what its file says
+//!
+//! What a person gets from a morning with the real robot, from one whose truth is known: to see what the experiments can
+//! tell before doing them, and to measure how good the estimators are.
+
+use std::path::PathBuf;
+
+use model_core::plant::Input;
+
+use crate::log::{RobotFile, Run};
+use crate::simulate::{Experiment, Model, Plan, Recording, Script, record, scripts};
+
+/// What each further run of the motor experiment drags, as a share of the motors' torque at the largest voltage.
+const LOAD: f64 = 0.2;
+
+/// Plays the scripts of all experiments on the robot of a file, and records them.
+///
+/// The runs of the motor experiment drag more and more, as dry friction about ω.
+pub fn rehearse(truth: &RobotFile, plan: &Plan, how: &Recording, seed: u64) -> Vec<Run> {
+    match truth.wheel.len() {
+        3 => of_wheels::<3>(truth, plan, how, seed),
+        _ => of_wheels::<4>(truth, plan, how, seed),
+    }
+}
+
+fn of_wheels<const N: usize>(truth: &RobotFile, plan: &Plan, how: &Recording, seed: u64) -> Vec<Run> {
+    let robot = *Model::<N>::nominal(truth, plan.voltage).robot();
+    let played = scripts(&robot, plan).into_iter().enumerate();
+    played.map(|(k, script)| play(truth, plan, &script, how, seed.wrapping_mul(1000).wrapping_add(k as u64))).collect()
+}
+
+fn play<const N: usize>(truth: &RobotFile, plan: &Plan, script: &Script<N>, how: &Recording, seed: u64) -> Run {
+    let mut dragging = truth.clone();
+    let load = script.name.rsplit('-').next().and_then(|word| word.parse::<f64>().ok()).unwrap_or(0.0);
+    if Experiment::of(&script.name) == Some(Experiment::Motor) {
+        dragging.friction.coulomb_w_nm += LOAD * load * stall_torque(truth, plan.voltage);
+    }
+    let plant = Model::<N>::nominal(&dragging, plan.voltage).plant();
+    let input: Vec<Input<N, f64>> =
+        script.volts.iter().map(|u| u.map_or(Input::Current([0.0; N]), Input::Voltage)).collect();
+    let mut run = record(&plant, &script.name, &script.t, &input, how, seed);
+    run.path = PathBuf::from(format!("runs/{}.csv", script.name));
+    run
+}
+
+/// Torque of all motors at rest about the vertical axis [N·m]: Σ d·l·K_t·u/(r·R).
+fn stall_torque(file: &RobotFile, volts: f64) -> f64 {
+    let motor = &file.motor;
+    let kt = motor.gear_ratio * motor.torque_constant_nm_per_a / motor.resistance_ohm;
+    file.wheel.iter().map(|wheel| wheel.distance_m / wheel.radius_m * kt * volts).sum()
+}
