@@ -10,7 +10,8 @@ use rayon::prelude::*;
 
 use super::linear::{Linearised, Reduced, linearise};
 use super::prior::Prior;
-use super::shoot::{Shots, Starts, first_starts, run_windows};
+use super::shoot::{Piece, Shots, Starts, first_starts, run_some_windows};
+use super::whiten::Whitener;
 use crate::simulate::{Model, Recorded, Slot};
 use model_core::frames::{BodyTwist, Pose};
 
@@ -151,28 +152,38 @@ pub fn profile<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -> (Vec<St
     (starts, cost)
 }
 
+/// Σ error² [σ²] of a model and its starts.
 fn cost_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, starts: &[Starts]) -> f64 {
     let plant = model.plant();
     let count = Recorded::<N>::channels().count();
     let Shots { runs, windows } = shots;
-    let costs: Vec<f64> = (0..runs.len())
+    let costs: Vec<f64> = shots
+        .pieces(model)
         .into_par_iter()
-        .map(|k| {
+        .map(|Piece { run: k, windows: which }| {
             let (run, starts) = (runs[k], &starts[k]);
             let start = |w: usize| {
                 let [x, y, theta, v, vn, w] = starts[w];
                 (Pose { x, y, theta }, BodyTwist { v, vn, w })
             };
-            let mut sum = 0.0;
-            run_windows(
+            let mut white = Whitener::<1>::of(run);
+            let (mut sum, mut last) = (0.0, usize::MAX);
+            run_some_windows(
                 &plant,
                 run,
                 &windows[k],
+                which,
                 start,
                 |_| {},
-                |_, row, predicted| {
+                |w, row, predicted| {
+                    if w != last {
+                        white.enter();
+                        last = w;
+                    }
                     for c in (0..count).filter(|c| run.saw(row, *c)) {
-                        sum += run.error(row, c, predicted[c]).powi(2);
+                        let mut error = [run.error(row, c, predicted[c])];
+                        white.whiten(c, run.t[row], &mut error);
+                        sum += error[0] * error[0];
                     }
                 },
             );
@@ -274,3 +285,7 @@ impl<const N: usize> Fit<N> {
         with_prior(linear.reduced().tempered(self.temper), &self.model, &self.free, prior)
     }
 }
+
+#[cfg(test)]
+#[path = "fit_tests.rs"]
+mod tests;

@@ -5,25 +5,24 @@
 //! H_zz = J_zᵀJ_z, …          per window, then Σ over windows of H_pp − H_pz·H_zz⁻¹·H_zp
 //! ```
 
-use model_core::dual::Dual;
-use model_core::frames::{BodyTwist, Pose};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::shoot::{Shots, Starts, Windows, run_windows};
+use super::block::{Block, Sums};
+use super::pass::{Course, TWIST, pass};
+use super::shoot::{Piece, Shots, Starts};
 use crate::simulate::{Model, Recorded, Slot};
 
 /// Parameters of a window's start: x, y, θ, v, vn, ω.
 pub const START: usize = 6;
 
-/// Of those, the ones that need the plant to differentiate; moving or turning the whole path is geometry.
-const TWIST: usize = 3;
+/// The most derivatives that one pass takes; more are taken in passes of [`KEPT`].
+const MOST: usize = 20;
 
-/// Keeps a start regular that nothing in its window measures: 1/σ² of (m, m, rad, m/s, m/s, rad/s), much looser than
-/// any sensor, as damping only.
-const LOOSE: [f64; START] = [1.0, 1.0, 1.0, 1.0, 1.0, 0.1];
+/// Derivatives of a pass whose windows are kept.
+const KEPT: usize = 10;
 
-/// One window: its errors and derivatives, in units of sigma.
+/// One window: its errors and derivatives, in units of sigma, whitened.
 #[derive(Clone, Debug)]
 pub struct WindowLinear {
     /// (row, channel) of each measured number.
@@ -32,15 +31,6 @@ pub struct WindowLinear {
     pub error: DVector<f64>,
     /// d predicted / d (start, parameters) [σ]
     pub jacobian: DMatrix<f64>,
-}
-
-/// Everything that a step of the fit needs of one window.
-#[derive(Clone, Debug)]
-struct Block {
-    hess: DMatrix<f64>,
-    grad: DVector<f64>,
-    cost: f64,
-    count: usize,
 }
 
 /// The windows of all runs, linearised.
@@ -82,27 +72,52 @@ pub fn linearise<const N: usize>(
     keep: bool,
 ) -> Linearised {
     let Shots { runs, windows } = shots;
-    let done: Vec<(Vec<Block>, Vec<WindowLinear>)> = (0..runs.len())
-        .into_par_iter()
-        .map(|k| {
-            let linear = linearise_run(model, runs[k], &windows[k], &starts[k], free);
-            let blocks = linear.iter().map(Block::new).collect();
-            (blocks, if keep { linear } else { Vec::new() })
+    let lanes = TWIST + free.len();
+    let pieces = shots.pieces(model);
+    let done: Vec<(Vec<Block>, Vec<WindowLinear>)> = pieces
+        .par_iter()
+        .map(|piece| {
+            let k = piece.run;
+            let course = Course { model, run: runs[k], windows: &windows[k], starts: &starts[k], free };
+            if keep || lanes > MOST {
+                let linear = kept(course, piece);
+                let blocks = linear.iter().map(Block::of).collect();
+                return (blocks, if keep { linear } else { Vec::new() });
+            }
+            // a pass costs what its lanes cost: no more of them than are needed, in a few sizes
+            let blocks = match lanes {
+                ..=TWIST => summed::<N, TWIST>(course, piece),
+                ..=10 => summed::<N, 10>(course, piece),
+                ..=16 => summed::<N, 16>(course, piece),
+                _ => summed::<N, MOST>(course, piece),
+            };
+            (blocks, Vec::new())
         })
         .collect();
-    let (blocks, kept) = done.into_iter().unzip();
-    Linearised { blocks, windows: kept, free: free.len() }
+    let mut linear =
+        Linearised { blocks: vec![Vec::new(); runs.len()], windows: vec![Vec::new(); runs.len()], free: free.len() };
+    for (piece, (blocks, windows)) in pieces.iter().zip(done) {
+        linear.blocks[piece.run].extend(blocks);
+        linear.windows[piece.run].extend(windows);
+    }
+    linear
 }
 
-fn linearise_run<const N: usize>(
-    model: &Model<N>,
-    run: &Recorded<N>,
-    windows: &Windows,
-    starts: &Starts,
-    free: &[Slot],
-) -> Vec<WindowLinear> {
+/// The normal equations of the windows of a piece.
+fn summed<const N: usize, const LANES: usize>(course: Course<'_, N>, piece: &Piece) -> Vec<Block> {
+    let lanes = TWIST + course.free.len();
+    let mut sums = vec![Sums::<LANES>::NOTHING; piece.windows.len()];
+    pass::<N, LANES>(course, piece.windows.clone(), 0, |k, _, seen| sums[k - piece.windows.start].add(seen, 2 * N));
+    sums.iter().map(|sums| sums.block(lanes)).collect()
+}
+
+/// The windows of a piece, whole.
+fn kept<const N: usize>(course: Course<'_, N>, piece: &Piece) -> Vec<WindowLinear> {
+    let Course { run, windows, free, .. } = course;
     let count = Recorded::<N>::channels().count();
-    let mut linear: Vec<WindowLinear> = (0..windows.len())
+    let mut linear: Vec<WindowLinear> = piece
+        .windows
+        .clone()
         .map(|k| {
             let places: Vec<(u32, u8)> = windows
                 .rows(k)
@@ -112,114 +127,29 @@ fn linearise_run<const N: usize>(
             WindowLinear { places, error: DVector::zeros(rows), jacobian: DMatrix::zeros(rows, START + free.len()) }
         })
         .collect();
-    // as few derivatives a pass as two passes allow
-    let lanes = TWIST + free.len();
-    if lanes <= 16 {
-        passes::<N, 8>(model, run, windows, starts, free, &mut linear);
-    } else {
-        passes::<N, 10>(model, run, windows, starts, free, &mut linear);
+    for first in (0..TWIST + free.len()).step_by(KEPT) {
+        let lanes = KEPT.min(TWIST + free.len() - first);
+        let (mut at, mut last) = (0, usize::MAX);
+        pass::<N, KEPT>(course, piece.windows.clone(), first, |k, _, seen| {
+            if k != last {
+                (at, last) = (0, k);
+            }
+            let window = &mut linear[k - piece.windows.start];
+            for seen in seen {
+                for (lane, slope) in seen.lanes[..lanes].iter().enumerate() {
+                    window.jacobian[(at, START - TWIST + first + lane)] = *slope;
+                }
+                if first == 0 {
+                    window.error[at] = seen.error;
+                    for (axis, slope) in seen.moved.iter().enumerate() {
+                        window.jacobian[(at, axis)] = *slope;
+                    }
+                }
+                at += 1;
+            }
+        });
     }
     linear
-}
-
-fn passes<const N: usize, const LANES: usize>(
-    model: &Model<N>,
-    run: &Recorded<N>,
-    windows: &Windows,
-    starts: &Starts,
-    free: &[Slot],
-    linear: &mut [WindowLinear],
-) {
-    for first in (0..TWIST + free.len()).step_by(LANES) {
-        pass::<N, LANES>(model, run, windows, starts, free, first, linear);
-    }
-}
-
-/// One pass: the plant in dual numbers whose lanes are the derivatives `first..first + LANES` of (v, vn, ω, free…).
-fn pass<const N: usize, const LANES: usize>(
-    model: &Model<N>,
-    run: &Recorded<N>,
-    windows: &Windows,
-    starts: &Starts,
-    free: &[Slot],
-    first: usize,
-    linear: &mut [WindowLinear],
-) {
-    let lane = |index: usize, x: f64| match index.checked_sub(first) {
-        Some(lane) if lane < LANES => Dual::<LANES>::variable(x, lane),
-        _ => Dual::<LANES>::constant(x),
-    };
-    let plant = model.plant_with::<Dual<LANES>>(|slot, x| match free.iter().position(|f| *f == slot) {
-        Some(at) => lane(TWIST + at, x),
-        None => Dual::<LANES>::constant(x),
-    });
-    let own = TWIST.saturating_sub(first);
-    let lanes = LANES.min(TWIST + free.len() - first);
-    let start = |k: usize| {
-        let [x, y, theta, v, vn, w] = starts[k];
-        let pose = Pose {
-            x: Dual::<LANES>::constant(x),
-            y: Dual::<LANES>::constant(y),
-            theta: Dual::<LANES>::constant(theta),
-        };
-        (pose, BodyTwist { v: lane(0, v), vn: lane(1, vn), w: lane(2, w) })
-    };
-    // what the memory holds does not depend on the start of this window
-    let enter = |memory: &mut [Dual<LANES>]| memory.iter_mut().for_each(|m| m.eps[..own.min(LANES)].fill(0.0));
-    let count = Recorded::<N>::channels().count();
-    let mut at = 0;
-    let mut last = usize::MAX;
-    run_windows(&plant, run, windows, start, enter, |k, row, predicted| {
-        if k != last {
-            (at, last) = (0, k);
-        }
-        let window = &mut linear[k];
-        for c in (0..count).filter(|c| run.saw(row, *c)) {
-            let per_sigma = 1.0 / run.sigma[c];
-            for lane in 0..lanes {
-                window.jacobian[(at, TWIST + first + lane)] = predicted[c].eps[lane] * per_sigma;
-            }
-            if first == 0 {
-                window.error[at] = run.error(row, c, predicted[c].re);
-                // moving and turning the start moves and turns the path
-                let turned = match c - (2 * N).min(c) {
-                    _ if c < 2 * N => None,
-                    0 => Some((0, -(predicted[2 * N + 1].re - starts[k][1]))),
-                    1 => Some((1, predicted[2 * N].re - starts[k][0])),
-                    _ => Some((2, 1.0)),
-                };
-                if let Some((axis, by_heading)) = turned {
-                    window.jacobian[(at, axis)] = per_sigma;
-                    window.jacobian[(at, 2)] = by_heading * per_sigma;
-                }
-            }
-            at += 1;
-        }
-    });
-}
-
-impl Block {
-    fn new(window: &WindowLinear) -> Self {
-        Self {
-            hess: window.jacobian.tr_mul(&window.jacobian),
-            grad: window.jacobian.tr_mul(&window.error),
-            cost: window.error.norm_squared(),
-            count: window.error.len(),
-        }
-    }
-
-    /// H_zz⁻¹·[H_zp, g_z], by Cholesky.
-    fn eliminate(&self) -> (DMatrix<f64>, DVector<f64>) {
-        let mut hzz = self.hess.view((0, 0), (START, START)).into_owned();
-        for k in 0..START {
-            hzz[(k, k)] += LOOSE[k];
-        }
-        let free = self.hess.ncols() - START;
-        match hzz.cholesky() {
-            Some(c) => (c.solve(&self.hess.view((0, START), (START, free))), c.solve(&self.grad.rows(0, START))),
-            None => (DMatrix::zeros(START, free), DVector::zeros(START)),
-        }
-    }
 }
 
 impl Linearised {
@@ -268,7 +198,7 @@ impl Linearised {
     }
 
     /// A candidate's signature against all this: (what it explains, its own size, its overlap with the parameters),
-    /// the starts eliminated. `signature` is per run and window, in sigma.
+    /// the starts eliminated. `signature` is per run and window, in sigma, whitened.
     pub fn project(&self, signature: &[Vec<DVector<f64>>]) -> (f64, f64, DVector<f64>) {
         let mut sums = (0.0, 0.0, DVector::zeros(self.free));
         for ((blocks, windows), signs) in self.blocks.iter().zip(&self.windows).zip(signature) {
@@ -276,11 +206,7 @@ impl Linearised {
                 let b = window.jacobian.tr_mul(s);
                 let (x, z) = block.eliminate();
                 let bz = b.rows(0, START);
-                let mut hzz = block.hess.view((0, 0), (START, START)).into_owned();
-                for k in 0..START {
-                    hzz[(k, k)] += LOOSE[k];
-                }
-                let own = hzz.cholesky().map_or_else(|| DVector::zeros(START), |c| c.solve(&bz));
+                let own = block.start().cholesky().map_or_else(|| DVector::zeros(START), |c| c.solve(&bz));
                 sums.0 += s.dot(&window.error) - bz.dot(&z);
                 sums.1 += s.norm_squared() - bz.dot(&own);
                 sums.2 += b.rows(START, self.free) - x.transpose() * bz;

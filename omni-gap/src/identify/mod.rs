@@ -5,15 +5,21 @@
 //! (the plant is run in dual numbers), and what the robot file says of its own uncertainty enters as a [`Prior`]. Every
 //! number comes with its uncertainty, which holds under errors that go on through a window.
 
+mod block;
 pub mod experiments;
 mod fit;
 mod linear;
+mod pass;
 mod prior;
 mod shoot;
+#[cfg(test)]
+mod staged;
 mod tempered;
+mod whiten;
 
 pub use fit::{Fit, Free, fit, profile};
 pub use linear::{Linearised, WindowLinear, linearise};
 pub use prior::{Prior, PriorRow, Release};
 pub use shoot::{Shots, Starts, Windows, first_starts, run_windows};
 pub use tempered::{fit_tempered, nominal_free};
+pub use whiten::Whitener;

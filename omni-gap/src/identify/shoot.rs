@@ -1,10 +1,12 @@
 //! Shooting: one window after another, each from a start of its own.
 
+use std::ops::Range;
+
 use model_core::frames::{BodyTwist, Pose};
 use model_core::plant::Plant;
 use model_core::scalar::Real;
 
-use crate::simulate::{MAX_CHANNELS, Recorded, restart_rows, start_at};
+use crate::simulate::{MAX_CHANNELS, Model, Recorded, restart_rows, start_at};
 
 /// The state from which a window starts: x, y, θ, v, vn, ω [m, m, rad, m/s, m/s, rad/s].
 pub type StartState = [f64; 6];
@@ -27,6 +29,11 @@ impl Windows {
         Self(rows)
     }
 
+    /// One window: the whole run.
+    pub fn whole<const N: usize>(run: &Recorded<N>) -> Self {
+        Self(vec![0, run.rows()])
+    }
+
     /// How many windows.
     pub fn len(&self) -> usize {
         self.0.len() - 1
@@ -38,7 +45,7 @@ impl Windows {
     }
 
     /// The rows of a window.
-    pub fn rows(&self, window: usize) -> std::ops::Range<usize> {
+    pub fn rows(&self, window: usize) -> Range<usize> {
         self.0[window]..self.0[window + 1]
     }
 }
@@ -58,6 +65,34 @@ impl<const N: usize> Shots<'_, N> {
         let count = count.min(self.runs.len());
         Self { runs: &self.runs[..count], windows: &self.windows[..count] }
     }
+
+    /// The pieces that a model can be taken along side by side, run by run. Effects carry on from one window to the
+    /// next (memory, wheel angles, currents), so that a model with effects takes each run as one piece.
+    pub(super) fn pieces(&self, model: &Model<N>) -> Vec<Piece> {
+        let most = if model.effects.is_empty() { WINDOWS_A_PIECE } else { usize::MAX };
+        let mut pieces = Vec::new();
+        for (run, windows) in self.windows.iter().enumerate() {
+            let mut first = 0;
+            while first < windows.len() {
+                let end = windows.len().min(first.saturating_add(most));
+                pieces.push(Piece { run, windows: first..end });
+                first = end;
+            }
+        }
+        pieces
+    }
+}
+
+/// Windows of one piece of work, at the most.
+const WINDOWS_A_PIECE: usize = 3;
+
+/// Windows of one run that follow each other.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    /// Their run.
+    pub run: usize,
+    /// Which of its windows.
+    pub windows: Range<usize>,
 }
 
 /// Starts from the smoothed measurements, through the inverse of the plant's sensing effects.
@@ -82,11 +117,26 @@ pub fn run_windows<const N: usize, T: Real>(
     windows: &Windows,
     start: impl Fn(usize) -> (Pose<T>, BodyTwist<T>),
     enter: impl Fn(&mut [T]),
+    each: impl FnMut(usize, usize, &[T; MAX_CHANNELS]),
+) {
+    run_some_windows(plant, run, windows, 0..windows.len(), start, enter, each);
+}
+
+/// The same for some windows of a run, the first of which begins with no memory.
+///
+/// `start` makes the window's start in the plant's number type; `enter` may change the memory at a window's beginning.
+pub(super) fn run_some_windows<const N: usize, T: Real>(
+    plant: &Plant<N, T>,
+    run: &Recorded<N>,
+    windows: &Windows,
+    which: Range<usize>,
+    start: impl Fn(usize) -> (Pose<T>, BodyTwist<T>),
+    enter: impl Fn(&mut [T]),
     mut each: impl FnMut(usize, usize, &[T; MAX_CHANNELS]),
 ) {
     let mut memory = vec![T::zero(); plant.memory_len()];
     let mut state = plant.start(T::zero(), Pose::default(), BodyTwist::default());
-    for window in 0..windows.len() {
+    for window in which {
         let rows = windows.rows(window);
         let (pose, twist) = start(window);
         let before = state;

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
-use crate::identify::{Fit, Linearised, Prior, Release, Shots, Starts, run_windows};
+use crate::identify::{Fit, Linearised, Prior, Release, Shots, Starts, Whitener, run_windows};
 use crate::simulate::{Carried, Recorded, Slot};
 
 /// A candidate and what the screen says of it.
@@ -120,7 +120,7 @@ fn scaled(candidate: &Candidate, trial: &Carried, amplitude: f64) -> Carried {
     from
 }
 
-/// What a plant predicts for every number that was measured, in sigma, run by run and window by window.
+/// What a plant predicts for every number that was measured, in sigma and whitened, run by run and window by window.
 fn predictions<const N: usize>(
     plant: &Plant<N, f64>,
     shots: Shots<'_, N>,
@@ -137,6 +137,7 @@ fn predictions<const N: usize>(
                 let [x, y, theta, v, vn, w] = starts[k][w];
                 (Pose { x, y, theta }, BodyTwist { v, vn, w })
             };
+            let mut white = Whitener::<1>::of(run);
             let (mut at, mut last) = (0, usize::MAX);
             run_windows(
                 plant,
@@ -147,9 +148,12 @@ fn predictions<const N: usize>(
                 |w, row, predicted| {
                     if w != last {
                         (at, last) = (0, w);
+                        white.enter();
                     }
                     for c in (0..count).filter(|c| run.saw(row, *c)) {
-                        out[w][at] = predicted[c] / run.sigma[c];
+                        let mut number = [predicted[c] / run.sigma[c]];
+                        white.whiten(c, run.t[row], &mut number);
+                        out[w][at] = number[0];
                         at += 1;
                     }
                 },

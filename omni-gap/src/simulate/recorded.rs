@@ -76,6 +76,8 @@ pub struct Recorded<const N: usize> {
     pub has: Vec<u16>,
     /// One-sigma noise of each channel, by the robot file
     pub sigma: Row,
+    /// How long the noise of each channel remembers itself [s], as an Ornstein–Uhlenbeck process; zero is white
+    pub correlation_time: Row,
     /// True if the currents are magnitudes.
     pub unsigned_current: bool,
     /// Measured yaw rate [rad/s], where there is one
@@ -182,6 +184,7 @@ impl<const N: usize> Recorded<N> {
             measured,
             has,
             sigma,
+            correlation_time: [0.0; MAX_CHANNELS],
             unsigned_current: run.i.as_ref().is_some_and(|g| g.unsigned),
             gyro: (0..rows).map(|row| run.gyro.as_ref().and_then(|c| c.get(row).ok())).collect(),
             largest_voltage,

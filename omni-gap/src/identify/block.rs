@@ -1,0 +1,141 @@
+//! The normal equations of one window, added up as the pass goes.
+//!
+//! ```text
+//! H = Σ JᵀJ,  g = Σ Jᵀe          J: d predicted / d (start, parameters), one row a measured number
+//! ```
+
+use nalgebra::{DMatrix, DVector};
+
+use super::linear::{START, WindowLinear};
+use super::pass::Seen;
+
+/// Keeps a start regular that nothing in its window measures: 1/σ² of (m, m, rad, m/s, m/s, rad/s), much looser than
+/// any sensor, as damping only.
+const LOOSE: [f64; START] = [1.0, 1.0, 1.0, 1.0, 1.0, 0.1];
+
+/// Parameters of a start that are geometry: x, y, θ.
+const MOVED: usize = 3;
+
+/// Everything that a step of the fit needs of one window.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    /// JᵀJ, the start first.
+    pub hess: DMatrix<f64>,
+    /// Jᵀe
+    pub grad: DVector<f64>,
+    /// Σ error² [σ²]
+    pub cost: f64,
+    /// How many numbers were compared.
+    pub count: usize,
+}
+
+/// The sums of one window on their way; lanes are (v, vn, ω, free…).
+#[derive(Clone)]
+pub(super) struct Sums<const LANES: usize> {
+    lanes: [[f64; LANES]; LANES],
+    grad: [f64; LANES],
+    moved: [[f64; MOVED]; MOVED],
+    moved_lanes: [[f64; LANES]; MOVED],
+    moved_grad: [f64; MOVED],
+    cost: f64,
+    count: usize,
+}
+
+impl<const LANES: usize> Sums<LANES> {
+    /// Of nothing yet.
+    pub const NOTHING: Self = Self {
+        lanes: [[0.0; LANES]; LANES],
+        grad: [0.0; LANES],
+        moved: [[0.0; MOVED]; MOVED],
+        moved_lanes: [[0.0; LANES]; MOVED],
+        moved_grad: [0.0; MOVED],
+        cost: 0.0,
+        count: 0,
+    };
+
+    /// Adds the numbers of one row; `pose` is the first channel that depends on where the start is.
+    #[inline]
+    pub fn add(&mut self, row: &[Seen<LANES>], pose: usize) {
+        // H += JᵀJ, a line at a time: the line stays in registers while the row's numbers pass
+        for (a, line) in self.lanes.iter_mut().enumerate() {
+            let mut sum = *line;
+            for seen in row {
+                let slope = seen.lanes[a];
+                for (h, other) in sum.iter_mut().zip(&seen.lanes) {
+                    *h += slope * other;
+                }
+            }
+            *line = sum;
+        }
+        for seen in row {
+            for (g, slope) in self.grad.iter_mut().zip(&seen.lanes) {
+                *g += slope * seen.error;
+            }
+            self.cost += seen.error * seen.error;
+            if seen.channel >= pose {
+                self.add_moved(seen);
+            }
+        }
+        self.count += row.len();
+    }
+
+    #[inline]
+    fn add_moved(&mut self, seen: &Seen<LANES>) {
+        for (a, slope) in seen.moved.into_iter().enumerate() {
+            for (h, other) in self.moved[a].iter_mut().zip(&seen.moved) {
+                *h += slope * other;
+            }
+            for (h, other) in self.moved_lanes[a].iter_mut().zip(&seen.lanes) {
+                *h += slope * other;
+            }
+            self.moved_grad[a] += slope * seen.error;
+        }
+    }
+
+    /// The equations of the start and the first `lanes` lanes.
+    pub fn block(&self, lanes: usize) -> Block {
+        let entry = |row: usize, column: usize| match (row.checked_sub(MOVED), column.checked_sub(MOVED)) {
+            (Some(a), Some(b)) => self.lanes[a][b],
+            (Some(a), None) => self.moved_lanes[column][a],
+            (None, Some(b)) => self.moved_lanes[row][b],
+            (None, None) => self.moved[row][column],
+        };
+        let slope = |k: usize| k.checked_sub(MOVED).map_or_else(|| self.moved_grad[k], |a| self.grad[a]);
+        Block {
+            hess: DMatrix::from_fn(MOVED + lanes, MOVED + lanes, entry),
+            grad: DVector::from_fn(MOVED + lanes, |k, _| slope(k)),
+            cost: self.cost,
+            count: self.count,
+        }
+    }
+}
+
+impl Block {
+    /// Of a window that was kept whole.
+    pub fn of(window: &WindowLinear) -> Self {
+        Self {
+            hess: window.jacobian.tr_mul(&window.jacobian),
+            grad: window.jacobian.tr_mul(&window.error),
+            cost: window.error.norm_squared(),
+            count: window.error.len(),
+        }
+    }
+
+    /// H_zz, held loosely.
+    pub fn start(&self) -> DMatrix<f64> {
+        let mut hzz = self.hess.view((0, 0), (START, START)).into_owned();
+        for k in 0..START {
+            hzz[(k, k)] += LOOSE[k];
+        }
+        hzz
+    }
+
+    /// H_zz⁻¹·[H_zp, g_z], by Cholesky.
+    pub fn eliminate(&self) -> (DMatrix<f64>, DVector<f64>) {
+        let free = self.hess.ncols() - START;
+        match self.start().cholesky() {
+            Some(c) => (c.solve(&self.hess.view((0, START), (START, free))), c.solve(&self.grad.rows(0, START))),
+            None => (DMatrix::zeros(START, free), DVector::zeros(START)),
+        }
+    }
+}

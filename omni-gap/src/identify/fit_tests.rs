@@ -1,0 +1,73 @@
+use model_core::robot::Nominal;
+
+use super::super::shoot::Windows;
+use super::super::staged::{Staging, robot, staged};
+use super::*;
+use crate::simulate::MAX_CHANNELS;
+
+/// Free numbers and their true factors.
+const TRUTH: [(Nominal, f64); 4] =
+    [(Nominal::Resistance, 1.1), (Nominal::Inertia, 0.9), (Nominal::ViscousV, 1.2), (Nominal::CoulombW, 0.85)];
+
+fn truth() -> Model<4> {
+    let mut model = Model::nominal(&robot(), 12.0);
+    TRUTH.iter().for_each(|(p, factor)| model.set(Slot::Nominal(*p), *factor));
+    model
+}
+
+/// A fit from the robot file's own numbers.
+fn fitted(runs: &[Recorded<4>], windows: impl Fn(&Recorded<4>) -> Windows) -> Fit<4> {
+    let windows: Vec<Windows> = runs.iter().map(windows).collect();
+    let runs: Vec<&Recorded<4>> = runs.iter().collect();
+    let free = TRUTH.map(|(p, _)| Free { slot: Slot::Nominal(p), within: (0.1, 4.0) });
+    let shots = Shots { runs: &runs, windows: &windows };
+    fit(Model::nominal(&robot(), 12.0), shots, None, &free, &Prior::stated(&robot()), 1.0, 12)
+}
+
+/// How far the fitted numbers are from the truth, in their own sigma.
+fn off(fit: &Fit<4>) -> [f64; 4] {
+    TRUTH.map(|(p, factor)| {
+        let slot = Slot::Nominal(p);
+        (fit.model.get(slot) - factor) / fit.std(slot).unwrap()
+    })
+}
+
+#[test]
+fn windows_and_whole_runs_both_lead_to_the_truth() {
+    let runs = staged(&truth(), &Staging::default());
+    let windows = fitted(&runs, |run| Windows::new(run, 0.5));
+    let whole = fitted(&runs, Windows::whole);
+    assert_eq!(whole.starts.iter().map(Vec::len).collect::<Vec<_>>(), [1; 6]);
+    for fit in [&windows, &whole] {
+        assert!(off(fit).iter().all(|off| off.abs() < 4.0), "{:?}", off(fit));
+        assert!((fit.cost / fit.samples as f64 - 1.0).abs() < 0.03, "{} of {}", fit.cost, fit.samples);
+    }
+}
+
+#[test]
+fn what_the_fit_says_it_cost_is_the_cost_of_its_model_and_starts() {
+    for tau in [0.0, 0.1] {
+        let how = Staging { runs: 2, correlation_time: [tau; MAX_CHANNELS], ..Staging::default() };
+        let mut runs = staged(&truth(), &how);
+        runs.iter_mut().for_each(|run| run.correlation_time = [tau; MAX_CHANNELS]);
+        let fit = fitted(&runs, |run| Windows::new(run, 0.5));
+        let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, 0.5)).collect();
+        let runs: Vec<&Recorded<4>> = runs.iter().collect();
+        let shots = Shots { runs: &runs, windows: &windows };
+        let plain = cost_of(&fit.model, shots, &fit.starts);
+        let (linear, samples) = fit.linearised(shots).cost();
+        assert!((plain / fit.cost - 1.0).abs() < 1e-9 && (linear / fit.cost - 1.0).abs() < 1e-9);
+        assert_eq!(samples, fit.samples);
+    }
+}
+
+#[test]
+fn noise_that_is_correlated_and_stated_so_leaves_white_errors_and_honest_uncertainties() {
+    const TAU: f64 = 0.1;
+    let correlation_time = std::array::from_fn(|c| if c >= 8 { TAU } else { 0.0 });
+    let mut runs = staged(&truth(), &Staging { runs: 10, correlation_time, ..Staging::default() });
+    runs.iter_mut().for_each(|run| run.correlation_time = correlation_time);
+    let fit = fitted(&runs, |run| Windows::new(run, 1.0));
+    assert!(off(&fit).iter().all(|off| off.abs() < 4.0), "{:?}", off(&fit));
+    assert!((fit.cost / fit.samples as f64 - 1.0).abs() < 0.03, "{} of {}", fit.cost, fit.samples);
+}
