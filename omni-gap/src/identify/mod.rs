@@ -9,6 +9,7 @@ mod block;
 pub mod experiments;
 mod fit;
 mod linear;
+mod noise;
 mod pass;
 mod prior;
 mod shoot;
@@ -19,6 +20,7 @@ mod whiten;
 
 pub use fit::{Fit, Free, fit, profile};
 pub use linear::{Linearised, WindowLinear, linearise};
+pub use noise::{Noise, noise_of};
 pub use prior::{Prior, PriorRow, Release};
 pub use shoot::{Shots, Starts, Windows, first_starts, run_windows};
 pub use tempered::{fit_tempered, nominal_free};
