@@ -20,6 +20,7 @@
 pub mod catalogue;
 pub mod excite;
 pub mod flow;
+pub mod identification;
 pub mod matrices;
 pub mod paper;
 pub mod real;

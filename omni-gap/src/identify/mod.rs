@@ -8,6 +8,7 @@
 mod block;
 pub mod experiments;
 mod fit;
+mod joint;
 mod linear;
 mod noise;
 mod pass;
@@ -17,11 +18,14 @@ mod shoot;
 mod staged;
 mod tempered;
 mod whiten;
+mod words;
 
 pub use fit::{Fit, Free, fit, profile};
+pub use joint::{GIVEN, IDENTIFIED, Identified, Joint, Refused, joint};
 pub use linear::{Linearised, WindowLinear, linearise};
 pub use noise::{Noise, noise_of};
 pub use prior::{Prior, PriorRow, Release};
 pub use shoot::{Shots, Starts, Windows, first_starts, run_windows};
 pub use tempered::{fit_tempered, nominal_free};
 pub use whiten::Whitener;
+pub use words::{TradeOff, Word};

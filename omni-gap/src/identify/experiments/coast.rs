@@ -69,23 +69,39 @@ fn points(decays: &[Vec<Decay>], axis: usize, without: Option<usize>) -> impl It
 
 fn decays<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>]) -> Vec<Vec<Decay>> {
     let wheels = model.plant().robot().wheels;
-    runs.iter()
+    let mut all: Vec<Vec<Course>> = runs
+        .iter()
         .map(|run| {
             let Some(axis) = AXES.iter().position(|axis| run.name.split('-').nth(1) == Some(axis)) else {
                 return Vec::new();
             };
             let bins = bins(run, &wheels, STRETCH);
             let stretches = bins.chunk_by(|a, b| a.open == Some(true) && b.open == Some(true) && a.rows.1 == b.rows.0);
-            stretches.filter(|s| s[0].open == Some(true)).filter_map(|s| decay(s, axis)).collect()
+            stretches.filter(|s| s[0].open == Some(true)).filter_map(|s| course(s, axis)).collect()
         })
-        .collect()
+        .collect();
+    // x = v₀·t − a·t²/2 is as slow as that after (1 − share)·v₀/a. Were a that of each decay alone, noise would choose
+    // where it ends, and one kind of noise more often than the other: it is the mean over the axis
+    for axis in 0..AXES.len() {
+        let slopes: Vec<f64> = all.iter().flatten().filter(|c| c.axis == axis).map(|c| c.slope).collect();
+        let mean = slopes.iter().sum::<f64>() / slopes.len().max(1) as f64;
+        for course in all.iter_mut().flatten().filter(|c| c.axis == axis) {
+            course.points.retain(|p| p[0] <= (1.0 - SLOWEST) * course.speed / mean);
+        }
+    }
+    let decay = |c: &Course| Decay { axis: c.axis, points: without_start(&c.points) };
+    all.iter().map(|run| run.iter().filter(|c| c.points.len() > 4).map(decay).collect()).collect()
 }
 
-/// A decay up to where it becomes slow; `None` where that leaves too little to fit.
-///
-/// Where that is, a parabola through all of it says: a single noisy speed that ended the decay would be one more often
-/// where the noise is on one side.
-fn decay<const N: usize>(stretch: &[Bin<N>], axis: usize) -> Option<Decay> {
+/// How a robot coasted: (t, x, ∫x dt, ±t²/2), and the parabola through its fast part.
+struct Course {
+    axis: usize,
+    points: Vec<[f64; 4]>,
+    speed: f64,
+    slope: f64,
+}
+
+fn course<const N: usize>(stretch: &[Bin<N>], axis: usize) -> Option<Course> {
     let look = (LOOK / stretch[0].dt).round().max(1.0) as usize;
     let speed = |bins: &[Bin<N>]| bins.iter().map(|b| b.twist[axis]).sum::<f64>() / bins.len() as f64;
     let first = speed(&stretch[..look.min(stretch.len())]);
@@ -99,19 +115,13 @@ fn decay<const N: usize>(stretch: &[Bin<N>], axis: usize) -> Option<Decay> {
         (t, x) = (t + bin.dt, x + step);
         points.push([t, x, area, 0.5 * first.signum() * t * t]);
     }
-    // x = v₀·t − a·t²/2 is as slow as that after (1 − share)·v₀/a
-    let mut end = points[used.min(points.len() - 1)][0];
-    for _ in 0..2 {
-        let mut parabola = Rows::<3>::default();
-        for [t, x, ..] in points.iter().take_while(|p| p[0] <= end) {
-            let row = [1.0, *t, -0.5 * first.signum() * t * t];
-            parabola.push(*x, row, row);
-        }
-        let [_, speed, slope] = parabola.least_squares()?;
-        end = ((1.0 - SLOWEST) * speed.abs() / slope).min(points[points.len() - 1][0]);
+    let mut parabola = Rows::<3>::default();
+    for [t, x, _, half_square] in &points[..used.min(points.len())] {
+        let row = [1.0, *t, -half_square];
+        parabola.push(*x, row, row);
     }
-    points.retain(|p| p[0] <= end);
-    (points.len() > 4).then(|| Decay { axis, points: without_start(&points) })
+    let [_, speed, slope] = parabola.least_squares()?;
+    (slope > 0.0).then(|| Course { axis, points, speed: speed.abs(), slope })
 }
 
 /// (x, ∫x, ±t²/2) less the straight lines in t that fit each best: what x₀ and v₀ can make.
@@ -147,7 +157,10 @@ mod tests {
         };
         let stretch: Vec<_> = (0..60).map(bin).collect();
         let mut rows = Rows::<2>::default();
-        for [x, viscous, coulomb] in decay(&stretch, 0).unwrap().points {
+        let course = course(&stretch, 0).unwrap();
+        // the parabola through the whole of it: mean deceleration c + b·v with v between v₀ and the last speed
+        assert!(course.slope > c && course.slope < c + b * v0);
+        for [x, viscous, coulomb] in without_start(&course.points) {
             rows.push(x, [-viscous, -coulomb], [-viscous, -coulomb]);
         }
         let [found_b, found_c] = rows.least_squares().unwrap();

@@ -22,8 +22,8 @@ pub use regress::Estimate;
 pub use spin::spin;
 pub use step::{Method, Stepped, step};
 
-use crate::simulate::{Experiment, Model, Recorded};
-use model_core::robot::Robot;
+use crate::simulate::{Experiment, Model, Recorded, Slot};
+use model_core::robot::{Nominal, Robot};
 
 /// What the experiments say, each on its own, and their average.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,10 +42,12 @@ pub struct Classic {
     pub instrumental: Option<Stepped>,
 }
 
-/// Does every experiment that there are runs of. `model` is what is known before: geometry, mass, K_t and K_v are taken
-/// from it, and first guesses of the rest.
+/// Does every experiment that there are runs of. `model` is what is known before: geometry and mass are taken from it,
+/// K_t and K_v where there is no motor experiment, and first guesses of the rest.
 pub fn classic<const N: usize>(model: &Model<N>, runs: &[Recorded<N>]) -> Classic {
     let of = |wanted| runs.iter().filter(|r| Experiment::of(&r.name) == Some(wanted)).collect::<Vec<_>>();
+    let motor = motor(model, &of(Experiment::Motor));
+    let model = &with_motor(model, motor);
     let spun = spin(model, &of(Experiment::Spin));
     let coasts = of(Experiment::Coast);
     let coasted = coast(model, &coasts);
@@ -57,10 +59,26 @@ pub fn classic<const N: usize>(model: &Model<N>, runs: &[Recorded<N>]) -> Classi
         spin: spun,
         coast: coasted,
         coast_inertia: spun.and_then(|[b, c]| coast_inertia(model, &coasts, b.value, c.value)),
-        motor: motor(model, &of(Experiment::Motor)),
+        motor,
         least_squares: step(model, &steps, coulomb, Method::LeastSquares),
         instrumental: step(model, &steps, coulomb, Method::Instrumental),
     }
+}
+
+/// The model with what the motor experiment says; the paper takes K_t = K_v.
+fn with_motor<const N: usize>(model: &Model<N>, motor: Option<[Estimate; 2]>) -> Model<N> {
+    let mut model = model.clone();
+    let Some([resistance, emf_constant]) = motor else { return model };
+    let nominal = model.plant().robot().motor;
+    for (p, found, known) in [
+        (Nominal::Resistance, resistance.value, nominal.resistance),
+        (Nominal::TorqueConstant, emf_constant.value, nominal.emf_constant),
+    ] {
+        let slot = Slot::Nominal(p);
+        // a motor experiment that went wrong must not take the others with it
+        model.set(slot, model.get(slot) * (found / known).clamp(0.2, 5.0));
+    }
+    model
 }
 
 /// Force of these currents on the body [N, N, N·m] (eq. 13–20).
@@ -69,4 +87,48 @@ fn traction<const N: usize>(robot: &Robot<N, f64>, amps: &[f64; N]) -> [f64; 3] 
     let wheels = robot.wheels.wheels();
     // f_j = l·K_t·i_j/r
     robot.wheels.body_force(std::array::from_fn(|j| kt * amps[j] / wheels[j].radius))
+}
+
+impl Stepped {
+    /// The number of experiment 3, where it has one.
+    pub fn of(&self, nominal: Nominal) -> Option<Estimate> {
+        match nominal {
+            Nominal::Resistance => Some(self.resistance),
+            Nominal::Inertia => Some(self.inertia),
+            Nominal::ViscousV => Some(self.viscous[0]),
+            Nominal::ViscousVn => Some(self.viscous[1]),
+            Nominal::ViscousW => Some(self.viscous[2]),
+            Nominal::CoulombW => Some(self.coulomb_w),
+            _ => None,
+        }
+    }
+}
+
+impl Classic {
+    /// The number of experiments 1 and 2 and of the motor's (the paper's Table 1), where there is one.
+    pub fn first(&self, nominal: Nominal) -> Option<Estimate> {
+        match nominal {
+            Nominal::Resistance => self.motor.map(|[r, _]| r),
+            Nominal::TorqueConstant => self.motor.map(|[_, k]| k),
+            Nominal::Inertia => self.coast_inertia,
+            Nominal::ViscousV => self.coast[0].map(|[b, _]| b),
+            Nominal::ViscousVn => self.coast[1].map(|[b, _]| b),
+            Nominal::CoulombV => self.coast[0].map(|[_, c]| c),
+            Nominal::CoulombVn => self.coast[1].map(|[_, c]| c),
+            Nominal::ViscousW => self.spin.map(|[b, _]| b),
+            Nominal::CoulombW => self.spin.map(|[_, c]| c),
+            _ => None,
+        }
+    }
+
+    /// The paper's final number (Table 3): the mean of Table 1 and experiment 3, but R as experiment 3 has it, and what
+    /// only one of them has as it is.
+    pub fn table(&self, nominal: Nominal) -> Option<Estimate> {
+        let (first, third) = (self.first(nominal), self.instrumental.and_then(|s| s.of(nominal)));
+        match (first, third) {
+            (Some(_), Some(third)) if nominal == Nominal::Resistance => Some(third),
+            (Some(a), Some(b)) => Some(Estimate { value: 0.5 * (a.value + b.value), std: 0.5 * a.std.hypot(b.std) }),
+            (first, third) => first.or(third),
+        }
+    }
 }
