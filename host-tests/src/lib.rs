@@ -7,6 +7,8 @@
 //! - [`flow`]: the exact solution between two sign changes, and when the next one comes;
 //! - [`mod@reference`]: the f64 robot that every other implementation is measured against;
 //! - [`excite`]: seeded robots, and voltage sequences that start, stop, reverse and rest;
+//! - [`printed`]: every figure that the paper prints, beside what comes out when it is computed;
+//! - [`generated`]: the paper's robots as Rust, from their robot files;
 //! - [`catalogue`]: the benchmark of the diagnosis, on recordings whose truth is known;
 //! - [`real`]: what the diagnosis says of recordings of real robots.
 //!
@@ -21,7 +23,9 @@ pub mod catalogue;
 pub mod excite;
 pub mod flow;
 pub mod identification;
+pub mod generated;
 pub mod matrices;
 pub mod paper;
+pub mod printed;
 pub mod real;
 pub mod reference;

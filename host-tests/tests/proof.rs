@@ -13,6 +13,8 @@ mod golden;
 mod geometry;
 #[path = "proof/paper_core.rs"]
 mod paper_core;
+#[path = "proof/paper_robots.rs"]
+mod paper_robots;
 
 #[path = "proof/edges.rs"]
 mod edges;

@@ -1,7 +1,8 @@
 //! The dynamics of 3- and 4-wheel omnidirectional robots, and the effects a plain model leaves out.
 //!
 //! In reading order: the numbers ([`scalar`], [`trig`], [`dual`], [`small`]), the geometry ([`frames`], [`shafts`],
-//! [`kinematics`]), the winding ([`motor`]), the effects' pages ([`card`]).
+//! [`kinematics`]), the winding ([`motor`]), the effects' pages ([`card`]), the robot ([`robot`], [`paper`]) and its
+//! motion ([`body`], [`plant`], [`feedforward`]).
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -38,6 +39,8 @@ pub mod active;
 
 // The robot and its motion
 pub mod robot;
+
+pub mod paper;
 
 pub mod body;
 

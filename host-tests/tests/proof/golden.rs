@@ -8,19 +8,27 @@ use std::path::Path;
 /// # Panics
 /// If the page differs, with its first line that does.
 pub fn holds(name: &str, page: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(name);
+    holds_at(&Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(name), page);
+}
+
+/// The same for a file that stands anywhere.
+///
+/// # Panics
+/// If the text differs, with its first line that does.
+pub fn holds_at(path: &Path, page: &str) {
+    let name = path.file_name().unwrap_or_default().display();
     if std::env::var_os("BLESS").is_some_and(|bless| bless == "1") {
         fs::create_dir_all(path.parent().expect("a folder")).expect("a folder that can be written");
-        fs::write(&path, page).unwrap_or_else(|why| panic!("{name}: {why}"));
+        fs::write(path, page).unwrap_or_else(|why| panic!("{name}: {why}"));
         return;
     }
-    let stored = fs::read_to_string(&path).unwrap_or_default();
+    let stored = fs::read_to_string(path).unwrap_or_default();
     let advice = "judge the difference; if it is right, rewrite the page with BLESS=1";
     for (k, (new, old)) in page.lines().zip(stored.lines()).enumerate() {
-        assert!(new == old, "golden/{name}, line {}: {advice}\n  stands: {old}\n  is now: {new}", k + 1);
+        assert!(new == old, "{name}, line {}: {advice}\n  stands: {old}\n  is now: {new}", k + 1);
     }
     let (new, old) = (page.lines().count(), stored.lines().count());
-    assert!(new == old, "golden/{name} has {old} lines and is now {new} long: {advice}");
+    assert!(new == old, "{name} has {old} lines and is now {new} long: {advice}");
 }
 
 /// A number with two significant digits, so that a page stays as it is while nothing that matters changes.
