@@ -12,6 +12,7 @@ mod given;
 mod identify;
 mod place;
 mod predict;
+mod sensitivity;
 mod simulate;
 mod stop;
 mod voice;
@@ -45,6 +46,7 @@ enum Command {
     Identify(identify::Identify),
     Predict(predict::Predict),
     Simulate(simulate::Simulate),
+    Sensitivity(sensitivity::Sensitivity),
     Explain(explain::Explain),
 }
 
@@ -62,6 +64,7 @@ impl Cli {
             Command::Identify(c) => c.run(&voice),
             Command::Predict(c) => c.run(&voice),
             Command::Simulate(c) => c.run(&voice),
+            Command::Sensitivity(c) => c.run(&voice),
             Command::Explain(c) => c.run(&voice),
         };
         voice.end_phase();

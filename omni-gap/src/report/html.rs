@@ -13,36 +13,41 @@ use super::words;
 
 /// The whole page.
 pub fn html(report: &Report, pictures: &Pictures) -> String {
+    page(&format!("{}: {}", subject(report), words::verdict(report.verdict)), |m| {
+        head(m, report);
+        notes::faults(m, report);
+        gap::how_large(m, report);
+        blame::places(m, report);
+        blame::causes(m, report);
+        signals::charts(m, pictures);
+        notes::parameters(m, report);
+        notes::next(m, report);
+        notes::not_seen(m, report);
+        notes::notices(m, report);
+        foot(m);
+    })
+}
+
+/// A page with its style, around what `fill` writes.
+pub(super) fn page(title: &str, fill: impl FnOnce(&mut Markup)) -> String {
     let mut m = Markup::default();
     m.own("<!doctype html>\n");
     m.within("html", &[("lang", &"en")], |m| {
         m.within("head", &[], |m| {
             m.own("<meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">");
             m.own("<meta name=\"color-scheme\" content=\"light dark\">");
-            m.leaf("title", &[], &format!("{}: {}", subject(report), words::verdict(report.verdict)));
+            m.leaf("title", &[], title);
             m.within("style", &[], |m| m.own(include_str!("html/style.css")));
         });
         m.within("body", &[], |m| {
-            m.within("main", &[], |m| {
-                head(m, report);
-                notes::faults(m, report);
-                gap::how_large(m, report);
-                blame::places(m, report);
-                blame::causes(m, report);
-                signals::charts(m, pictures);
-                notes::parameters(m, report);
-                notes::next(m, report);
-                notes::not_seen(m, report);
-                notes::notices(m, report);
-                foot(m);
-            });
+            m.within("main", &[], fill);
         });
     });
     m.finish() + "\n"
 }
 
 /// A section under a heading, with a line that says how to read it.
-fn section(m: &mut Markup, title: &str, explained: &str, fill: impl FnOnce(&mut Markup)) {
+pub(super) fn section(m: &mut Markup, title: &str, explained: &str, fill: impl FnOnce(&mut Markup)) {
     m.within("section", &[], |m| {
         m.leaf("h2", &[], title);
         if !explained.is_empty() {

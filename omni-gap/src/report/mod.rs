@@ -2,7 +2,8 @@
 //!
 //! A [`Report`] is the diagnosis as data: `report.json` is that struct and nothing else. [`terminal()`] says it in about
 //! ten lines, [`html()`] draws it on one page that needs no network, and [`write()`] puts the files into a folder so that
-//! none is ever half-written. Neither prose nor page computes anything: every sentence traces to a number in the report.
+//! none is ever half-written. [`sensitivity_html()`] is a page of its own. Neither prose nor page computes anything: every
+//! sentence traces to a number in the report.
 
 mod horizons;
 mod html;
@@ -13,6 +14,7 @@ mod picture;
 #[cfg(test)]
 mod sample;
 mod scale;
+mod sensitivity;
 mod sound;
 mod terminal;
 mod thin;
@@ -26,5 +28,6 @@ pub use model::{
 };
 pub use number::{estimate, num, percent};
 pub use picture::{MEASURED, Panel, Pictures, Series};
+pub use sensitivity::{sensitivity_html, sensitivity_terminal, write_sensitivity};
 pub use terminal::terminal;
 pub use write::{Written, write};

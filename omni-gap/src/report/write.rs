@@ -24,21 +24,26 @@ pub struct Written {
 ///
 /// An error says which path, why, and how to mend it.
 pub fn write(dir: &Path, report: &Report, html: &str, corrected_robot_toml: &str) -> Result<Written> {
+    let json = report.to_json().map_err(|why| unwritable(&why.into(), &dir.join("report.json")))?;
+    let files = [("report.json", json.as_str()), ("report.html", html), ("corrected_robot.toml", corrected_robot_toml)];
+    let [json, html, robot] = put(dir, files)?;
+    Ok(Written { json, html, robot })
+}
+
+/// Puts files into the folder, which is made where it is not there; the error is as for [`write()`].
+pub(super) fn put<const COUNT: usize>(dir: &Path, files: [(&str, &str); COUNT]) -> Result<[PathBuf; COUNT]> {
     std::fs::create_dir_all(dir).map_err(|why| match dir.is_file() {
         true => Error::output(dir, "it is a file, and the report needs a folder", NAME_ANOTHER),
         false => Error::output(dir, why.to_string(), ROOM),
     })?;
-    let [json_at, html_at, robot_at] =
-        ["report.json", "report.html", "corrected_robot.toml"].map(|name| dir.join(name));
-    let json = report.to_json().map_err(|why| unwritable(&why.into(), &json_at))?;
-    // All three are staged before the first is put in place: a full disk then leaves an older report as it was.
-    let staged = [(&json_at, json.as_str()), (&html_at, html), (&robot_at, corrected_robot_toml)]
-        .map(|(path, text)| stage(dir, path, text).map(|file| (path, file)));
-    for staged in staged {
-        let (path, file) = staged?;
+    let places = files.map(|(name, _)| dir.join(name));
+    // All are staged before the first is put in place: a full disk then leaves an older report as it was.
+    let staged: Vec<_> =
+        places.iter().zip(files).map(|(path, (_, text))| stage(dir, path, text)).collect::<Result<_>>()?;
+    for (path, file) in places.iter().zip(staged) {
         file.persist(path).map_err(|e| unwritable(&e.error, path))?;
     }
-    Ok(Written { json: json_at, html: html_at, robot: robot_at })
+    Ok(places)
 }
 
 /// The text in a file of the same folder that nobody reads yet.
@@ -58,7 +63,7 @@ fn stage(dir: &Path, path: &Path, text: &str) -> Result<tempfile::NamedTempFile>
     staged().map_err(|e: io::Error| unwritable(&e, path))
 }
 
-fn unwritable(why: &io::Error, path: &Path) -> Error {
+pub(super) fn unwritable(why: &io::Error, path: &Path) -> Error {
     Error::output(path, why.to_string(), ROOM)
 }
 

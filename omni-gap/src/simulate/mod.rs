@@ -3,7 +3,8 @@
 //! Pure: the same model, input and seed give the same run, bit for bit. A [`Model`] is what files describe; a
 //! [`Recorded`] run is a recording laid out row by row for the plant; [`predict`] lets the one run freely beside the
 //! other, restarted every horizon from a [`Start`] that no model had a part in; [`record`] makes a recording of a robot
-//! that is not there, and [`excite`] tells it what to do.
+//! that is not there, and [`excite`] tells it what to do. [`sensitivity()`] says which numbers of a file the motion depends
+//! on.
 
 mod excite;
 mod halls;
@@ -14,6 +15,7 @@ mod record;
 mod recorded;
 mod script;
 mod sensing;
+mod sensitivity;
 mod start;
 
 pub use excite::{Excitation, excite};
@@ -24,4 +26,7 @@ pub use record::{Recording, SpeedSensor, record};
 pub use recorded::{Chain, Channels, MAX_CHANNELS, Recorded, Row};
 pub use script::{AXES, Experiment, Plan, Script, along, scripts};
 pub use sensing::Sensing;
+pub use sensitivity::{
+    AxisSensitivity, CurvePoint, Influence, PAPER_VOLTAGE, Sensitivity, StepPlan, Terms, motors_of, sensitivity, terms,
+};
 pub use start::{Start, start_at};

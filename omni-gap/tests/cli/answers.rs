@@ -154,3 +154,25 @@ fn check_finds_no_fault_in_a_sound_session() {
     assert!(said.out.contains("3 run(s) checked: no fault found"), "{}", said.out);
     assert!(said.out.contains("notice: ") && said.out.contains("notes.txt: not a run log"), "{}", said.out);
 }
+
+#[test]
+fn sensitivity_says_the_terms_and_ranks_the_numbers_with_and_without_files() {
+    let bench = Bench::empty();
+    bench.write("robot.toml", crate::bench::ROBOT);
+    let said = bench.done(&["sensitivity", "robot.toml"]);
+    // 2·(Kt·l/r)²/(R·M), Bv/M, 2·l·Kt/(r·R·M)·6 V, Cv/M
+    assert!(said.out.contains("dv/dt = 4.74 − 3.15·v − 0.213·v − 0.801 m/s²"), "{}", said.out);
+    assert_eq!(bench.all().len(), 1, "without --out nothing is written");
+    let args = ["sensitivity", "robot.toml", "--voltage", "3", "--time", "0.5", "--out", "deep/out"];
+    let said = bench.done(&args);
+    assert!(said.out.contains("written to deep/out"), "{}", said.out);
+    let read: serde_json::Value = serde_json::from_str(&bench.read("deep/out/sensitivity.json")).unwrap();
+    assert_eq!((read["voltage_V"].as_f64(), read["time_s"].as_f64()), (Some(3.0), Some(0.5)));
+    let slopes: Vec<f64> =
+        read["axes"][0]["influences"].as_array().unwrap().iter().map(|i| i["speed"].as_f64().unwrap().abs()).collect();
+    assert!(slopes.len() == 13 && slopes.is_sorted_by(|a, b| a >= b), "{slopes:?}");
+    assert!(bench.read("deep/out/sensitivity.html").contains("<svg"));
+    let first = bench.read("deep/out/sensitivity.html");
+    bench.done(&args);
+    assert_eq!(first, bench.read("deep/out/sensitivity.html"), "the same again, bit for bit");
+}

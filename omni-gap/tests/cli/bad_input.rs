@@ -215,3 +215,34 @@ fn numbers_on_the_command_line() {
     assert_eq!(bench.run(&["simulate", "r", "--input", "i", "--out", "o", "--seed", "x"]).code, 2);
     assert_eq!(bench.run(&[]).code, 2);
 }
+
+#[test]
+fn a_step_that_cannot_be_taken() {
+    let bench = Bench::with_session();
+    let robot = "session/robot.toml";
+    refused(
+        &bench,
+        &["sensitivity", "nowhere.toml", "--out", "out"],
+        &["nowhere.toml: no such file", "Check the path"],
+    );
+    refused(&bench, &["sensitivity", "session", "--out", "out"], &["session: this is a folder", "a robot file"]);
+    let much = ["sensitivity", robot, "--voltage", "100", "--out", "out/deep"];
+    refused(&bench, &much, &["robot.toml: its supply gives 12", "asks for 100 V", "no more than"]);
+    bench.write("plain", "mine");
+    std::fs::create_dir_all(bench.at("taken/sensitivity.html")).unwrap();
+    let below = ["cannot be written", "plain is a file, not a folder", "--out"];
+    refused(&bench, &["sensitivity", robot, "--out", "plain/out"], &below);
+    refused(&bench, &["sensitivity", robot, "--out", "taken"], &["sensitivity.html: cannot be written", "folder"]);
+    let before = bench.all();
+    for (option, values, told) in [
+        ("--voltage", &["0", "-6", "NaN", "inf", "much"][..], "above zero"),
+        ("--time", &["0", "-1", "NaN", "1e9", "soon"], "from 0.01 to 60 seconds"),
+    ] {
+        for value in values {
+            let said = bench.run(&["sensitivity", robot, &format!("{option}={value}"), "--out", "out"]);
+            assert_eq!((said.code, said.out.as_str()), (2, ""), "{option}={value}");
+            assert!(said.err.contains(option) && said.err.contains(told), "{}", said.err);
+        }
+    }
+    assert_eq!(bench.all(), before);
+}

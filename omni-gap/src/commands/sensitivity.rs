@@ -1,0 +1,84 @@
+//! `sensitivity`: which numbers of a robot file the motion depends on.
+
+use std::path::PathBuf;
+
+use omni_gap::log::RobotFile;
+use omni_gap::report::{num, sensitivity_terminal, write_sensitivity};
+use omni_gap::simulate::{StepPlan, sensitivity};
+use omni_gap::{Error, known_effects};
+
+use super::place::{self, NewFolder};
+use super::{DONE, Done, Stop, Voice};
+
+/// Say which numbers of a robot file its motion depends on, axis by axis
+#[derive(Debug, clap::Args)]
+pub struct Sensitivity {
+    /// The robot file, with the effects that it names
+    #[arg(value_name = "ROBOT.toml")]
+    robot: PathBuf,
+
+    /// Voltage of the step on the motor that gets most [V]; 6 V, or the supply where that is less
+    #[arg(long, value_name = "V", value_parser = volts)]
+    voltage: Option<f64>,
+
+    /// When to look at the speed [s]
+    #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = seconds)]
+    time: f64,
+
+    /// Folder for sensitivity.json and sensitivity.html; made if need be
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// The files of the command.
+const FILES: [&str; 2] = ["sensitivity.json", "sensitivity.html"];
+/// Times that can be looked at [s]
+const TIMES: (f64, f64) = (0.01, 60.0);
+
+impl Sensitivity {
+    /// Does it.
+    pub fn run(&self, voice: &Voice) -> Done {
+        if let Some(out) = &self.out {
+            place::folder(out, &FILES)?;
+        }
+        let file = RobotFile::load(&self.robot, &known_effects())?;
+        let voltage =
+            self.voltage.map_or(Ok(StepPlan::usual(&file).voltage), |volts| self.within_supply(volts, &file))?;
+        voice.phase("driving each axis");
+        let said = sensitivity(&file, &StepPlan { voltage, time: self.time });
+        let mut text = sensitivity_terminal(&said);
+        if let Some(out) = &self.out {
+            let folder = NewFolder::make(out)?;
+            let [_, page] = write_sensitivity(out, &said)?;
+            folder.keep();
+            text += &format!("\nwritten to {} and sensitivity.json beside it\n", page.display());
+        }
+        voice.say(&text)?;
+        Ok(DONE)
+    }
+
+    fn within_supply(&self, voltage: f64, file: &RobotFile) -> Result<f64, Stop> {
+        match file.supply {
+            Some(supply) if voltage > supply.voltage_v => {
+                let problem =
+                    format!("its supply gives {} V, --voltage asks for {} V", num(supply.voltage_v), num(voltage));
+                Err(Error::input(&self.robot, problem, "Ask for no more than the supply gives").into())
+            }
+            _ => Ok(voltage),
+        }
+    }
+}
+
+fn volts(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("expected a voltage above zero, in volts, such as 6".to_owned()),
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (TIMES.0..=TIMES.1).contains(&x) => Ok(x),
+        _ => Err(format!("expected a time from {} to {} seconds", TIMES.0, TIMES.1)),
+    }
+}
