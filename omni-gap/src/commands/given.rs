@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use omni_gap::log::{Columns, RobotFile, Run};
-use omni_gap::simulate::Recorded;
-use omni_gap::{Error, Session, known_effects};
+use omni_gap::simulate::{Recorded, drivable};
+use omni_gap::{Session, known_effects};
 
 use super::{Stop, Voice};
 
@@ -86,10 +86,7 @@ pub fn robot_and_run(robot: &Path, run: &Path, columns: Option<&Path>, voice: &V
 impl RobotAndRun {
     /// The run, ready to be driven along.
     pub fn recorded<const N: usize>(&self) -> Result<Recorded<N>, Stop> {
-        Recorded::new(&self.run, &self.robot).ok_or_else(|| {
-            let problem = "nothing in it can drive a model: no voltage, signed current, wheel speed or commanded speed";
-            Error::input(&self.run.path, problem, "Log at least one of u, i, w or wset for every wheel").into()
-        })
+        Ok(drivable(&self.run, &self.robot)?)
     }
 }
 

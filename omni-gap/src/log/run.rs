@@ -4,7 +4,7 @@
 //! channels of one kind, one per wheel, or x, y and heading for the pose. A [`Run`] is the groups on one clock.
 
 use super::robot_file::RobotFile;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a sample is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -221,6 +221,9 @@ impl Run {
     /// Whether the bridges are open on a row.
     pub fn is_open(&self, row: usize) -> bool {
         self.enable.as_ref().is_some_and(|enable| enable.get(row) == Ok(0.0))
+    /// Where it stands: its file; its name, for a run made in memory.
+    pub fn place(&self) -> &Path {
+        if self.path.as_os_str().is_empty() { Path::new(&self.name) } else { &self.path }
     }
 
     /// The line of the file on which a row stands; for a run made in memory, of the file that it would be written to.

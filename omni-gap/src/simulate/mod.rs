@@ -6,6 +6,7 @@
 //! that is not there, and [`excite`] tells it what to do. [`sensitivity()`] says which numbers of a file the motion depends
 //! on.
 
+mod drivable;
 mod excite;
 mod halls;
 mod keys;
@@ -18,6 +19,7 @@ mod sensing;
 mod sensitivity;
 mod start;
 
+pub use drivable::drivable;
 pub use excite::{Excitation, excite};
 pub use keys::{NOMINAL_KEYS, NominalKey};
 pub use model::{Carried, Model, Slot, robot_of};

@@ -20,12 +20,25 @@ pub struct Start<const N: usize> {
     pub wheel_speed: Option<[f64; N]>,
     /// (x, y, θ) and its rate [m, m, rad] [m/s, m/s, rad/s], where measured
     pub pose: Option<([f64; 3], [f64; 3])>,
+    /// Σ(t − t̄)² of the samples behind the pose's rate [s²]; the rate's variance is that of a sample over this
+    pub pose_spread: Option<f64>,
     /// Yaw rate [rad/s], where measured
     pub gyro: Option<f64>,
 }
 
-/// Value and slope of the least-squares line through the points, at time `at`.
-fn line(points: impl Iterator<Item = (f64, f64)> + Clone, at: f64) -> Option<(f64, f64)> {
+/// The least-squares line through some points.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    /// At the time asked for.
+    value: f64,
+    /// A second.
+    slope: f64,
+    /// Σ(t − t̄)² [s²]
+    spread: f64,
+}
+
+/// The least-squares line through the points, read at time `at`.
+fn line(points: impl Iterator<Item = (f64, f64)> + Clone, at: f64) -> Option<Line> {
     let (mut n, mut st, mut sx) = (0.0, 0.0, 0.0);
     for (t, x) in points.clone() {
         n += 1.0;
@@ -43,11 +56,11 @@ fn line(points: impl Iterator<Item = (f64, f64)> + Clone, at: f64) -> Option<(f6
         tx += d * (x - mean_x);
     }
     let slope = if tt > 0.0 { tx / tt } else { 0.0 };
-    Some((mean_x - slope * mean_t, slope))
+    Some(Line { value: mean_x - slope * mean_t, slope, spread: tt })
 }
 
 /// The line through one channel around a row.
-fn smooth(t: &[f64], row: usize, half: f64, sample: impl Fn(usize) -> Option<f64> + Copy) -> Option<(f64, f64)> {
+fn smooth(t: &[f64], row: usize, half: f64, sample: impl Fn(usize) -> Option<f64> + Copy) -> Option<Line> {
     let at = t[row];
     (0..3).find_map(|widen| {
         let half = half * f64::from(1 << widen) + 1e-9;
@@ -63,8 +76,8 @@ pub fn start_at<const N: usize>(run: &Recorded<N>, row: usize) -> Start<N> {
     let channel = |c: usize, half: f64| smooth(t, row, half, move |k| run.saw(k, c).then(|| run.measured[k][c]));
     let mut wheel_speed = Some([0.0; N]);
     for j in 0..N {
-        wheel_speed = wheel_speed.zip(channel(N + j, SPEED_HALF_S)).map(|(mut w, (value, _))| {
-            w[j] = value;
+        wheel_speed = wheel_speed.zip(channel(N + j, SPEED_HALF_S)).map(|(mut w, line)| {
+            w[j] = line.value;
             w
         });
     }
@@ -72,9 +85,11 @@ pub fn start_at<const N: usize>(run: &Recorded<N>, row: usize) -> Start<N> {
         wheel_speed = Some(run.input[row]);
     }
     let axis = |a: usize| channel(2 * N + a, POSE_HALF_S);
-    let pose = axis(0).zip(axis(1)).zip(axis(2)).map(|((x, y), theta)| ([x.0, y.0, theta.0], [x.1, y.1, theta.1]));
-    let gyro = smooth(t, row, SPEED_HALF_S, |k| run.gyro[k]).map(|g| g.0);
-    Start { time: t[row], wheel_speed, pose, gyro }
+    let lines = axis(0).zip(axis(1)).zip(axis(2)).map(|((x, y), theta)| [x, y, theta]);
+    let pose = lines.map(|lines| (lines.map(|l| l.value), lines.map(|l| l.slope)));
+    let pose_spread = lines.map(|lines| lines[0].spread);
+    let gyro = smooth(t, row, SPEED_HALF_S, |k| run.gyro[k]).map(|g| g.value);
+    Start { time: t[row], wheel_speed, pose, pose_spread, gyro }
 }
 
 impl<const N: usize> Start<N> {
@@ -120,15 +135,15 @@ mod tests {
     #[test]
     fn a_line_is_read_at_the_restart_itself() {
         let points = [(0.0, 1.0), (0.1, 1.2), (0.2, 1.4)];
-        let (value, slope) = line(points.into_iter(), 0.25).unwrap();
-        assert!((value - 1.5).abs() < 1e-12 && (slope - 2.0).abs() < 1e-12);
+        let Line { value, slope, spread } = line(points.into_iter(), 0.25).unwrap();
+        assert!((value - 1.5).abs() < 1e-12 && (slope - 2.0).abs() < 1e-12 && (spread - 0.02).abs() < 1e-12);
     }
 
     #[test]
     fn a_window_without_samples_is_widened_and_one_sample_is_none() {
         let t: Vec<f64> = (0..101).map(|k| f64::from(k) * 0.01).collect();
         let sparse = |k: usize| k.is_multiple_of(15).then(|| 3.0 * t[k]);
-        assert!((smooth(&t, 50, 0.05, sparse).unwrap().0 - 1.5).abs() < 1e-12);
+        assert!((smooth(&t, 50, 0.05, sparse).unwrap().value - 1.5).abs() < 1e-12);
         assert!(smooth(&t, 50, 0.05, |k| (k == 50).then_some(1.0)).is_none());
     }
 }
