@@ -1,11 +1,13 @@
 //! # Localise: where the gap lies
 //!
 //! How large the gap is by the protocol ([`measure`]), which measured link of the signal path it belongs to ([`links`]),
-//! and in which regime of the motion it is largest ([`regimes`]).
+//! and in which regime of the motion it is largest ([`regimes`]). [`validation`] lays whole free runs over what was
+//! measured, signal by signal.
 
 mod gap;
 mod links;
 mod regime;
+pub mod validation;
 
 pub use gap::{GROUPS, Measured, floor, measure};
 pub use links::{Link, Links, links};
