@@ -2,7 +2,7 @@
 
 mod blame;
 mod gap;
-mod notes;
+pub(super) mod notes;
 mod signals;
 
 use super::markup::Markup;
@@ -29,6 +29,7 @@ pub fn html(report: &Report, pictures: &Pictures) -> String {
 }
 
 /// A page with its style, around what `fill` writes.
+/// A page of this house under a title.
 pub(super) fn page(title: &str, fill: impl FnOnce(&mut Markup)) -> String {
     let mut m = Markup::default();
     m.own("<!doctype html>\n");
@@ -42,6 +43,7 @@ pub(super) fn page(title: &str, fill: impl FnOnce(&mut Markup)) -> String {
         m.within("body", &[], |m| {
             m.within("main", &[], fill);
         });
+        m.within("body", &[], |m| m.within("main", &[], fill));
     });
     m.finish() + "\n"
 }
@@ -123,6 +125,24 @@ fn foot(m: &mut Markup) {
     );
 }
 
+/// Fails where a tag of a page stays open or closes another.
+#[cfg(test)]
+pub(super) fn every_tag_closes(name: &str, page: &str) {
+    let mut open = Vec::new();
+    for tag in page.split('<').skip(1).map(|rest| rest.split('>').next().unwrap()) {
+        match tag.split_whitespace().next().unwrap() {
+            "!doctype" | "meta" => {}
+            closing if closing.starts_with('/') => assert_eq!(open.pop(), Some(&closing[1..]), "{name}: <{tag}>"),
+            opening => open.push(opening),
+        }
+    }
+    assert!(open.is_empty(), "{name}: {open:?} stay open");
+}
+
+/// What no page may hold: it needs no script and no network, and shows no number that is none.
+#[cfg(test)]
+pub(super) const BANNED: [&str; 6] = ["<script", "http", "url(", "@import", "NaN", "javascript"];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -132,7 +152,7 @@ mod tests {
     fn a_page_needs_no_script_and_no_network() {
         for (name, report) in sample::all() {
             let page = html(&report, &sample::pictures());
-            for banned in ["<script", "http", "url(", "@import", "NaN", "javascript"] {
+            for banned in BANNED {
                 assert!(!page.contains(banned), "{name} contains {banned}");
             }
         }
@@ -141,18 +161,7 @@ mod tests {
     #[test]
     fn every_tag_that_opens_closes() {
         for (name, report) in sample::all() {
-            let page = html(&report, &sample::pictures());
-            let mut open = Vec::new();
-            for tag in page.split('<').skip(1).map(|rest| rest.split('>').next().unwrap()) {
-                match tag.split_whitespace().next().unwrap() {
-                    "!doctype" | "meta" => {}
-                    closing if closing.starts_with('/') => {
-                        assert_eq!(open.pop(), Some(&closing[1..]), "{name}: <{tag}>")
-                    }
-                    opening => open.push(opening),
-                }
-            }
-            assert!(open.is_empty(), "{name}: {open:?} stay open");
+            every_tag_closes(name, &html(&report, &sample::pictures()));
         }
     }
 

@@ -4,6 +4,7 @@
 //! ten lines, [`html()`] draws it on one page that needs no network, and [`write()`] puts the files into a folder so that
 //! none is ever half-written. [`sensitivity_html()`] is a page of its own. Neither prose nor page computes anything: every
 //! sentence traces to a number in the report.
+//! none is ever half-written; [`validation`] does the same for a model laid over its recordings. Neither prose nor page computes anything: every sentence traces to a number in the report.
 
 mod horizons;
 mod html;
@@ -18,6 +19,7 @@ mod sensitivity;
 mod sound;
 mod terminal;
 mod thin;
+pub mod validation;
 mod words;
 mod write;
 

@@ -7,6 +7,9 @@ use super::thin::stretches;
 /// Name of the series that was measured: drawn below the others, and not broken where predictions restart.
 pub const MEASURED: &str = "measured";
 
+/// Name of the series that a model says, where there is but one model.
+pub const SIMULATED: &str = "simulated";
+
 /// The pictures of a report.
 #[derive(Clone, Debug, Default)]
 pub struct Pictures {
@@ -27,7 +30,7 @@ pub struct Panel {
     pub unit: String,
     /// Time of every row (s).
     pub t_s: Vec<f64>,
-    /// Lines of the chart; names `measured`, `nominal` and `corrected` have fixed colours.
+    /// Lines of the chart; names `measured`, `simulated`, `nominal` and `corrected` have fixed colours.
     pub series: Vec<Series>,
 }
 
@@ -49,6 +52,7 @@ pub(super) const INSIDE_Y: (f64, f64) = (166.0, 26.0);
 pub(super) fn ink(name: &str, at: usize) -> String {
     match name {
         MEASURED => "measured".into(),
+        SIMULATED => "simulated".into(),
         "nominal" | "before" => "nominal".into(),
         "corrected" | "after" => "corrected".into(),
         _ => format!("other{}", at % 4),

@@ -126,10 +126,11 @@ fn how_far(page: &mut Page, report: &Report) {
 }
 
 /// Lines with a label, broken at spaces.
-struct Page(String);
+pub(super) struct Page(pub(super) String);
 
 impl Page {
-    fn line(&mut self, label: &str, text: &str) {
+    /// A line under a label; the first of a page has no room for one.
+    pub(super) fn line(&mut self, label: &str, text: &str) {
         let indent = if self.0.is_empty() { 0 } else { LABEL };
         let mut line = format!("{label:indent$}");
         let mut words = 0;

@@ -93,7 +93,8 @@ pub(super) fn notices(m: &mut Markup, report: &Report) {
     list(m, "Notices", &report.notices);
 }
 
-fn list(m: &mut Markup, title: &str, items: &[String]) {
+/// Items under a heading; nothing where there are none.
+pub(in crate::report) fn list(m: &mut Markup, title: &str, items: &[String]) {
     if items.is_empty() {
         return;
     }
