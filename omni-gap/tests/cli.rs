@@ -10,3 +10,5 @@ mod bench;
 mod explain;
 #[path = "cli/manners.rs"]
 mod manners;
+#[path = "cli/validate.rs"]
+mod validate;

@@ -15,6 +15,7 @@ mod predict;
 mod sensitivity;
 mod simulate;
 mod stop;
+mod validate;
 mod voice;
 
 use clap::{Parser, Subcommand};
@@ -45,6 +46,7 @@ enum Command {
     Check(check::Check),
     Identify(identify::Identify),
     Predict(predict::Predict),
+    Validate(validate::Validate),
     Simulate(simulate::Simulate),
     Sensitivity(sensitivity::Sensitivity),
     Explain(explain::Explain),
@@ -63,6 +65,7 @@ impl Cli {
             Command::Check(c) => c.run(&voice),
             Command::Identify(c) => c.run(&voice),
             Command::Predict(c) => c.run(&voice),
+            Command::Validate(c) => c.run(&voice),
             Command::Simulate(c) => c.run(&voice),
             Command::Sensitivity(c) => c.run(&voice),
             Command::Explain(c) => c.run(&voice),

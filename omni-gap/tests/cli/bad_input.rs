@@ -24,6 +24,7 @@ fn session_refused(bench: &Bench, says: &[&str]) {
     refused(bench, &["diagnose", "session", "--out", "out/deep"], says);
     refused(bench, &["identify", "session", "--out", "fitted.toml"], says);
     refused(bench, &["check", "session"], says);
+    refused(bench, &["validate", "session", "--out", "out/deep"], says);
 }
 
 /// A run that cannot be read, refused by all that read runs.
