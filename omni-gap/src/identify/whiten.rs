@@ -78,6 +78,7 @@ mod tests {
             dt: Vec::new(),
             chain: Chain::Voltage,
             input: Vec::new(),
+            open: Vec::new(),
             measured: Vec::new(),
             has: Vec::new(),
             sigma: [1.0; MAX_CHANNELS],

@@ -221,6 +221,8 @@ impl Run {
     /// Whether the bridges are open on a row.
     pub fn is_open(&self, row: usize) -> bool {
         self.enable.as_ref().is_some_and(|enable| enable.get(row) == Ok(0.0))
+    }
+
     /// Where it stands: its file; its name, for a run made in memory.
     pub fn place(&self) -> &Path {
         if self.path.as_os_str().is_empty() { Path::new(&self.name) } else { &self.path }

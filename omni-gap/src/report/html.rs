@@ -28,8 +28,7 @@ pub fn html(report: &Report, pictures: &Pictures) -> String {
     })
 }
 
-/// A page with its style, around what `fill` writes.
-/// A page of this house under a title.
+/// A page with its title and style, around what `fill` writes.
 pub(super) fn page(title: &str, fill: impl FnOnce(&mut Markup)) -> String {
     let mut m = Markup::default();
     m.own("<!doctype html>\n");
@@ -43,7 +42,6 @@ pub(super) fn page(title: &str, fill: impl FnOnce(&mut Markup)) -> String {
         m.within("body", &[], |m| {
             m.within("main", &[], fill);
         });
-        m.within("body", &[], |m| m.within("main", &[], fill));
     });
     m.finish() + "\n"
 }
