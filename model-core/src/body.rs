@@ -51,7 +51,7 @@ impl<T: Real> Mobility<T> {
     }
 
     /// H⁻¹·f.
-    #[inline]
+    #[inline(always)]
     pub fn of(&self, f: [T; 3]) -> [T; 3] {
         match self {
             Self::Diagonal(d) => [d[0] * f[0], d[1] * f[1], d[2] * f[2]],

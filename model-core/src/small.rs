@@ -24,7 +24,7 @@ pub type Vec3<T> = [T; 3];
 pub type Mat3<T> = [[T; 3]; 3];
 
 /// aᵀb; the unit of a times that of b.
-#[inline]
+#[inline(always)]
 pub fn dot<T: Real>(a: Vec3<T>, b: Vec3<T>) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -101,7 +101,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     }
 
     /// The motor of the plain model.
-    #[inline]
+    #[inline(always)]
     fn plain_motor(&self, voltage: T, wheel_speed: T) -> Electric<T> {
         // i = (u − l·K_v·ω)/R,  τ = l·K_t·i
         let current = (voltage - self.emf * wheel_speed) * self.per_resistance;

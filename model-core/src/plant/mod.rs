@@ -301,7 +301,8 @@ impl<const N: usize, T: Real> Plant<N, T> {
         bus: T,
         dt: T,
     ) -> Reading<N, T> {
-        let reading = self.read(&self.at(state, dt), state, memory, truth);
+        let sensed = !self.effects.none_at(Seam::Sense);
+        let reading = if sensed { self.read(&self.at(state, dt), state, memory, truth) } else { truth };
         let next = BodyTwist::from_array(next);
         let mean = state.twist.mean(next);
         if !self.effects.is_empty() {

@@ -8,11 +8,8 @@ use crate::seams::{At, Sense, Turn};
 
 impl<const N: usize, T: Real> Plant<N, T> {
     /// What the sensors make of the truth.
-    #[inline]
+    #[inline(never)]
     pub(super) fn read(&self, at: &At<T>, state: &State<N, T>, memory: &[T], truth: Reading<N, T>) -> Reading<N, T> {
-        if self.effects.none_at(Seam::Sense) {
-            return truth;
-        }
         let mut reading = truth;
         for active in self.effects.at(Seam::Sense) {
             if active.whole() {
