@@ -32,6 +32,7 @@ pub(super) struct Block {
 /// The sums of one window on their way; lanes are (v, vn, ω, free…).
 #[derive(Clone)]
 pub(super) struct Sums<const LANES: usize> {
+    /// On and above the diagonal.
     lanes: [[f64; LANES]; LANES],
     grad: [f64; LANES],
     moved: [[f64; MOVED]; MOVED],
@@ -56,12 +57,24 @@ impl<const LANES: usize> Sums<LANES> {
     /// Adds the numbers of one row; `pose` is the first channel that depends on where the start is.
     #[inline]
     pub fn add(&mut self, row: &[Seen<LANES>], pose: usize) {
-        // H += JᵀJ, a line at a time: the line stays in registers while the row's numbers pass
-        for (a, line) in self.lanes.iter_mut().enumerate() {
+        // H += JᵀJ, a line at a time: the line stays in registers while the row's numbers pass; H is symmetric, and a
+        // quarter of it is not needed
+        let (upper, lower) = self.lanes.split_at_mut(LANES / 2);
+        for (a, line) in upper.iter_mut().enumerate() {
             let mut sum = *line;
             for seen in row {
                 let slope = seen.lanes[a];
                 for (h, other) in sum.iter_mut().zip(&seen.lanes) {
+                    *h += slope * other;
+                }
+            }
+            *line = sum;
+        }
+        for (a, line) in lower.iter_mut().enumerate() {
+            let mut sum = *line;
+            for seen in row {
+                let slope = seen.lanes[LANES / 2 + a];
+                for (h, other) in sum[LANES / 2..].iter_mut().zip(&seen.lanes[LANES / 2..]) {
                     *h += slope * other;
                 }
             }
@@ -95,7 +108,7 @@ impl<const LANES: usize> Sums<LANES> {
     /// The equations of the start and the first `lanes` lanes.
     pub fn block(&self, lanes: usize) -> Block {
         let entry = |row: usize, column: usize| match (row.checked_sub(MOVED), column.checked_sub(MOVED)) {
-            (Some(a), Some(b)) => self.lanes[a][b],
+            (Some(a), Some(b)) => self.lanes[a.min(b)][a.max(b)],
             (Some(a), None) => self.moved_lanes[column][a],
             (None, Some(b)) => self.moved_lanes[row][b],
             (None, None) => self.moved[row][column],

@@ -62,6 +62,9 @@ impl<const N: usize> Fit<N> {
     }
 }
 
+/// A step that promises less than this of the cost is not taken [σ²]: no number would move by a thirtieth of its sigma.
+const ARRIVED: f64 = 1e-3;
+
 /// Fits the free numbers of `model` to the runs; `starts` are where to begin, if known from a fit before.
 pub fn fit<const N: usize>(
     mut model: Model<N>,
@@ -80,7 +83,7 @@ pub fn fit<const N: usize>(
     let mut damping = 1e-7;
     let mut linear = linearise(&model, shots, &starts, &slots, false);
     let mut total = linear.cost().0 / temper + prior.cost(&model);
-    for _ in 0..rounds {
+    'rounds: for _ in 0..rounds {
         let reduced = with_prior(linear.reduced().tempered(temper), &model, free, prior);
         let mut better = None;
         for _ in 0..5 {
@@ -88,6 +91,10 @@ pub fn fit<const N: usize>(
                 damping *= 10.0;
                 continue;
             };
+            // Δpᵀ·g + Σ g_zᵀ·H_zz⁻¹·g_z: what a step that is linear all the way would gain
+            if step.dot(&reduced.grad) + reduced.by_starts < ARRIVED {
+                break 'rounds;
+            }
             let (trial, taken) = stepped(&model, free, &step);
             let moved = linear.starts_after(&starts, &taken);
             let cost = cost_of(&trial, shots, &moved) / temper + prior.cost(&trial);

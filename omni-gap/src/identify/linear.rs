@@ -16,10 +16,10 @@ use crate::simulate::{Model, Recorded, Slot};
 /// Parameters of a window's start: x, y, θ, v, vn, ω.
 pub const START: usize = 6;
 
-/// The most derivatives that one pass takes; more are taken in passes of [`KEPT`].
+/// The most derivatives that one pass takes; more than these are taken in passes of [`KEPT`].
 const MOST: usize = 20;
 
-/// Derivatives of a pass whose windows are kept.
+/// Derivatives of a pass with few parameters, and of each pass whose windows are kept.
 const KEPT: usize = 10;
 
 /// One window: its errors and derivatives, in units of sigma, whitened.
@@ -51,6 +51,8 @@ pub struct Reduced {
     pub grad: DVector<f64>,
     /// Σ over windows of (its reduced gradient)·(the same)ᵀ
     pub meat: DMatrix<f64>,
+    /// Σ g_zᵀ·H_zz⁻¹·g_z: the drop of Σ error² that the starts alone promise [σ²]
+    pub by_starts: f64,
 }
 
 impl Reduced {
@@ -59,6 +61,7 @@ impl Reduced {
         self.hess /= temper;
         self.grad /= temper;
         self.meat /= temper * temper;
+        self.by_starts /= temper;
         self
     }
 }
@@ -85,11 +88,12 @@ pub fn linearise<const N: usize>(
                 return (blocks, if keep { linear } else { Vec::new() });
             }
             // a pass costs what its lanes cost: no more of them than are needed, in a few sizes
-            let blocks = match lanes {
-                ..=TWIST => summed::<N, TWIST>(course, piece),
-                ..=10 => summed::<N, 10>(course, piece),
-                ..=16 => summed::<N, 16>(course, piece),
-                _ => summed::<N, MOST>(course, piece),
+            let blocks = if lanes <= TWIST {
+                summed::<N, TWIST>(course, piece)
+            } else if lanes <= KEPT {
+                summed::<N, KEPT>(course, piece)
+            } else {
+                summed::<N, MOST>(course, piece)
             };
             (blocks, Vec::new())
         })
@@ -166,11 +170,13 @@ impl Linearised {
     /// The equations of the parameters alone.
     pub fn reduced(&self) -> Reduced {
         let n = self.free;
-        let mut sum = Reduced { hess: DMatrix::zeros(n, n), grad: DVector::zeros(n), meat: DMatrix::zeros(n, n) };
+        let mut sum =
+            Reduced { hess: DMatrix::zeros(n, n), grad: DVector::zeros(n), meat: DMatrix::zeros(n, n), by_starts: 0.0 };
         for block in self.blocks.iter().flatten() {
             let (x, z) = block.eliminate();
             let hpz = block.hess.view((START, 0), (n, START));
             sum.hess += block.hess.view((START, START), (n, n)) - hpz * x;
+            sum.by_starts += block.grad.rows(0, START).dot(&z);
             let grad = block.grad.rows(START, n) - hpz * z;
             sum.meat += &grad * grad.transpose();
             sum.grad += grad;
