@@ -22,8 +22,8 @@
 pub mod catalogue;
 pub mod excite;
 pub mod flow;
-pub mod identification;
 pub mod generated;
+pub mod identification;
 pub mod matrices;
 pub mod paper;
 pub mod printed;

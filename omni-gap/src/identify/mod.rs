@@ -6,6 +6,7 @@
 //! number comes with its uncertainty, which holds under errors that go on through a window.
 
 mod block;
+mod disagree;
 pub mod experiments;
 mod fit;
 mod joint;
@@ -20,6 +21,7 @@ mod tempered;
 mod whiten;
 mod words;
 
+pub use disagree::{Disagreement, Told, disagreements};
 pub use fit::{Fit, Free, fit, profile};
 pub use joint::{GIVEN, IDENTIFIED, Identified, Joint, Refused, joint};
 pub use linear::{Linearised, WindowLinear, linearise};

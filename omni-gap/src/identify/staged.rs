@@ -51,7 +51,13 @@ pub fn robot() -> RobotFile {
 /// Runs of 6 s of a model, predicted in the steps that a fit takes, with noise as asked.
 pub fn staged(model: &Model<4>, how: &Staging) -> Vec<Recorded<4>> {
     let (file, plant) = (robot(), model.plant());
-    let recording = Recording { steps_a_row: 1, camera_rate: how.camera_rate, dropouts: 0.05, sensors: file.sensors, ..Recording::default() };
+    let recording = Recording {
+        steps_a_row: 1,
+        camera_rate: how.camera_rate,
+        dropouts: 0.05,
+        sensors: file.sensors,
+        ..Recording::default()
+    };
     (0..how.runs as u64)
         .map(|k| {
             let wish = Excitation { duration: 6.0, rate: how.rate, voltage: 8.0 };

@@ -33,9 +33,10 @@ pub fn coast<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>]) -> [Option
     let mass = model.plant().robot().mass;
     let decays = decays(model, runs);
     [0, 1].map(|axis| {
-        jackknife(runs.len(), |without| {
+        let decays = along(&decays, axis);
+        jackknife(decays.len(), |without| {
             let mut rows = Rows::<2>::default();
-            for [x, viscous, coulomb] in points(&decays, axis, without) {
+            for [x, viscous, coulomb] in points(&decays, without) {
                 rows.push(*x, [-viscous, -coulomb], [-viscous, -coulomb]);
             }
             Some(rows.least_squares()?.map(|per_mass| per_mass * mass))
@@ -51,9 +52,10 @@ pub fn coast_inertia<const N: usize>(
     coulomb: f64,
 ) -> Option<Estimate> {
     let decays = decays(model, runs);
-    let [inertia] = jackknife(runs.len(), |without| {
+    let decays = along(&decays, 2);
+    let [inertia] = jackknife(decays.len(), |without| {
         let mut rows = Rows::<1>::default();
-        for [x, by_viscous, by_coulomb] in points(&decays, 2, without) {
+        for [x, by_viscous, by_coulomb] in points(&decays, without) {
             let torque = -(viscous * by_viscous + coulomb * by_coulomb);
             rows.push(*x, [torque], [torque]);
         }
@@ -62,9 +64,15 @@ pub fn coast_inertia<const N: usize>(
     Some(inertia)
 }
 
-fn points(decays: &[Vec<Decay>], axis: usize, without: Option<usize>) -> impl Iterator<Item = &[f64; 3]> {
-    let kept = decays.iter().enumerate().filter(move |(run, _)| Some(*run) != without).flat_map(|(_, d)| d);
-    kept.filter(move |d| d.axis == axis).flat_map(|d| &d.points)
+/// The decays on one axis, run by run; runs without one are left out.
+fn along(decays: &[Vec<Decay>], axis: usize) -> Vec<Vec<&Decay>> {
+    let own = decays.iter().map(|run| run.iter().filter(|d| d.axis == axis).collect::<Vec<_>>());
+    own.filter(|run| !run.is_empty()).collect()
+}
+
+fn points<'a>(decays: &'a [Vec<&Decay>], without: Option<usize>) -> impl Iterator<Item = &'a [f64; 3]> {
+    let kept = decays.iter().enumerate().filter(move |(run, _)| Some(*run) != without);
+    kept.flat_map(|(_, run)| run).flat_map(|d| &d.points)
 }
 
 fn decays<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>]) -> Vec<Vec<Decay>> {

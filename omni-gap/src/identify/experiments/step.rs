@@ -10,8 +10,9 @@
 //! made of a simulation with the numbers found so far, which has no part in the noise. C_v and C_vn are those of
 //! experiment 2, as in the paper.
 //!
-//! Velocities and their differences belong to stretches that follow one another (trapezoid rule). A rate λ appears in
-//! them as (2/Δt)·tanh(λ·Δt/2); what is found is put right by that.
+//! Velocities and their differences belong to stretches that follow one another (trapezoid rule). What that rule costs
+//! is seen on the simulation, whose numbers are known: it is asked the same way, and by how much it is misread is taken
+//! off. What is left of an error is the noise's.
 
 use super::bins::{Bin, bins};
 use super::regress::{Estimate, Rows, jackknife};
@@ -23,8 +24,8 @@ use model_core::robot::{Nominal, Robot};
 const STRETCH: (f64, f64) = (0.12, 0.04);
 /// A simulated stretch slower than this share of the run's fastest is left out: its friction may have changed sign.
 const SLOWEST: f64 = 0.1;
-/// Times that the instruments are simulated again with what they gave.
-const ROUNDS: usize = 3;
+/// Times that the simulation is made again with what it gave.
+const ROUNDS: usize = 4;
 
 /// What experiment 3 says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,35 +62,48 @@ pub fn step<const N: usize>(
     let coulomb = friction.map(|c| c.value);
     let robot = *model.plant().robot();
     let measured: Vec<Vec<Bin<N>>> = runs.iter().map(|run| bins(run, &robot.wheels, stretch(run))).collect();
-    let solve = |simulated: &[Vec<[f64; 3]>], coulomb, without, method| {
-        let kept = measured.iter().zip(simulated).zip(runs).enumerate().filter(|(k, _)| Some(*k) != without);
+    let solve = |bins: &[Vec<Bin<N>>], simulated: &[Vec<[f64; 3]>], coulomb, without| {
+        let kept = bins.iter().zip(simulated).zip(runs).enumerate().filter(|(k, _)| Some(*k) != without);
         let kept: Vec<_> =
             kept.map(|(_, ((bins, simulated), run))| (bins.as_slice(), simulated, axis_of(run))).collect();
         solved(&robot, &kept, coulomb, method)
     };
-    let simulate = |model: &Model<N>| -> Vec<Vec<[f64; 3]>> {
-        runs.iter().zip(&measured).map(|(run, bins)| simulated(model, run, bins)).collect()
-    };
-    // the signs of friction, and the first instruments, are those of the model as it is known
-    let mut instruments = simulate(model);
-    if method == Method::Instrumental {
-        let mut found = solve(&instruments, coulomb, None, Method::LeastSquares)?;
-        for _ in 0..ROUNDS {
-            instruments = simulate(&with(model, found, coulomb));
-            found = solve(&instruments, coulomb, None, method)?;
-        }
+    // the signs of friction and the instruments are those of a simulation, first of the model as it is known
+    let (mut known, mut instruments, mut misread) = (model.clone(), Vec::new(), [0.0; 6]);
+    for _ in 0..ROUNDS {
+        instruments = runs.iter().zip(&measured).map(|(run, bins)| simulated(&known, run, bins)).collect::<Vec<_>>();
+        let replayed: Vec<Vec<Bin<N>>> = measured.iter().zip(&instruments).map(|(b, x)| with_twists(b, x)).collect();
+        let truth = six_of(&known);
+        let friction = known.plant().robot().friction.coulomb;
+        let read = solve(&replayed, &instruments, [friction[0], friction[1]], None)?;
+        misread = std::array::from_fn(|k| read[k] - truth[k]);
+        let raw = solve(&measured, &instruments, coulomb, None)?;
+        known = with(model, std::array::from_fn(|k| raw[k] - misread[k]), coulomb);
     }
-    let mut six = jackknife(runs.len(), |without| solve(&instruments, coulomb, without, method))?;
+    let corrected = |raw: Six| std::array::from_fn(|k| raw[k] - misread[k]);
+    let mut six = jackknife(runs.len(), |without| solve(&measured, &instruments, coulomb, without).map(corrected))?;
     for axis in [0, 1].into_iter().filter(|axis| friction[*axis].std.is_finite()) {
         let mut other = coulomb;
         other[axis] += friction[axis].std;
-        let moved = solve(&instruments, other, None, method)?;
+        let moved: Six = corrected(solve(&measured, &instruments, other, None)?);
         for (e, moved) in six.iter_mut().zip(moved) {
             e.std = e.std.hypot(moved - e.value);
         }
     }
     let [resistance, inertia, v, vn, w, coulomb_w] = six;
     Some(Stepped { resistance, inertia, viscous: [v, vn, w], coulomb_w })
+}
+
+/// The same stretches with other twists.
+fn with_twists<const N: usize>(bins: &[Bin<N>], twists: &[[f64; 3]]) -> Vec<Bin<N>> {
+    bins.iter().zip(twists).map(|(bin, twist)| Bin { twist: *twist, ..*bin }).collect()
+}
+
+/// A model's own numbers.
+fn six_of<const N: usize>(model: &Model<N>) -> Six {
+    let robot = *model.plant().robot();
+    let [v, vn, w] = robot.friction.viscous;
+    [robot.motor.resistance, robot.inertia, v, vn, w, robot.friction.coulomb[2]]
 }
 
 fn stretch<const N: usize>(run: &Recorded<N>) -> f64 {
@@ -151,40 +165,26 @@ fn solved<const N: usize>(
     method: Method,
 ) -> Option<Six> {
     let along = |axis: usize| -> Option<[f64; 2]> {
-        let (_, braking) = push(robot, axis, &[0.0; N]);
-        let mut faster = 1.0;
-        let mut found = [0.0; 2];
-        for _ in 0..3 {
-            let mut rows = Rows::<2>::default();
-            let mut length = 0.0;
-            for p in pairs(runs, axis) {
-                let (force, _) = push(robot, axis, &p.volts);
-                let x = |speed: f64| [force - braking * speed, -speed];
-                rows.push(robot.mass * p.slope + coulomb[axis] / faster * p.way, x(p.speed), x(p.simulated));
-                length = p.length;
-            }
-            let raw = by(&rows, method)?;
-            faster = speed_up((braking * raw[0] + raw[1]) / robot.mass, length);
-            found = raw.map(|x| x * faster);
+        let mut rows = Rows::<2>::default();
+        for p in pairs(runs, axis) {
+            let (force, braking) = push(robot, axis, &p.volts);
+            let x = |speed: f64| [force - braking * speed, -speed];
+            rows.push(robot.mass * p.slope + coulomb[axis] * p.way, x(p.speed), x(p.simulated));
         }
-        Some(found)
+        by(&rows, method)
     };
     let [per_v, viscous_v] = along(0)?;
     let [per_vn, viscous_vn] = along(1)?;
     let resistance = 2.0 / (per_v + per_vn);
-    let (_, braking) = push(robot, 2, &[0.0; N]);
     let mut rows = Rows::<3>::default();
-    let mut length = 0.0;
     for p in pairs(runs, 2) {
-        let (torque, _) = push(robot, 2, &p.volts);
+        let (torque, braking) = push(robot, 2, &p.volts);
         let x = |speed: f64| [(torque - braking * speed) / resistance, -speed, -p.way];
         rows.push(p.slope, x(p.speed), x(p.simulated));
-        length = p.length;
     }
-    let raw = by(&rows, method)?;
-    let faster = speed_up(braking / resistance * raw[0] + raw[1], length);
-    let inertia = 1.0 / (raw[0] * faster);
-    Some([resistance, inertia, viscous_v, viscous_vn, raw[1] * faster * inertia, raw[2] * faster * inertia])
+    let [per_inertia, viscous_w, coulomb_w] = by(&rows, method)?;
+    let inertia = 1.0 / per_inertia;
+    Some([resistance, inertia, viscous_v, viscous_vn, viscous_w * inertia, coulomb_w * inertia])
 }
 
 fn by<const K: usize>(rows: &Rows<K>, method: Method) -> Option<[f64; K]> {
@@ -192,12 +192,6 @@ fn by<const K: usize>(rows: &Rows<K>, method: Method) -> Option<[f64; K]> {
         Method::LeastSquares => rows.least_squares(),
         Method::Instrumental => rows.instrumental(),
     }
-}
-
-/// λ over the rate that stretches of this length show, (2/Δt)·tanh(λ·Δt/2).
-fn speed_up(shown: f64, length: f64) -> f64 {
-    let half = 0.5 * shown * length;
-    if half.abs() < 0.9 && half != 0.0 { half.atanh() / half } else { 1.0 }
 }
 
 /// R times the force of these voltages on an axis, and R times its braking by back-EMF per speed: U and b above.
@@ -218,7 +212,6 @@ struct Pair<const N: usize> {
     slope: f64,
     way: f64,
     volts: [f64; N],
-    length: f64,
 }
 
 fn pairs<const N: usize>(runs: &[Seen<'_, N>], axis: usize) -> Vec<Pair<N>> {
@@ -238,7 +231,6 @@ fn pairs<const N: usize>(runs: &[Seen<'_, N>], axis: usize) -> Vec<Pair<N>> {
                 slope: (b - a) / length,
                 way: sa.signum(),
                 volts: std::array::from_fn(|j| 0.5 * (w[0].volts[j] + w[1].volts[j])),
-                length,
             });
         }
     }
