@@ -78,7 +78,7 @@ pub fn step<const N: usize>(
         let read = solve(&replayed, &instruments, [friction[0], friction[1]], None)?;
         misread = std::array::from_fn(|k| read[k] - truth[k]);
         let raw = solve(&measured, &instruments, coulomb, None)?;
-        known = with(model, std::array::from_fn(|k| raw[k] - misread[k]), coulomb);
+        known = with(model, raw[0] - misread[0], raw[1] - misread[1]);
     }
     let corrected = |raw: Six| std::array::from_fn(|k| raw[k] - misread[k]);
     let mut six = jackknife(runs.len(), |without| solve(&measured, &instruments, coulomb, without).map(corrected))?;
@@ -116,22 +116,14 @@ fn axis_of<const N: usize>(run: &Recorded<N>) -> Option<usize> {
     AXES.iter().position(|axis| *axis == word)
 }
 
-/// The model with these numbers, as far as they are believable (a factor of five).
-fn with<const N: usize>(model: &Model<N>, six: Six, coulomb: [f64; 2]) -> Model<N> {
+/// The model with this R and J, as far as they are believable (a factor of five). The rest of what steps say is too
+/// uncertain to make instruments better by it: v and vn have R and friction all but in one.
+fn with<const N: usize>(model: &Model<N>, resistance: f64, inertia: f64) -> Model<N> {
     let robot = *model.plant().robot();
     let mut model = model.clone();
-    let [resistance, inertia, v, vn, w, coulomb_w] = six;
-    let friction = robot.friction;
-    for (p, new, old) in [
-        (Nominal::Resistance, resistance, robot.motor.resistance),
-        (Nominal::Inertia, inertia, robot.inertia),
-        (Nominal::ViscousV, v, friction.viscous[0]),
-        (Nominal::ViscousVn, vn, friction.viscous[1]),
-        (Nominal::ViscousW, w, friction.viscous[2]),
-        (Nominal::CoulombV, coulomb[0], friction.coulomb[0]),
-        (Nominal::CoulombVn, coulomb[1], friction.coulomb[1]),
-        (Nominal::CoulombW, coulomb_w, friction.coulomb[2]),
-    ] {
+    for (p, new, old) in
+        [(Nominal::Resistance, resistance, robot.motor.resistance), (Nominal::Inertia, inertia, robot.inertia)]
+    {
         let slot = Slot::Nominal(p);
         model.set(slot, model.get(slot) * (new / old).clamp(0.2, 5.0));
     }
