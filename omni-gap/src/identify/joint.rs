@@ -15,6 +15,7 @@
 use model_core::robot::Nominal;
 use nalgebra::DMatrix;
 
+use super::driven::by_input;
 use super::fit::{Fit, Free, fit};
 use super::linear::linearise;
 use super::noise::{Noise, noise_of};
@@ -49,6 +50,9 @@ const WITHIN: (f64, f64) = (0.01, 50.0);
 /// Σ error² per number up to which whole runs count as predicted to within their noise.
 const FOLLOWS: f64 = 1.15;
 
+/// A signal whose standard deviation is above this many times its sensor's is one of a robot that moves.
+const MOVING: f64 = 2.0;
+
 /// What became of one number.
 #[derive(Clone, Debug)]
 pub struct Identified {
@@ -56,7 +60,7 @@ pub struct Identified {
     pub nominal: Nominal,
     /// Factor on the robot file's value.
     pub factor: f64,
-    /// One sigma of it, from the noise.
+    /// One sigma of it, from the noise, and from an input that was measured instead of commanded.
     pub std: f64,
     /// One sigma of it, from what is stated of mass and geometry.
     pub std_given: f64,
@@ -111,6 +115,9 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Record
     if runs.is_empty() {
         return Err(Refused::NothingMeasured);
     }
+    if !runs.iter().any(|run| moves(run)) {
+        return Err(Refused::NothingMoves);
+    }
     let free = IDENTIFIED.map(|p| Free { slot: Slot::Nominal(p), within: WITHIN });
     let prior = Prior { rows: Vec::new() };
     let short: Vec<Windows> = runs.iter().map(|run| Windows::new(run, WINDOW)).collect();
@@ -135,6 +142,16 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Record
         best = fit(near.model, Shots { runs: &noisy, windows }, Some(near.starts), &free, &prior, 1.0, ROUNDS);
     }
     judged(best, Shots { runs: &noisy, windows }, file, noise, follows, misfit.sqrt())
+}
+
+/// True if any wheel speed or pose of a run varies by more than its noise; currents can flow in a robot that is held.
+fn moves<const N: usize>(run: &Recorded<N>) -> bool {
+    (N..2 * N + 3).any(|channel| {
+        let told = (0..run.rows()).filter(|row| run.saw(*row, channel)).map(|row| run.measured[row][channel]);
+        let (n, sum) = told.clone().fold((0.0, 0.0), |(n, sum), x| (n + 1.0, sum + x));
+        let square: f64 = told.map(|x| (x - sum / n).powi(2)).sum();
+        n > 1.0 && square / (n - 1.0) > (MOVING * run.sigma[channel]).powi(2)
+    })
 }
 
 /// Uncertainties and words of a fit.
@@ -173,6 +190,11 @@ fn judged<const N: usize>(
         DMatrix::from_fn(seen.len(), seen.len(), |a, b| robust[(a, b)] * by(a) * by(b))
     };
     let given = by_given(&relative, &inverse, &seen, file);
+    let input = by_input(&best.model, shots, &best.starts, &slots[..n], &inverse, &seen);
+    let mut covariance = covariance;
+    for (at, input) in input.iter().enumerate() {
+        covariance[(at, at)] += input * input;
+    }
     let numbers = (0..n)
         .map(|k| {
             let at = seen.iter().position(|s| *s == k);

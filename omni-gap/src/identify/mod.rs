@@ -7,6 +7,7 @@
 
 mod block;
 mod disagree;
+mod driven;
 pub mod experiments;
 mod fit;
 mod joint;

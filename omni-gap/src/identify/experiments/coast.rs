@@ -18,7 +18,9 @@ use crate::simulate::{AXES, Model, Recorded};
 /// Length of a stretch over which a velocity is taken [s]
 const STRETCH: f64 = 0.04;
 /// Below this share of the speed at which a decay began it is not used: the end is near, and with it the stop.
-const SLOWEST: f64 = 0.2;
+const SLOWEST: f64 = 0.1;
+/// A decay that began below this share of the others' speed is another kind of decay.
+const PLAINLY_SLOWER: f64 = 0.8;
 /// Over this time speeds are averaged to tell how slow it has become [s]
 const LOOK: f64 = 0.2;
 
@@ -88,23 +90,40 @@ fn decays<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>]) -> Vec<Vec<De
             stretches.filter(|s| s[0].open == Some(true)).filter_map(|s| course(s, axis)).collect()
         })
         .collect();
-    // x = v₀·t − a·t²/2 is as slow as that after (1 − share)·v₀/a. Were a that of each decay alone, noise would choose
-    // where it ends, and one kind of noise more often than the other: it is the mean over the axis
     for axis in 0..AXES.len() {
-        let slopes: Vec<f64> = all.iter().flatten().filter(|c| c.axis == axis).map(|c| c.slope).collect();
-        let mean = slopes.iter().sum::<f64>() / slopes.len().max(1) as f64;
-        for course in all.iter_mut().flatten().filter(|c| c.axis == axis) {
-            course.points.retain(|p| p[0] <= (1.0 - SLOWEST) * course.speed / mean);
-        }
+        end_together(all.iter_mut().flatten().filter(|c| c.axis == axis).collect());
     }
     let decay = |c: &Course| Decay { axis: c.axis, points: without_start(&c.points) };
     all.iter().map(|run| run.iter().filter(|c| c.points.len() > 4).map(decay).collect()).collect()
+}
+
+/// Cuts the decays of an axis where they become slow.
+///
+/// x = v₀·t − a·t²/2 is as slow as that after (1 − share)·v₀/a. Were these each decay's own, noise would choose where it
+/// ends, and one kind of noise more often than the other, which shows in the curvature: they are the mean of all, and of
+/// all that is used. Only a decay that began plainly slower than the others ends by its own speed.
+fn end_together(mut courses: Vec<&mut Course>) {
+    for _ in 0..2 {
+        let mean = |of: fn(&Course) -> f64| courses.iter().map(|c| of(c)).sum::<f64>() / courses.len().max(1) as f64;
+        let (speed, slope) = (mean(|c| c.speed), mean(|c| c.slope));
+        for course in &mut courses {
+            let speed = if course.speed < PLAINLY_SLOWER * speed { course.speed } else { speed };
+            course.used = course.points.partition_point(|p| p[0] <= (1.0 - SLOWEST) * speed / slope);
+            if let Some((speed, slope)) = parabola(&course.points[..course.used]) {
+                (course.speed, course.slope) = (speed, slope);
+            }
+        }
+    }
+    for course in courses {
+        course.points.truncate(course.used);
+    }
 }
 
 /// How a robot coasted: (t, x, ∫x dt, ±t²/2), and the parabola through its fast part.
 struct Course {
     axis: usize,
     points: Vec<[f64; 4]>,
+    used: usize,
     speed: f64,
     slope: f64,
 }
@@ -123,13 +142,20 @@ fn course<const N: usize>(stretch: &[Bin<N>], axis: usize) -> Option<Course> {
         (t, x) = (t + bin.dt, x + step);
         points.push([t, x, area, 0.5 * first.signum() * t * t]);
     }
-    let mut parabola = Rows::<3>::default();
-    for [t, x, _, half_square] in &points[..used.min(points.len())] {
+    let used = used.min(points.len());
+    let (speed, slope) = parabola(&points[..used])?;
+    Some(Course { axis, points, used, speed, slope })
+}
+
+/// v₀ and a of x = x₀ + v₀·t − a·t²/2 through the points, along the motion; `None` where it does not slow down.
+fn parabola(points: &[[f64; 4]]) -> Option<(f64, f64)> {
+    let mut rows = Rows::<3>::default();
+    for [t, x, _, half_square] in points {
         let row = [1.0, *t, -half_square];
-        parabola.push(*x, row, row);
+        rows.push(*x, row, row);
     }
-    let [_, speed, slope] = parabola.least_squares()?;
-    (slope > 0.0).then(|| Course { axis, points, speed: speed.abs(), slope })
+    let [_, speed, slope] = rows.least_squares()?;
+    (slope > 0.0).then_some((speed.abs(), slope))
 }
 
 /// (x, ∫x, ±t²/2) less the straight lines in t that fit each best: what x₀ and v₀ can make.
