@@ -10,6 +10,7 @@
 //! - [`printed`]: every figure that the paper prints, beside what comes out when it is computed;
 //! - [`generated`]: the paper's robots as Rust, from their robot files;
 //! - [`catalogue`]: the benchmark of the diagnosis, on recordings whose truth is known;
+//! - [`identification`]: the identification of robots whose truth is known, over many seeds;
 //! - [`real`]: what the diagnosis says of recordings of real robots.
 //!
 //! The paper is Oliveira, Sousa, Moreira and Costa, *Dynamical Models for Omni-directional Robots with 3 and 4 Wheels*

@@ -1,24 +1,78 @@
-//! The study of the identification.
-use host_tests::identification::page::look;
-use host_tests::identification::study::{Case, studied};
-use omni_gap::simulate::Sensing;
+//! The study of the identification: plays all that is on the golden page and rewrites it.
+//!
+//! With a number, at most so many seeds a case; with a second word, only the cases with that word in their title. Then
+//! the page is printed and not kept.
 
-fn main() {
-    let seeds = std::env::args().nth(1).and_then(|s| s.parse().ok()).unwrap_or(40);
-    let only = std::env::args().nth(2);
-    for sensing in Sensing::ALL {
-        if only.as_ref().is_some_and(|w| w != sensing.word()) {
-            continue;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use host_tests::catalogue::sessions::WHEELS;
+use host_tests::identification::Results;
+use host_tests::identification::case::{CASES, Case};
+use host_tests::identification::idle::{ASKED, idle};
+use host_tests::identification::missing::{Group, SEEDS, missing};
+use host_tests::identification::page::page;
+use host_tests::identification::promises::promises;
+use host_tests::identification::study::studied;
+use omni_gap::log::write_whole;
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let cap = arguments.next();
+    let only = arguments.next().unwrap_or_default();
+    let seeds = match cap.as_deref().map(str::parse::<u64>) {
+        None => u64::MAX,
+        Some(Ok(cap)) if cap > 0 => cap,
+        _ => {
+            eprintln!("identification [SEEDS [WORD]]: SEEDS is how many robots a case has at the most");
+            return ExitCode::FAILURE;
         }
-        for wheels in [3, 4] {
-            let t = std::time::Instant::now();
-            let s = studied(Case {
-                wheels,
-                sensing,
-                camera_correlation: 0.0,
-                seeds: if sensing == Sensing::Paper { seeds } else { seeds.div_ceil(4) },
-            });
-            println!("{:.1} s\n{}", t.elapsed().as_secs_f64(), look(&s));
-        }
+    };
+    let results = measured(seeds, &only);
+    let text = page(&results);
+    if cap.is_some() {
+        println!("{text}");
+        return ExitCode::SUCCESS;
     }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join("identification.md");
+    if let Err(why) = write_whole(&path, text.as_bytes()) {
+        eprintln!("{why}");
+        return ExitCode::FAILURE;
+    }
+    for promise in promises(&results).iter().filter(|p| !p.kept()) {
+        println!("not kept: {}: {} ({}), {:?}", promise.what, promise.found, promise.at, promise.bar);
+    }
+    println!("written: host-tests/golden/identification.md; read the difference before you commit it: git diff");
+    ExitCode::SUCCESS
+}
+
+fn measured(seeds: u64, only: &str) -> Results {
+    let chosen = CASES.iter().filter(|case| case.title().contains(only));
+    let cases = chosen.map(|case| {
+        let case = Case { seeds: case.seeds.min(seeds), ..*case };
+        timed(&format!("{}, {} seeds", case.title(), case.seeds), || studied(case))
+    });
+    let cases = cases.collect();
+    let few = SEEDS.min(seeds);
+    let missing = || {
+        let groups = Group::ALL.into_iter().flat_map(|group| WHEELS.map(|wheels| (wheels, group)));
+        groups.map(|(wheels, group)| missing(wheels, group, few)).collect()
+    };
+    let idle = || {
+        let asked = ASKED.into_iter().flat_map(|asked| WHEELS.map(|wheels| (wheels, asked)));
+        asked.map(|(wheels, (lack, sensing))| idle(wheels, lack, sensing, lack.seeds().min(seeds))).collect()
+    };
+    if !only.is_empty() {
+        return Results { cases, missing: Vec::new(), idle: Vec::new() };
+    }
+    Results { cases, missing: timed("one group missing", missing), idle: timed("without excitation", idle) }
+}
+
+/// Does it, and says on standard error how long it took.
+fn timed<T>(what: &str, does: impl FnOnce() -> T) -> T {
+    let begun = Instant::now();
+    let done = does();
+    eprintln!("{what}: {:.0} s", begun.elapsed().as_secs_f64());
+    done
 }

@@ -1,0 +1,108 @@
+//! Recordings without excitation: of a robot that stands, and of one that is never driven along an axis.
+
+use model_core::plant::Input;
+use omni_gap::identify::Refused;
+use omni_gap::log::Run;
+use omni_gap::rehearse::rehearse;
+use omni_gap::simulate::{Model, Recorded, Sensing, record};
+use rayon::prelude::*;
+
+use super::asked::{Answer, asked};
+use super::believed::Believed;
+use super::case::Case;
+
+/// How long the robot stands [s]
+pub const STANDS: f64 = 10.0;
+
+/// What the robot does not do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lack {
+    /// Move: all voltages are zero.
+    Motion,
+    /// Drive: it only turns.
+    Driving,
+    /// Drive along vn: v and ω alone.
+    Sideways,
+}
+
+impl Lack {
+    /// Robots of which this is asked: a standing one may be taken for a moving one by chance, and rarely.
+    pub const fn seeds(self) -> u64 {
+        match self {
+            Self::Motion => 40,
+            Self::Driving | Self::Sideways => 5,
+        }
+    }
+
+    /// What the robot does, in words.
+    pub const fn does(self) -> &'static str {
+        match self {
+            Self::Motion => "stands, all voltages zero",
+            Self::Driving => "only turns, no run along v or vn",
+            Self::Sideways => "no run along vn",
+        }
+    }
+
+    /// True if a run of this name is left out.
+    fn leaves_out(self, run: &str) -> bool {
+        match self {
+            Self::Motion => true,
+            Self::Driving => run.contains("-v-") || run.contains("-vn-"),
+            Self::Sideways => run.contains("-vn-"),
+        }
+    }
+}
+
+/// What was answered.
+#[derive(Clone, Debug)]
+pub struct Idle {
+    /// Wheels of the robot.
+    pub wheels: usize,
+    /// How it is measured.
+    pub sensing: Sensing,
+    /// What is lacking.
+    pub lack: Lack,
+    /// The answer of each morning.
+    pub answers: Vec<Result<Answer, Refused>>,
+}
+
+/// All that is asked: standing robots however they are measured, the others with modern sensors.
+pub const ASKED: [(Lack, Sensing); 5] = [
+    (Lack::Motion, Sensing::Paper),
+    (Lack::Motion, Sensing::Modern),
+    (Lack::Motion, Sensing::Halls),
+    (Lack::Driving, Sensing::Modern),
+    (Lack::Sideways, Sensing::Modern),
+];
+
+/// Records robots that lack excitation, and asks for their numbers.
+pub fn idle(wheels: usize, lack: Lack, sensing: Sensing, seeds: u64) -> Idle {
+    let case = Case { wheels, sensing, camera_correlation: 0.0, repeats: 1, seeds };
+    let morning = |seed| match wheels {
+        3 => answer::<3>(case, lack, seed),
+        _ => answer::<4>(case, lack, seed),
+    };
+    Idle { wheels, sensing, lack, answers: (1..=seeds).into_par_iter().map(morning).collect() }
+}
+
+fn answer<const N: usize>(case: Case, lack: Lack, seed: u64) -> Result<Answer, Refused> {
+    let truth = case.truth();
+    let believed = Believed::drawn(&truth, seed);
+    let runs = match lack {
+        Lack::Motion => vec![standing::<N>(case, seed)],
+        _ => {
+            let mut runs = rehearse(&truth, &case.plan(), &case.recording(), seed);
+            runs.retain(|run| !lack.leaves_out(&run.name));
+            runs
+        }
+    };
+    let recorded: Vec<Recorded<N>> = runs.iter().filter_map(|run| Recorded::new(run, &believed.file)).collect();
+    asked(&believed, case.plan().voltage, &recorded)
+}
+
+fn standing<const N: usize>(case: Case, seed: u64) -> Run {
+    let rows = (STANDS * case.sensing.rate()).round() as usize;
+    let t: Vec<f64> = (0..rows).map(|row| row as f64 / case.sensing.rate()).collect();
+    let plant = Model::<N>::nominal(&case.truth(), case.plan().voltage).plant();
+    record(&plant, "standing", &t, &vec![Input::Voltage([0.0; N]); rows], &case.recording(), seed)
+}
