@@ -31,6 +31,12 @@ pub const ERRANDS: &[Errand] = &[
         run: benchmark,
     },
     Errand {
+        name: "identification",
+        takes: "",
+        does: "identify robots whose truth is known by the thousand and rewrite the golden page (most of an hour)",
+        run: identification,
+    },
+    Errand {
         name: "real",
         takes: "[FOLDER]",
         does: "diagnose the recordings of real robots in FOLDER (or in OMNI_GAP_DATA)",
@@ -69,7 +75,7 @@ fn asked(arguments: impl IntoIterator<Item = OsString>) -> Result<(&'static Erra
 
 /// One line an errand.
 fn list() -> String {
-    let line = |errand: &Errand| format!("  cargo xtask {:<14} {}", [errand.name, errand.takes].join(" "), errand.does);
+    let line = |errand: &Errand| format!("  cargo xtask {:<16} {}", [errand.name, errand.takes].join(" "), errand.does);
     ERRANDS.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
@@ -95,6 +101,10 @@ fn bench(_: Option<OsString>) -> Result<(), String> {
 
 fn benchmark(_: Option<OsString>) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin catalogue"))
+}
+
+fn identification(_: Option<OsString>) -> Result<(), String> {
+    announced(Line::of("cargo run --release -p host-tests --bin identification"))
 }
 
 fn on_recordings(argument: Option<OsString>) -> Result<(), String> {
