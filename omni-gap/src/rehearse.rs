@@ -17,15 +17,32 @@ const LOAD: f64 = 0.2;
 ///
 /// The runs of the motor experiment drag more and more, as dry friction about ω.
 pub fn rehearse(truth: &RobotFile, plan: &Plan, how: &Recording, seed: u64) -> Vec<Run> {
+    rehearse_some(truth, plan, &Experiment::ALL, how, seed)
+}
+
+/// The same with the scripts of some experiments only; a run is the same with and without the others.
+pub fn rehearse_some(truth: &RobotFile, plan: &Plan, some: &[Experiment], how: &Recording, seed: u64) -> Vec<Run> {
     match truth.wheel.len() {
-        3 => of_wheels::<3>(truth, plan, how, seed),
-        _ => of_wheels::<4>(truth, plan, how, seed),
+        3 => of_wheels::<3>(truth, plan, some, how, seed),
+        _ => of_wheels::<4>(truth, plan, some, how, seed),
     }
 }
 
-fn of_wheels<const N: usize>(truth: &RobotFile, plan: &Plan, how: &Recording, seed: u64) -> Vec<Run> {
+/// The torque about the vertical axis by which each further run of the motor experiment is braked more [N·m].
+pub fn drag_a_load(truth: &RobotFile, plan: &Plan) -> f64 {
+    LOAD * stall_torque(truth, plan.voltage)
+}
+
+fn of_wheels<const N: usize>(
+    truth: &RobotFile,
+    plan: &Plan,
+    some: &[Experiment],
+    how: &Recording,
+    seed: u64,
+) -> Vec<Run> {
     let robot = *Model::<N>::nominal(truth, plan.voltage).robot();
-    let played = scripts(&robot, plan).into_iter().enumerate();
+    let wanted = |script: &Script<N>| Experiment::of(&script.name).is_some_and(|e| some.contains(&e));
+    let played = scripts(&robot, plan).into_iter().enumerate().filter(|(_, script)| wanted(script));
     played.map(|(k, script)| play(truth, plan, &script, how, seed.wrapping_mul(1000).wrapping_add(k as u64))).collect()
 }
 
@@ -33,7 +50,7 @@ fn play<const N: usize>(truth: &RobotFile, plan: &Plan, script: &Script<N>, how:
     let mut dragging = truth.clone();
     let load = script.name.rsplit('-').next().and_then(|word| word.parse::<f64>().ok()).unwrap_or(0.0);
     if Experiment::of(&script.name) == Some(Experiment::Motor) {
-        dragging.friction.coulomb_w_nm += LOAD * load * stall_torque(truth, plan.voltage);
+        dragging.friction.coulomb_w_nm += load * drag_a_load(truth, plan);
     }
     let plant = Model::<N>::nominal(&dragging, plan.voltage).plant();
     let input: Vec<Input<N, f64>> =

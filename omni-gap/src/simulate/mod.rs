@@ -8,8 +8,10 @@
 
 mod drivable;
 mod excite;
+mod floor;
 mod halls;
 mod keys;
+mod limits;
 mod model;
 mod predict;
 mod record;
@@ -21,7 +23,9 @@ mod start;
 
 pub use drivable::drivable;
 pub use excite::{Excitation, excite};
+pub use floor::{Floor, floor_of};
 pub use keys::{NOMINAL_KEYS, NominalKey};
+pub use limits::{Allowed, Lowered, USUAL_FIELD, allowed, usual_voltage};
 pub use model::{Carried, Model, Slot, robot_of};
 pub use predict::{Prediction, predict, restart_rows};
 pub use record::{Recording, SpeedSensor, record};

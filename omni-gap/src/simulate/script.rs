@@ -13,6 +13,8 @@
 use model_core::kinematics::Wheels;
 use model_core::robot::Robot;
 
+use crate::log::{Channel, Group, Missing, Run};
+
 /// One of the experiments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Experiment {
@@ -50,6 +52,23 @@ impl Experiment {
         }
     }
 
+    /// The experiment that goes by this on a command line: its word, or its number in the paper.
+    pub fn named(text: &str) -> Option<Self> {
+        let numbered = [("1", Self::Spin), ("2", Self::Coast), ("3", Self::Step)];
+        let by_number = numbered.into_iter().find(|(number, _)| *number == text).map(|(_, e)| e);
+        by_number.or_else(|| Self::ALL.into_iter().find(|e| e.word() == text))
+    }
+
+    /// What the names of its runs look like.
+    pub const fn names(self) -> &'static str {
+        match self {
+            Self::Spin => "spin-left, spin-right",
+            Self::Coast => "coast-v-1, coast-vn-1, coast-w-1, …",
+            Self::Motor => "motor-load-0, motor-load-1, …",
+            Self::Step => "step-v-50-1, step-vn-50-1, step-w-50-1, …",
+        }
+    }
+
     /// The experiment that a run of this name belongs to.
     pub fn of(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|e| name.starts_with(e.word()))
@@ -83,6 +102,26 @@ pub struct Script<const N: usize> {
     pub t: Vec<f64>,
     /// Motor voltages of each row [V]; `None`: the bridges are open
     pub volts: Vec<Option<[f64; N]>>,
+}
+
+/// Figures after the point of a voltage in a file [1/V]
+const TENTHS_OF_A_MILLIVOLT: f64 = 1e4;
+
+impl<const N: usize> Script<N> {
+    /// The script as a run that nothing was measured in: `u` and `enable`, blank and zero where the bridges are open.
+    ///
+    /// Voltages are cut to tenths of a millivolt, towards zero.
+    pub fn to_run(&self) -> Run {
+        let cut = |volts: f64| (volts * TENTHS_OF_A_MILLIVOLT).trunc() / TENTHS_OF_A_MILLIVOLT + 0.0;
+        let wheel = |j: usize| self.volts.iter().map(move |u| u.map(|u| cut(u[j])).ok_or(Missing::Blank)).collect();
+        Run {
+            name: self.name.clone(),
+            t_s: self.t.clone(),
+            u: Some(Group::new((0..N).map(wheel).collect())),
+            enable: Some(Channel::from_values(self.volts.iter().map(|u| f64::from(u8::from(u.is_some()))))),
+            ..Run::default()
+        }
+    }
 }
 
 /// Share of the free floor that a run may use.
@@ -210,7 +249,7 @@ pub fn along<const N: usize>(wheels: &Wheels<N, f64>, axis: usize, volts: f64) -
 }
 
 /// The speed that an axis comes to under a voltage, by the plain model [m/s] or [rad/s].
-fn final_speed<const N: usize>(robot: &Robot<N, f64>, axis: usize, volts: f64) -> f64 {
+pub(super) fn final_speed<const N: usize>(robot: &Robot<N, f64>, axis: usize, volts: f64) -> f64 {
     let (rows, motor) = (robot.wheels.rows(), &robot.motor);
     let (mut push, mut brake) = (0.0, robot.friction.viscous[axis]);
     for ((row, u), wheel) in rows.iter().zip(along(&robot.wheels, axis, volts)).zip(robot.wheels.wheels()) {
@@ -247,6 +286,16 @@ mod tests {
             assert!(at_rest(&script.volts[0]) && at_rest(script.volts.last().unwrap()), "{}", script.name);
             assert!(script.volts.iter().flatten().flatten().all(|u| u.abs() <= 8.0 + 1e-9), "{}", script.name);
             assert_eq!(script.t.len(), script.volts.len());
+        }
+    }
+
+    #[test]
+    fn an_experiment_goes_by_its_word_and_by_its_number() {
+        assert_eq!(Experiment::named("3"), Some(Experiment::Step));
+        assert_eq!(Experiment::named("motor"), Some(Experiment::Motor));
+        assert_eq!(Experiment::named("4"), None);
+        for experiment in Experiment::ALL {
+            assert!(experiment.names().split(", ").all(|n| n == "…" || Experiment::of(n) == Some(experiment)));
         }
     }
 
