@@ -67,7 +67,7 @@ const ARRIVED: f64 = 1e-3;
 
 /// Fits the free numbers of `model` to the runs; `starts` are where to begin, if known from a fit before.
 pub fn fit<const N: usize>(
-    mut model: Model<N>,
+    model: Model<N>,
     shots: Shots<'_, N>,
     starts: Option<Vec<Starts>>,
     free: &[Free],
@@ -75,6 +75,32 @@ pub fn fit<const N: usize>(
     temper: f64,
     rounds: usize,
 ) -> Fit<N> {
+    fit_so(model, shots, starts, How { free, prior, temper, rounds, by_window: false })
+}
+
+/// How a fit goes.
+#[derive(Clone, Copy)]
+pub(super) struct How<'a> {
+    /// What is free.
+    pub free: &'a [Free],
+    /// What was stated.
+    pub prior: &'a Prior,
+    /// Σ error² counts this much less.
+    pub temper: f64,
+    /// Rounds, at the most.
+    pub rounds: usize,
+    /// Whether a step that makes things worse is tried once more with each window's better start.
+    pub by_window: bool,
+}
+
+/// The same in every detail.
+pub(super) fn fit_so<const N: usize>(
+    mut model: Model<N>,
+    shots: Shots<'_, N>,
+    starts: Option<Vec<Starts>>,
+    how: How<'_>,
+) -> Fit<N> {
+    let How { free, prior, temper, rounds, by_window } = how;
     let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
     let mut starts = starts.unwrap_or_else(|| {
         let plant = model.plant();
@@ -96,8 +122,12 @@ pub fn fit<const N: usize>(
                 break 'rounds;
             }
             let (trial, taken) = stepped(&model, free, &step);
-            let moved = linear.starts_after(&starts, &taken);
-            let cost = cost_of(&trial, shots, &moved) / temper + prior.cost(&trial);
+            let mut moved = linear.starts_after(&starts, &taken);
+            let mut cost = cost_of(&trial, shots, &moved) / temper + prior.cost(&trial);
+            if by_window && (!cost.is_finite() || cost >= total) {
+                moved = better_starts(&trial, shots, &starts, moved);
+                cost = cost_of(&trial, shots, &moved) / temper + prior.cost(&trial);
+            }
             if cost.is_finite() && cost < total {
                 damping = (damping * 0.1).max(1e-10);
                 better = Some((trial, moved, cost));
@@ -157,6 +187,26 @@ pub fn profile<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -> (Vec<St
     }
     let cost = linear.cost_by_window();
     (starts, cost)
+}
+
+/// Of two starts of each window the better one: a robot that friction stops at once tells nothing of the speed with which
+/// it began, and a step that is linear all the way goes anywhere.
+fn better_starts<const N: usize>(
+    model: &Model<N>,
+    shots: Shots<'_, N>,
+    stayed: &[Starts],
+    mut moved: Vec<Starts>,
+) -> Vec<Starts> {
+    let [old, new] = [stayed, &moved].map(|starts| linearise(model, shots, starts, &[], false).cost_by_window());
+    for (run, (old, new)) in old.iter().zip(&new).enumerate() {
+        for (k, (old, new)) in old.iter().zip(new).enumerate() {
+            // a cost that is no number is worse than any
+            if new.0.is_nan() || new.0 > old.0 {
+                moved[run][k] = stayed[run][k];
+            }
+        }
+    }
+    moved
 }
 
 /// Σ error² [σ²] of a model and its starts.

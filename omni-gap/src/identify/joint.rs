@@ -17,6 +17,7 @@ use nalgebra::DMatrix;
 
 use super::driven::by_input;
 use super::fit::{Fit, Free, fit};
+use super::fit::{Fit, Free, How, fit_so};
 use super::linear::linearise;
 use super::noise::{Noise, noise_of};
 use super::prior::Prior;
@@ -120,15 +121,16 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Record
     }
     let free = IDENTIFIED.map(|p| Free { slot: Slot::Nominal(p), within: WITHIN });
     let prior = Prior { rows: Vec::new() };
+    let how = How { free: &free, prior: &prior, temper: 1.0, rounds: ROUNDS, by_window: true };
     let short: Vec<Windows> = runs.iter().map(|run| Windows::new(run, WINDOW)).collect();
     let whole: Vec<Windows> = runs.iter().map(|run| Windows::whole(run)).collect();
 
     let shots = Shots { runs: &runs, windows: &short };
-    let near = fit(model.clone(), shots, None, &free, &prior, 1.0, ROUNDS);
+    let near = fit_so(model.clone(), shots, None, how);
     let mut noise = noise_of(&near, shots);
     let with_noise: Vec<Recorded<N>> = runs.iter().map(|run| noise.applied(run)).collect();
     let mut noisy: Vec<&Recorded<N>> = with_noise.iter().collect();
-    let mut best = fit(near.model.clone(), Shots { runs: &noisy, windows: &whole }, None, &free, &prior, 1.0, ROUNDS);
+    let mut best = fit_so(near.model.clone(), Shots { runs: &noisy, windows: &whole }, None, how);
     let misfit = best.cost / best.samples.max(1) as f64;
     let follows = misfit < FOLLOWS;
     let again;
@@ -137,9 +139,9 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Record
         noise = noise_of(&best, Shots { runs: &runs, windows });
         again = runs.iter().map(|run| noise.applied(run)).collect::<Vec<_>>();
         noisy = again.iter().collect();
-        best = fit(best.model, Shots { runs: &noisy, windows }, Some(best.starts), &free, &prior, 1.0, ROUNDS);
+        best = fit_so(best.model, Shots { runs: &noisy, windows }, Some(best.starts), how);
     } else {
-        best = fit(near.model, Shots { runs: &noisy, windows }, Some(near.starts), &free, &prior, 1.0, ROUNDS);
+        best = fit_so(near.model, Shots { runs: &noisy, windows }, Some(near.starts), how);
     }
     judged(best, Shots { runs: &noisy, windows }, file, noise, follows, misfit.sqrt())
 }
