@@ -55,6 +55,11 @@ impl GivenSession {
         whole.file_name().map(|name| name.to_string_lossy().into_owned())
     }
 
+    /// Where its runs are: for messages about all of them.
+    pub fn runs_path(&self) -> PathBuf {
+        if self.robot.is_some() { self.paths[0].clone() } else { self.paths[0].join("runs") }
+    }
+
     /// The robot file that it names.
     pub fn robot_path(&self) -> PathBuf {
         self.robot.clone().unwrap_or_else(|| self.paths[0].join("robot.toml"))

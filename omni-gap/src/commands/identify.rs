@@ -1,10 +1,12 @@
 //! `identify`: the best nominal numbers, and how sure they are.
 
+mod by_experiment;
+
 use std::path::PathBuf;
 
 use model_core::robot::Nominal;
 use omni_gap::check::check;
-use omni_gap::identify::{Fit, Prior, Shots, Windows, fit_tempered, nominal_free};
+use omni_gap::identify::{Asked, Fit, Prior, Shots, Windows, fit_tempered, nominal_free};
 use omni_gap::log::{RobotFile, corrected, write_whole};
 use omni_gap::report::num;
 use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded, Slot};
@@ -22,6 +24,15 @@ pub struct Identify {
     /// The robot file to write, with the fitted numbers in the place of the nominal ones
     #[arg(long, value_name = "ROBOT.toml")]
     out: PathBuf,
+
+    /// Instead, ask the paper's experiments, runs told by their names, and fit the model to them from scratch: 1 (spin),
+    /// 2 (coast), motor, 3 (step), or all
+    #[arg(long, value_name = "WHICH", value_parser = by_experiment::asked)]
+    experiment: Option<Asked>,
+
+    /// With --experiment: a file for all numbers, in JSON
+    #[arg(long, value_name = "FILE", requires = "experiment")]
+    json: Option<PathBuf>,
 }
 
 /// Length of a window of the fit [s]
@@ -33,6 +44,9 @@ impl Identify {
     /// Does it.
     pub fn run(&self, voice: &Voice) -> Done {
         place::file(&self.out, &[&self.session.robot_path()])?;
+        if let Some(asked) = self.experiment {
+            return by_experiment::run(asked, self, voice);
+        }
         let session = self.session.load(voice)?;
         refuse_faulty(&session)?;
         voice.phase("fitting the numbers of the robot file");

@@ -7,6 +7,7 @@
 mod check;
 mod demo;
 mod diagnose;
+mod experiment;
 mod explain;
 mod given;
 mod identify;
@@ -44,6 +45,7 @@ enum Command {
     Demo(demo::Demo),
     Diagnose(diagnose::Diagnose),
     Check(check::Check),
+    Experiment(experiment::Experiments),
     Identify(identify::Identify),
     Predict(predict::Predict),
     Validate(validate::Validate),
@@ -63,6 +65,7 @@ impl Cli {
             Command::Demo(c) => c.run(&voice),
             Command::Diagnose(c) => c.run(&voice),
             Command::Check(c) => c.run(&voice),
+            Command::Experiment(c) => c.run(&voice),
             Command::Identify(c) => c.run(&voice),
             Command::Predict(c) => c.run(&voice),
             Command::Validate(c) => c.run(&voice),

@@ -5,11 +5,13 @@
 //! (the plant is run in dual numbers), and what the robot file says of its own uncertainty enters as a [`Prior`]. Every
 //! number comes with its uncertainty, which holds under errors that go on through a window.
 
+mod answer;
 mod block;
 mod disagree;
 mod driven;
 pub mod experiments;
 mod fit;
+mod guess;
 mod joint;
 mod linear;
 mod noise;
@@ -22,8 +24,13 @@ mod tempered;
 mod whiten;
 mod words;
 
+pub use answer::model::{
+    Answer, Apart, Asked, Counted, LeftOut, Moved, Number, Power, Product, SCHEMA, SensorNoise, Side, Together, Value,
+};
+pub use answer::{answer, number_key};
 pub use disagree::{Disagreement, Told, disagreements};
 pub use fit::{Fit, Free, fit, profile};
+pub use guess::Guessed;
 pub use joint::{GIVEN, IDENTIFIED, Identified, Joint, Refused, joint};
 pub use linear::{Linearised, WindowLinear, linearise};
 pub use noise::{Noise, noise_of};

@@ -11,7 +11,8 @@ const TRACELESS: f64 = 0.5;
 const PART: f64 = 0.1;
 
 /// What became of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Word {
     /// Known on its own.
     Identified,
@@ -23,6 +24,24 @@ pub enum Word {
     AtBound,
     /// Has left no trace in these runs.
     NotSeen,
+}
+
+impl Word {
+    /// The word as it is said.
+    pub const fn said(self) -> &'static str {
+        match self {
+            Self::Identified => "identified",
+            Self::Weak => "weak",
+            Self::Combined => "only as a combination",
+            Self::AtBound => "at its bound",
+            Self::NotSeen => "not seen",
+        }
+    }
+
+    /// Whether the number is one to go on with.
+    pub const fn is_known(self) -> bool {
+        matches!(self, Self::Identified | Self::Weak)
+    }
 }
 
 /// The word for number `k` of an information matrix per relative change of each number.

@@ -8,6 +8,8 @@
 
 mod horizons;
 mod html;
+mod identified;
+mod instructions;
 mod markup;
 mod model;
 mod number;
@@ -24,6 +26,8 @@ mod words;
 mod write;
 
 pub use html::html;
+pub use identified::{identified_json, identified_terminal};
+pub use instructions::{Instructions, ScriptSaid, instructions};
 pub use model::{
     Axis, Corrected, Estimate, Fault, Gap, HorizonError, Kind, NextExperiment, Regime, Report, SCHEMA, Shrink,
     SignalGap, Stage, Verdict, Where, Which,

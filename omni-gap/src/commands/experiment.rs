@@ -1,0 +1,270 @@
+//! `experiment`: the paper's experiments, as scripts that a robot can play and a page that says how.
+
+use std::path::PathBuf;
+
+use omni_gap::log::{Change, RobotFile, SensorsFile, corrected, write_whole, write_whole_with};
+use omni_gap::rehearse::{drag_a_load, rehearse_some};
+use omni_gap::report::{Instructions, ScriptSaid, instructions, num};
+use omni_gap::simulate::{Allowed, Experiment, Lowered, Plan, Sensing, USUAL_FIELD, allowed, usual_voltage};
+use omni_gap::{Error, known_effects};
+
+use super::place::{self, NewFolder};
+use super::{DONE, Done, Stop, Voice};
+
+/// Write the scripts of the experiments that tell a robot's parameters, and how to do them
+#[derive(Debug, clap::Args)]
+pub struct Experiments {
+    /// The robot file, with mass and geometry measured and the rest as far as it is known
+    #[arg(value_name = "ROBOT.toml")]
+    robot: PathBuf,
+
+    /// Folder for README.md, scripts/ and session/; made if need be
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+
+    /// Largest voltage on a motor [V]; 8 V, or two thirds of [supply]; less where [limits] asks for it
+    #[arg(long, value_name = "V", value_parser = volts)]
+    voltage: Option<f64>,
+
+    /// Rows a second in the scripts [1/s]; 100, or those of the recordings that are rehearsed
+    #[arg(long, value_name = "HZ", value_parser = hertz, conflicts_with = "rehearse")]
+    rate: Option<f64>,
+
+    /// How often coast-downs and steps are repeated
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=20))]
+    repeats: u8,
+
+    /// Runs of the motor experiment, each with more to drag
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u8).range(2..=10))]
+    loads: u8,
+
+    /// Only these experiments, with commas between them: spin (1), coast (2), motor, step (3)
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = experiment)]
+    only: Vec<Experiment>,
+
+    /// Also play them on a robot that is just what its file says, measured so: paper, modern or halls
+    #[arg(long, value_name = "SENSING", value_parser = sensing)]
+    rehearse: Option<Sensing>,
+
+    /// Seed of the noise of a rehearsal; the same seed gives the same files
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+}
+
+/// Rows a second where nothing else is asked [1/s]
+const USUAL_RATE: f64 = 100.0;
+/// Rates that a ramp of 0.3 s can be written at [1/s]
+const RATES: (f64, f64) = (10.0, 10_000.0);
+/// What is made in the folder.
+const MADE: [&str; 3] = ["README.md", "scripts", "session"];
+
+impl Experiments {
+    /// Does it.
+    pub fn run(&self, voice: &Voice) -> Done {
+        place::folder(&self.out, &[])?;
+        if let Some(there) = MADE.iter().map(|name| self.out.join(name)).find(|path| path.exists()) {
+            let mend = "Name another folder with --out, or move it away";
+            return Err(Error::output(&there, "it is there already", mend).into());
+        }
+        let file = RobotFile::load(&self.robot, &known_effects())?;
+        let plan = self.plan(&file)?;
+        voice.phase("planning the experiments");
+        let said = match file.wheel.len() {
+            3 => self.written::<3>(&file, &plan, voice),
+            _ => self.written::<4>(&file, &plan, voice),
+        }?;
+        voice.say(&said)?;
+        Ok(DONE)
+    }
+
+    fn plan(&self, file: &RobotFile) -> Result<Plan, Stop> {
+        let voltage = self.voltage.unwrap_or_else(|| usual_voltage(file));
+        if let Some(supply) = file.supply.filter(|supply| voltage > supply.voltage_v) {
+            let problem =
+                format!("its supply gives {} V, --voltage asks for {} V", num(supply.voltage_v), num(voltage));
+            return Err(Error::input(&self.robot, problem, "Ask for no more than the supply gives").into());
+        }
+        Ok(Plan {
+            rate: self.rate.unwrap_or_else(|| self.rehearse.map_or(USUAL_RATE, Sensing::rate)),
+            voltage,
+            field: file.limits.and_then(|limits| limits.field_m).unwrap_or(USUAL_FIELD),
+            repeats: self.repeats.into(),
+            loads: self.loads.into(),
+        })
+    }
+
+    /// The experiments that are wanted, in the order in which they are done.
+    fn wanted(&self) -> Vec<Experiment> {
+        Experiment::ALL.into_iter().filter(|e| self.only.is_empty() || self.only.contains(e)).collect()
+    }
+
+    fn written<const N: usize>(&self, file: &RobotFile, plan: &Plan, voice: &Voice) -> Result<String, Stop> {
+        let wanted = self.wanted();
+        let all: Allowed<N> =
+            allowed(file, plan, |script| Experiment::of(&script.name).is_some_and(|e| wanted.contains(&e)));
+        let notes: Vec<String> = all.lowered.iter().map(lowered_in_words).collect();
+        if let Some(axis) = all.held.first() {
+            let told = format!(
+                "at {} V, half of what the scripts ask for, it does not move along {axis}: the friction of the file holds it. {}",
+                num(0.5 * all.plan.voltage),
+                notes.join(" ")
+            );
+            let mend = "Ask for more with --voltage, widen [limits], or correct [friction]";
+            return Err(Error::input(&self.robot, told.trim().trim_end_matches('.'), mend).into());
+        }
+        let folder = NewFolder::make(&self.out)?;
+        let scripts = NewFolder::make(&self.out.join("scripts"))?;
+        let session = NewFolder::make(&self.out.join("session/runs"))?;
+        for script in &all.scripts {
+            let path = self.out.join(format!("scripts/{}.csv", script.name));
+            write_whole_with(&path, |out| script.to_run().write_csv(out))?;
+        }
+        self.write_session(file, &all.plan, voice)?;
+        let page = self.page(file, &all, notes.clone());
+        write_whole(&self.out.join("README.md"), page.as_bytes())?;
+        [folder, scripts, session].into_iter().for_each(NewFolder::keep);
+        Ok(self.said(&all, &notes))
+    }
+
+    /// The robot file, and where it is rehearsed the recordings.
+    fn write_session(&self, file: &RobotFile, plan: &Plan, voice: &Voice) -> Result<(), Stop> {
+        let text = std::fs::read_to_string(&self.robot).map_err(|why| {
+            Error::input(&self.robot, format!("cannot be read: {why}"), "Check the file's permissions")
+        })?;
+        let Some(sensing) = self.rehearse else {
+            return Ok(write_whole(&self.out.join("session/robot.toml"), text.as_bytes())?);
+        };
+        voice.phase("rehearsing them");
+        let how = sensing.recording();
+        let truth = RobotFile { sensors: how.sensors, ..file.clone() };
+        for run in rehearse_some(&truth, plan, &self.wanted(), &how, self.seed) {
+            let path = self.out.join(format!("session/runs/{}.csv", run.name));
+            write_whole_with(&path, |out| run.write_csv(out))?;
+        }
+        let text = corrected(&text, &sensors(&how.sensors))?;
+        Ok(write_whole(&self.out.join("session/robot.toml"), text.as_bytes())?)
+    }
+
+    fn page<const N: usize>(&self, file: &RobotFile, all: &Allowed<N>, notes: Vec<String>) -> String {
+        let said = all.scripts.iter().zip(&all.floors).filter_map(|(script, floor)| {
+            Some(ScriptSaid {
+                name: script.name.clone(),
+                experiment: Experiment::of(&script.name)?,
+                seconds: script.t.len() as f64 / all.plan.rate,
+                floor: *floor,
+            })
+        });
+        instructions(&Instructions {
+            robot: file.name.clone(),
+            wheels: N,
+            folder: self.out.display().to_string(),
+            voltage: all.plan.voltage,
+            notes,
+            rate: all.plan.rate,
+            scripts: said.collect(),
+            drag: drag_a_load(file, &all.plan),
+            rehearsed: self.rehearse.is_some(),
+        })
+    }
+
+    fn said<const N: usize>(&self, all: &Allowed<N>, notes: &[String]) -> String {
+        let at = |name: &str| self.out.join(name).display().to_string();
+        let seconds: f64 = all.scripts.iter().map(|s| s.t.len() as f64 / all.plan.rate).sum();
+        let mut text = format!(
+            "{} scripts of up to {} V, {:.0} minute(s) of driving, written to {}\n",
+            all.scripts.len(),
+            num(all.plan.voltage),
+            (seconds / 60.0).ceil(),
+            at("scripts")
+        );
+        for note in notes {
+            text += &format!("{note}\n");
+        }
+        match self.rehearse {
+            Some(sensing) => {
+                text += &format!(
+                    "played by a robot that is just what its file says, measured as `{}`, into {}\n",
+                    sensing.word(),
+                    at("session")
+                );
+                let which = if self.only.is_empty() { "all".to_owned() } else { said_as(&self.wanted()) };
+                text +=
+                    &format!("next: omni-gap identify {} --experiment {which} --out identified.toml\n", at("session"));
+            }
+            None => text += &format!("next: read {}; it says how to play them and what to record\n", at("README.md")),
+        }
+        text
+    }
+}
+
+/// What `identify --experiment` is to be asked.
+fn said_as(wanted: &[Experiment]) -> String {
+    if let [one] = wanted { one.word().to_owned() } else { "all".to_owned() }
+}
+
+/// "The voltage is 4.31 V in place of 8.00 V: [limits] current_A = 1 …"
+fn lowered_in_words(lowered: &Lowered) -> String {
+    let (unit, why) = match lowered.key {
+        "current_A" => ("A", "a motor that is held still draws no more than"),
+        "speed_m_s" => ("m/s", "the robot gets no faster than"),
+        _ => ("m", "every script stays on a floor of"),
+    };
+    let [from, to] = [lowered.from, lowered.to].map(num);
+    format!("The voltage is {to} V in place of {from} V, so that {why} {} = {} {unit}.", lowered.key, lowered.limit)
+}
+
+/// The changes that state these sensors in a robot file.
+fn sensors(sensors: &SensorsFile) -> [Change; 4] {
+    [
+        ("current_noise_A", sensors.current_noise_a),
+        ("wheel_speed_noise_rad_s", sensors.wheel_speed_noise_rad_s),
+        ("position_noise_m", sensors.position_noise_m),
+        ("heading_noise_rad", sensors.heading_noise_rad),
+    ]
+    .map(|(key, value)| Change::Number { path: format!("sensors.{key}"), value })
+}
+
+fn volts(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("expected a voltage above zero, in volts, such as 6".to_owned()),
+    }
+}
+
+fn hertz(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (RATES.0..=RATES.1).contains(&x) => Ok(x),
+        _ => Err(format!("expected rows a second, from {} to {}", RATES.0, RATES.1)),
+    }
+}
+
+/// An experiment by its word or its number.
+pub fn experiment(text: &str) -> Result<Experiment, String> {
+    let told = || "expected spin (or 1), coast (or 2), motor, or step (or 3)".to_owned();
+    Experiment::named(text.trim()).ok_or_else(told)
+}
+
+fn sensing(text: &str) -> Result<Sensing, String> {
+    let known = Sensing::ALL.map(Sensing::word).join(", ");
+    Sensing::ALL.into_iter().find(|s| s.word() == text).ok_or_else(|| format!("expected one of {known}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_is_told_with_its_unit() {
+        let told = lowered_in_words(&Lowered { key: "current_A", limit: 1.0, from: 8.0, to: 4.3111 });
+        assert_eq!(
+            told,
+            "The voltage is 4.31 V in place of 8.00 V, so that a motor that is held still draws no more than current_A = 1 A."
+        );
+    }
+
+    #[test]
+    fn an_experiment_is_known_by_word_and_number() {
+        assert_eq!(experiment("2"), Ok(Experiment::Coast));
+        assert!(experiment("jump").unwrap_err().contains("spin (or 1)"));
+    }
+}

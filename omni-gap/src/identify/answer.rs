@@ -1,0 +1,220 @@
+//! What experiments tell of a robot, as data: the paper's numbers, those of all runs together, and what to make of them.
+
+pub(super) mod model;
+
+use model_core::robot::Nominal;
+
+use super::disagree::{Disagreement, disagreements};
+use super::experiments::{Classic, Estimate, classic};
+use super::guess::guessed;
+use super::joint::{Identified, Joint, Refused, joint};
+use super::words::TradeOff;
+use crate::log::{Change, RobotFile};
+use crate::simulate::{Chain, Experiment, Model, NOMINAL_KEYS, NominalKey, Recorded};
+use model::*;
+
+/// Figures of a number that is written into a robot file, and of its uncertainty.
+const FIGURES: (i32, i32) = (6, 2);
+
+/// A channel that spreads less than this about its mean is no motion [σ]
+const MOVES: f64 = 3.0;
+
+/// The key of the robot file that stands for a number.
+pub fn number_key(nominal: Nominal) -> &'static NominalKey {
+    NOMINAL_KEYS.iter().find(|key| key.factors == [nominal]).expect("every number that is identified has a key")
+}
+
+/// What the runs of the experiments that are asked say of a robot. All of the session's drivable runs are given: the
+/// paper takes numbers of one experiment for another.
+///
+/// # Errors
+/// Where the runs that are to be fitted cannot tell a single number.
+pub fn answer<const N: usize>(file: &RobotFile, runs: &[Recorded<N>], asked: Asked) -> Result<Answer, Refused> {
+    let largest = runs.iter().map(|run| run.largest_voltage).fold(0.0, f64::max);
+    let (begin, guessed) = guessed(file);
+    let model = Model::<N>::nominal(&begin, if largest > 0.0 { largest } else { 1.0 });
+    let (fitted, left_out) = chosen(runs, asked);
+    if stand_still(&fitted) {
+        return Err(Refused::NothingMoves);
+    }
+    let found = joint(&model, &begin, &fitted)?;
+    let paper = classic(&model, &with_volts(runs));
+    let disagreements = match asked {
+        Asked::All => disagreements(&model, &begin, &runs.iter().collect::<Vec<_>>()),
+        Asked::One(_) => Vec::new(),
+    };
+    Ok(Answer {
+        schema: SCHEMA,
+        robot: file.name.clone(),
+        asked: asked.word(),
+        runs: counted(runs, asked),
+        fitted_runs: fitted.len(),
+        left_out,
+        not_logged: not_logged(&fitted),
+        guessed,
+        numbers: found.numbers.iter().map(|n| number(n, (file, &begin), &paper, asked)).collect(),
+        trade_offs: found.trade_offs.iter().map(together).collect(),
+        noise: noise(&found, file, &fitted),
+        follows: found.follows,
+        misfit: found.misfit,
+        samples: found.samples,
+        disagreements: disagreements.iter().map(|d| apart(d, &begin)).collect(),
+    })
+}
+
+impl Answer {
+    /// The changes that write what is known into the robot file, with how sure it is.
+    pub fn changes(&self, file: &RobotFile) -> Vec<Change> {
+        let mut changes = Vec::new();
+        for n in self.numbers.iter().filter(|n| n.word.is_known()) {
+            let std = n.together.std.unwrap_or(0.0).hypot(n.std_given) / n.together.value;
+            let nominal = NominalKey::of(n.key).map_or(&[][..], |key| key.factors);
+            // K_t and K_v go together, as the file has them to each other
+            for key in NOMINAL_KEYS.iter().filter(|key| key.factors.first() == nominal.first()) {
+                let scale = if key.key == n.key { 1.0 } else { key.value(file) / n.file };
+                let path = format!("{}.{}", key.table, key.key);
+                changes.push(Change::Number { path, value: rounded(n.together.value * scale, FIGURES.0) });
+                let path = format!("uncertainty.{}", key.key);
+                changes.push(Change::Number { path, value: rounded(std, FIGURES.1) });
+            }
+        }
+        changes
+    }
+}
+
+/// A number with so many figures.
+fn rounded(x: f64, figures: i32) -> f64 {
+    format!("{x:.*e}", (figures - 1) as usize).parse().unwrap_or(x)
+}
+
+/// The runs to fit together, and those left out: more friction than the robot has is not to be fitted as the robot's.
+fn chosen<const N: usize>(runs: &[Recorded<N>], asked: Asked) -> (Vec<&Recorded<N>>, Vec<LeftOut>) {
+    let asked_for = |run: &&Recorded<N>| asked.takes(&run.name);
+    let is_motor = |run: &&Recorded<N>| Experiment::of(&run.name) == Some(Experiment::Motor);
+    let unloaded = |run: &&Recorded<N>| run.name.rsplit('-').next() == Some("0");
+    let (motor, others): (Vec<_>, Vec<_>) = runs.iter().filter(asked_for).partition(is_motor);
+    let (fitted, loaded) = match others.is_empty() {
+        true => motor.into_iter().partition(unloaded),
+        false => (others, motor),
+    };
+    let names = |runs: Vec<&Recorded<N>>| runs.iter().map(|run| run.name.clone()).collect();
+    let strangers = runs.iter().filter(|run| asked == Asked::All && !asked.takes(&run.name)).collect();
+    let left_out = [
+        LeftOut { runs: names(loaded), why: "what the motor experiment drags is no friction of the robot" },
+        LeftOut { runs: names(strangers), why: "their names tell no experiment" },
+    ];
+    (fitted, left_out.into_iter().filter(|l| !l.runs.is_empty()).collect())
+}
+
+/// The runs that the paper's estimators can use: they take voltages, but for a coast-down.
+fn with_volts<const N: usize>(runs: &[Recorded<N>]) -> Vec<Recorded<N>> {
+    let usable =
+        |run: &&Recorded<N>| run.chain == Chain::Voltage || Experiment::of(&run.name) == Some(Experiment::Coast);
+    runs.iter().filter(usable).cloned().collect()
+}
+
+/// Whether all wheels and poses that these runs show stay within their noise. Runs that show neither are not judged.
+fn stand_still<const N: usize>(runs: &[&Recorded<N>]) -> bool {
+    let channels = || (N..Recorded::<N>::channels().count()).flat_map(|c| runs.iter().map(move |run| (*run, c)));
+    let spread = channels().filter_map(|(run, channel)| {
+        let seen: Vec<f64> =
+            (0..run.rows()).filter(|row| run.saw(*row, channel)).map(|row| run.measured[row][channel]).collect();
+        let mean = seen.iter().sum::<f64>() / seen.len() as f64;
+        let squares: f64 = seen.iter().map(|x| (x - mean) * (x - mean)).sum();
+        (!seen.is_empty()).then(|| (squares / seen.len() as f64).sqrt() / run.sigma[channel])
+    });
+    let most = spread.fold(f64::NEG_INFINITY, f64::max);
+    most.is_finite() && most < MOVES
+}
+
+fn counted<const N: usize>(runs: &[Recorded<N>], asked: Asked) -> Vec<Counted> {
+    let of = |e: Experiment| runs.iter().filter(|r| asked.takes(&r.name) && Experiment::of(&r.name) == Some(e)).count();
+    let counts = Experiment::ALL.into_iter().map(|e| Counted { experiment: e.title(), runs: of(e) });
+    counts.filter(|c| c.runs > 0).collect()
+}
+
+fn not_logged<const N: usize>(runs: &[&Recorded<N>]) -> Vec<&'static str> {
+    let no = |has: &dyn Fn(&Recorded<N>) -> bool| !runs.iter().any(|run| has(run));
+    let by = |chain: Chain| move |run: &Recorded<N>| run.chain == chain;
+    let (volts, amps) = (by(Chain::Voltage), by(Chain::Current));
+    let speeds = by(Chain::WheelSpeed);
+    let groups = [
+        ("voltages", no(&volts)),
+        ("currents", no(&|run| run.has_group("i") || amps(run))),
+        ("wheel speeds", no(&|run| run.has_group("w") || speeds(run))),
+        ("poses", no(&|run| run.has_group("pose"))),
+    ];
+    groups.into_iter().filter(|(_, missing)| *missing).map(|(name, _)| name).collect()
+}
+
+fn number(n: &Identified, (file, begin): (&RobotFile, &RobotFile), paper: &Classic, asked: Asked) -> Number {
+    let key = number_key(n.nominal);
+    let size = key.value(begin);
+    let value = |e: Estimate| Value { value: e.value, std: Some(e.std).filter(|std| std.is_finite()) };
+    let wanted = |e: Experiment| matches!(asked, Asked::All) || asked == Asked::One(e);
+    let third = |s: Option<super::experiments::Stepped>| {
+        s.filter(|_| wanted(Experiment::Step)).and_then(|s| s.of(n.nominal)).map(value)
+    };
+    Number {
+        key: key.key,
+        file: key.value(file),
+        first: paper.first(n.nominal).filter(|_| first_of(n.nominal).is_some_and(wanted)).map(value),
+        least_squares: third(paper.least_squares),
+        instrumental: third(paper.instrumental),
+        average: paper.table(n.nominal).filter(|_| asked == Asked::All).map(value),
+        together: Value { value: size * n.factor, std: Some(size * n.std).filter(|std| std.is_finite()) },
+        std_given: size * n.std_given,
+        word: n.word,
+    }
+}
+
+/// The experiment that a number of the paper's Table 1 comes from.
+fn first_of(nominal: Nominal) -> Option<Experiment> {
+    match nominal {
+        Nominal::Resistance | Nominal::TorqueConstant => Some(Experiment::Motor),
+        Nominal::ViscousW | Nominal::CoulombW => Some(Experiment::Spin),
+        Nominal::Inertia | Nominal::ViscousV | Nominal::ViscousVn | Nominal::CoulombV | Nominal::CoulombVn => {
+            Some(Experiment::Coast)
+        }
+        _ => None,
+    }
+}
+
+fn together(t: &TradeOff) -> Together {
+    let key = |p: &Nominal| number_key(*p).key;
+    let power = |(p, power): (Nominal, f64)| Power { key: key(&p), power };
+    Together {
+        moves: t.moves.iter().map(|(p, relative)| Moved { key: key(p), relative: *relative }).collect(),
+        std_relative: t.std,
+        known: t.known.map(|(two, std_relative)| Product { powers: two.map(power), std_relative }),
+    }
+}
+
+fn noise<const N: usize>(found: &Joint<N>, file: &RobotFile, runs: &[&Recorded<N>]) -> Vec<SensorNoise> {
+    let sensors = &file.sensors;
+    let of = [
+        ("current_noise_A", sensors.current_noise_a, 0),
+        ("wheel_speed_noise_rad_s", sensors.wheel_speed_noise_rad_s, N),
+        ("position_noise_m", sensors.position_noise_m, 2 * N),
+        ("heading_noise_rad", sensors.heading_noise_rad, 2 * N + 2),
+    ];
+    let mut all = Vec::new();
+    for (group, (key, stated, channel)) in of.into_iter().enumerate() {
+        let seen = |run: &&&Recorded<N>| (0..run.rows()).any(|row| run.saw(row, channel));
+        // a channel's sigma has its quantum in it
+        let Some(sigma) = runs.iter().find(seen).map(|run| run.sigma[channel]) else { continue };
+        let correlation_time_s = found.noise.correlation_time[group];
+        all.push(SensorNoise { key, found: found.noise.scale[group] * sigma, stated, correlation_time_s });
+    }
+    all
+}
+
+fn apart(d: &Disagreement, begin: &RobotFile) -> Apart {
+    let key = number_key(d.nominal);
+    let size = key.value(begin);
+    let side = |told: &super::disagree::Told| Side {
+        by: told.by,
+        value: Value { value: size * told.factor, std: Some(size * told.std) },
+    };
+    Apart { key: key.key, sides: [side(&d.one), side(&d.other)], sigmas: d.sigmas }
+}
