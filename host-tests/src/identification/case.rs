@@ -29,7 +29,7 @@ pub struct Case {
 }
 
 const fn paper(wheels: usize, camera_correlation: f64) -> Case {
-    Case { wheels, sensing: Sensing::Paper, camera_correlation, repeats: 3, seeds: 400 }
+    Case { wheels, sensing: Sensing::Paper, camera_correlation, repeats: 2, seeds: 400 }
 }
 
 const fn modern(wheels: usize, sensing: Sensing) -> Case {

@@ -16,7 +16,6 @@ use model_core::robot::Nominal;
 use nalgebra::DMatrix;
 
 use super::driven::by_input;
-use super::fit::{Fit, Free, fit};
 use super::fit::{Fit, Free, How, fit_so};
 use super::linear::linearise;
 use super::noise::{Noise, noise_of};
