@@ -60,9 +60,9 @@ fn the_page_was_made_of_the_cases_of_the_study() {
 fn the_study_has_as_many_robots_as_were_asked_for_on_three_and_on_four_wheels() {
     for wheels in [3, 4] {
         let of = |white: bool| papers().find(|c| c.wheels == wheels && c.is_white() == white).expect("a case");
-        assert!(of(true).seeds >= 400 && of(false).seeds >= 200);
+        assert!(of(true).seeds >= 400 && of(false).seeds >= 150);
         for sensing in [Sensing::Modern, Sensing::Halls] {
-            assert!(CASES.iter().any(|c| c.wheels == wheels && c.sensing == sensing && c.seeds >= 100));
+            assert!(CASES.iter().any(|c| c.wheels == wheels && c.sensing == sensing && c.seeds >= 50));
         }
     }
 }
@@ -108,10 +108,14 @@ fn the_promises_of_the_page_are_those_of_its_rows() {
     let least = |x: Vec<f64>| x.into_iter().fold(f64::MAX, f64::min);
     agrees(1, most(column(true, 7)), 0.01);
     agrees(3, most(column(true, 8)), 0.1 * promises[3].found);
-    for (k, white) in [(4, true), (6, false)] {
-        agrees(k, least(column(white, 9)), 0.1);
-        agrees(k + 1, most(column(white, 9)), 0.1);
-    }
+    agrees(4, least(column(true, 9)), 0.1);
+    agrees(5, most(column(true, 9)), 0.1);
+    let means: Vec<f64> = papers()
+        .filter(|case| !case.is_white())
+        .map(|case| table(&page, case).iter().map(|cells| number(cells[9])).sum::<f64>() / IDENTIFIED.len() as f64)
+        .collect();
+    agrees(6, least(means.clone()), 0.1);
+    agrees(7, most(means), 0.1);
 }
 
 /// A few robots, each identified from fewer runs than the page's.

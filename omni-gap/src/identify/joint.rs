@@ -43,8 +43,8 @@ pub const GIVEN: [Nominal; 3] = [Nominal::Mass, Nominal::WheelRadius, Nominal::C
 
 /// Length of the short windows [s]
 const WINDOW: f64 = 0.5;
-/// Rounds of a fit, at the most.
-const ROUNDS: usize = 25;
+/// Rounds of the fit to short windows, which need only come near, and of those to whole runs, at the most.
+const ROUNDS: (usize, usize) = (8, 25);
 /// A factor on a nominal value is looked for between these.
 const WITHIN: (f64, f64) = (0.01, 50.0);
 /// Σ error² per number up to which whole runs count as predicted to within their noise.
@@ -120,12 +120,12 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Record
     }
     let free = IDENTIFIED.map(|p| Free { slot: Slot::Nominal(p), within: WITHIN });
     let prior = Prior { rows: Vec::new() };
-    let how = How { free: &free, prior: &prior, temper: 1.0, rounds: ROUNDS, by_window: true };
+    let how = How { free: &free, prior: &prior, temper: 1.0, rounds: ROUNDS.1, by_window: true };
     let short: Vec<Windows> = runs.iter().map(|run| Windows::new(run, WINDOW)).collect();
     let whole: Vec<Windows> = runs.iter().map(|run| Windows::whole(run)).collect();
 
     let shots = Shots { runs: &runs, windows: &short };
-    let near = fit_so(model.clone(), shots, None, how);
+    let near = fit_so(model.clone(), shots, None, How { rounds: ROUNDS.0, ..how });
     let mut noise = noise_of(&near, shots);
     let with_noise: Vec<Recorded<N>> = runs.iter().map(|run| noise.applied(run)).collect();
     let mut noisy: Vec<&Recorded<N>> = with_noise.iter().collect();

@@ -22,6 +22,9 @@ const MOST: usize = 20;
 /// Derivatives of a pass with few parameters, and of each pass whose windows are kept.
 const KEPT: usize = 10;
 
+/// As many as a fit of all runs together takes: nine numbers and a twist.
+const JOINT: usize = 12;
+
 /// One window: its errors and derivatives, in units of sigma, whitened.
 #[derive(Clone, Debug)]
 pub struct WindowLinear {
@@ -92,6 +95,8 @@ pub fn linearise<const N: usize>(
                 summed::<N, TWIST>(course, piece)
             } else if lanes <= KEPT {
                 summed::<N, KEPT>(course, piece)
+            } else if lanes <= JOINT {
+                summed::<N, JOINT>(course, piece)
             } else {
                 summed::<N, MOST>(course, piece)
             };
