@@ -16,9 +16,6 @@ use model::*;
 /// Figures of a number that is written into a robot file, and of its uncertainty.
 const FIGURES: (i32, i32) = (6, 2);
 
-/// A channel that spreads less than this about its mean is no motion [σ]
-const MOVES: f64 = 3.0;
-
 /// The key of the robot file that stands for a number.
 pub fn number_key(nominal: Nominal) -> &'static NominalKey {
     NOMINAL_KEYS.iter().find(|key| key.factors == [nominal]).expect("every number that is identified has a key")
@@ -34,9 +31,6 @@ pub fn answer<const N: usize>(file: &RobotFile, runs: &[Recorded<N>], asked: Ask
     let (begin, guessed) = guessed(file);
     let model = Model::<N>::nominal(&begin, if largest > 0.0 { largest } else { 1.0 });
     let (fitted, left_out) = chosen(runs, asked);
-    if stand_still(&fitted) {
-        return Err(Refused::NothingMoves);
-    }
     let found = joint(&model, &begin, &fitted)?;
     let paper = classic(&model, &with_volts(runs));
     let disagreements = match asked {
@@ -111,20 +105,6 @@ fn with_volts<const N: usize>(runs: &[Recorded<N>]) -> Vec<Recorded<N>> {
     let usable =
         |run: &&Recorded<N>| run.chain == Chain::Voltage || Experiment::of(&run.name) == Some(Experiment::Coast);
     runs.iter().filter(usable).cloned().collect()
-}
-
-/// Whether all wheels and poses that these runs show stay within their noise. Runs that show neither are not judged.
-fn stand_still<const N: usize>(runs: &[&Recorded<N>]) -> bool {
-    let channels = || (N..Recorded::<N>::channels().count()).flat_map(|c| runs.iter().map(move |run| (*run, c)));
-    let spread = channels().filter_map(|(run, channel)| {
-        let seen: Vec<f64> =
-            (0..run.rows()).filter(|row| run.saw(*row, channel)).map(|row| run.measured[row][channel]).collect();
-        let mean = seen.iter().sum::<f64>() / seen.len() as f64;
-        let squares: f64 = seen.iter().map(|x| (x - mean) * (x - mean)).sum();
-        (!seen.is_empty()).then(|| (squares / seen.len() as f64).sqrt() / run.sigma[channel])
-    });
-    let most = spread.fold(f64::NEG_INFINITY, f64::max);
-    most.is_finite() && most < MOVES
 }
 
 fn counted<const N: usize>(runs: &[Recorded<N>], asked: Asked) -> Vec<Counted> {

@@ -42,7 +42,9 @@ pub(super) fn all(answer: &Answer) -> Vec<(&'static str, String)> {
     all.extend(answer.trade_offs.iter().map(|t| ("together", trade_off(t))));
     all.push(("noise", noise(&answer.noise)));
     all.push(("fit", follows(answer)));
-    all.extend(answer.disagreements.iter().map(|d| ("disagreed", disagreement(d))));
+    // what it means is said once, at the end
+    let last = answer.disagreements.len().saturating_sub(1);
+    all.extend(answer.disagreements.iter().enumerate().map(|(n, d)| ("disagreed", disagreement(d, n == last))));
     all.extend(kept(answer).map(|told| ("kept", told)));
     let mut last = "";
     // a label is said once
@@ -145,12 +147,14 @@ fn follows(answer: &Answer) -> String {
     }
 }
 
-fn disagreement(d: &Apart) -> String {
+fn disagreement(d: &Apart, last: bool) -> String {
+    let meaning =
+        if last { format!(", which is a sign of an effect that the model lacks; {TRY}") } else { String::new() };
     let (name, unit) = symbol(d.key);
     let value = |side: &Side| estimate(side.value.value, side.value.std, unit);
     let [one, other] = &d.sides;
     format!(
-        "{} says {name} {}, {} {}: they disagree by {:.0}{NBSP}σ, a sign of an effect that the model lacks; {TRY}",
+        "{} says {name} {}, {} {}: they disagree by {:.0}{NBSP}σ{meaning}",
         the(one.by),
         value(one),
         the(other.by),
