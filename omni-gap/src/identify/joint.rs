@@ -145,8 +145,12 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Record
     judged(best, Shots { runs: &noisy, windows }, file, noise, follows, misfit.sqrt())
 }
 
-/// True if any wheel speed or pose of a run varies by more than its noise; currents can flow in a robot that is held.
+/// True if any wheel speed or pose of a run varies by more than its noise; currents can flow in a robot that is held. A
+/// run that shows neither is not judged.
 fn moves<const N: usize>(run: &Recorded<N>) -> bool {
+    if !run.has_group("w") && !run.has_group("pose") {
+        return true;
+    }
     (N..2 * N + 3).any(|channel| {
         let told = (0..run.rows()).filter(|row| run.saw(*row, channel)).map(|row| run.measured[row][channel]);
         let (n, sum) = told.clone().fold((0.0, 0.0), |(n, sum), x| (n + 1.0, sum + x));
