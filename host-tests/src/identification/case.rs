@@ -29,12 +29,12 @@ pub struct Case {
 }
 
 const fn paper(wheels: usize, camera_correlation: f64) -> Case {
-    let seeds = if camera_correlation == 0.0 { 400 } else { 150 };
+    let seeds = if camera_correlation == 0.0 { 400 } else { 20 };
     Case { wheels, sensing: Sensing::Paper, camera_correlation, repeats: 2, seeds }
 }
 
 const fn modern(wheels: usize, sensing: Sensing) -> Case {
-    Case { wheels, sensing, camera_correlation: 0.0, repeats: 1, seeds: 50 }
+    Case { wheels, sensing, camera_correlation: 0.0, repeats: 1, seeds: 8 }
 }
 
 /// The cases of the study.

@@ -29,8 +29,8 @@ impl Lack {
     /// Robots of which this is asked: a standing one may be taken for a moving one by chance, and rarely.
     pub const fn seeds(self) -> u64 {
         match self {
-            Self::Motion => 40,
-            Self::Driving | Self::Sideways => 5,
+            Self::Motion => 20,
+            Self::Driving | Self::Sideways => 2,
         }
     }
 

@@ -44,7 +44,7 @@ pub const GIVEN: [Nominal; 3] = [Nominal::Mass, Nominal::WheelRadius, Nominal::C
 /// Length of the short windows [s]
 const WINDOW: f64 = 0.5;
 /// Rounds of the fit to short windows, which need only come near, and of those to whole runs, at the most.
-const ROUNDS: (usize, usize) = (8, 25);
+const ROUNDS: (usize, usize) = (6, 25);
 /// A factor on a nominal value is looked for between these.
 const WITHIN: (f64, f64) = (0.01, 50.0);
 /// Σ error² per number up to which whole runs count as predicted to within their noise.
@@ -138,7 +138,9 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Record
         noise = noise_of(&best, Shots { runs: &runs, windows });
         again = runs.iter().map(|run| noise.applied(run)).collect::<Vec<_>>();
         noisy = again.iter().collect();
-        best = fit_so(best.model, Shots { runs: &noisy, windows }, Some(best.starts), how);
+        // it is there already but for the weights
+        let near = How { rounds: ROUNDS.0, by_window: false, ..how };
+        best = fit_so(best.model, Shots { runs: &noisy, windows }, Some(best.starts), near);
     } else {
         best = fit_so(near.model, Shots { runs: &noisy, windows }, Some(near.starts), how);
     }
