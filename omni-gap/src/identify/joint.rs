@@ -21,7 +21,7 @@ use super::linear::linearise;
 use super::noise::{Noise, noise_of};
 use super::prior::Prior;
 use super::shoot::{Shots, Windows};
-use super::words::{TradeOff, Word, trade_offs, word_of};
+use super::words::{KNOWN, TradeOff, Word, trade_offs, word_of};
 use crate::log::RobotFile;
 use crate::simulate::{Model, NOMINAL_KEYS, Recorded, Slot};
 
@@ -177,7 +177,7 @@ fn judged<const N: usize>(
     let size: Vec<f64> = slots.iter().map(|slot| best.model.get(*slot)).collect();
     let relative = DMatrix::from_fn(slots.len(), slots.len(), |a, b| reduced.hess[(a, b)] * size[a] * size[b]);
     let information = relative.view((0, 0), (n, n)).into_owned();
-    let words: Vec<Word> = (0..n).map(|k| word_of(&information, k, best.at_bound(&best.free[k]))).collect();
+    let mut words: Vec<Word> = (0..n).map(|k| word_of(&information, k, best.at_bound(&best.free[k]))).collect();
     if words.iter().all(|word| *word == Word::NotSeen) {
         return Err(Refused::NothingMoves);
     }
@@ -201,6 +201,9 @@ fn judged<const N: usize>(
     let mut covariance = covariance;
     for (at, input) in input.iter().enumerate() {
         covariance[(at, at)] += input * input;
+        if words[seen[at]] == Word::Identified && covariance[(at, at)].sqrt() > KNOWN {
+            words[seen[at]] = Word::Weak;
+        }
     }
     let numbers = (0..n)
         .map(|k| {

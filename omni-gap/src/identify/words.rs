@@ -4,7 +4,7 @@ use model_core::robot::Nominal;
 use nalgebra::DMatrix;
 
 /// A relative uncertainty up to which a number counts as known.
-const KNOWN: f64 = 0.15;
+pub(super) const KNOWN: f64 = 0.15;
 /// A number that would be this uncertain if all others were known has left no trace.
 const TRACELESS: f64 = 0.5;
 /// A part of a direction below this share of its largest part is left out of the sentence.
