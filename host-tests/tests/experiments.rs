@@ -10,7 +10,7 @@ use omni_gap::identify::{disagreements, joint};
 use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, SensorsFile};
 use omni_gap::rehearse::rehearse;
-use omni_gap::simulate::{Experiment, Model, NOMINAL_KEYS, Plan, Recorded, Recording, Sensing};
+use omni_gap::simulate::{Experiment, Model, NominalKey, Plan, Recorded, Recording, Sensing};
 
 const SILENT: SensorsFile =
     SensorsFile { current_noise_a: 0.0, wheel_speed_noise_rad_s: 0.0, position_noise_m: 0.0, heading_noise_rad: 0.0 };
@@ -32,7 +32,7 @@ fn played<const N: usize>(truth: &RobotFile, known: &RobotFile, sensors: Sensors
 }
 
 fn value(file: &RobotFile, nominal: Nominal) -> f64 {
-    NOMINAL_KEYS.iter().find(|key| key.factors == [nominal]).expect("a number of the file").value(file)
+    NominalKey::alone(nominal).expect("a number of the file").value(file)
 }
 
 #[test]

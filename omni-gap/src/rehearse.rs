@@ -53,8 +53,7 @@ fn play<const N: usize>(truth: &RobotFile, plan: &Plan, script: &Script<N>, how:
         dragging.friction.coulomb_w_nm += load * drag_a_load(truth, plan);
     }
     let plant = Model::<N>::nominal(&dragging, plan.voltage).plant();
-    let input: Vec<Input<N, f64>> =
-        script.volts.iter().map(|u| u.map_or(Input::Current([0.0; N]), Input::Voltage)).collect();
+    let input: Vec<Input<N, f64>> = script.inputs().collect();
     let mut run = record(&plant, &script.name, &script.t, &input, how, seed);
     run.path = PathBuf::from(format!("runs/{}.csv", script.name));
     run

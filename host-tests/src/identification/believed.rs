@@ -3,7 +3,7 @@
 use model_core::robot::Nominal;
 use omni_gap::identify::IDENTIFIED;
 use omni_gap::log::RobotFile;
-use omni_gap::simulate::{NOMINAL_KEYS, NominalKey};
+use omni_gap::simulate::NominalKey;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -55,7 +55,7 @@ pub fn nominal_value(file: &RobotFile, p: Nominal) -> f64 {
 }
 
 fn key_of(p: Nominal) -> &'static NominalKey {
-    NOMINAL_KEYS.iter().find(|key| key.factors == [p]).expect("every number has a key")
+    NominalKey::alone(p).expect("every number has a key")
 }
 
 /// How a number is written.

@@ -8,6 +8,7 @@ use omni_gap::report::{Instructions, ScriptSaid, instructions, num};
 use omni_gap::simulate::{Allowed, Experiment, Lowered, Plan, Sensing, USUAL_FIELD, allowed, usual_voltage};
 use omni_gap::{Error, known_effects};
 
+use super::given::volts;
 use super::place::{self, NewFolder};
 use super::{DONE, Done, Stop, Voice};
 
@@ -222,13 +223,6 @@ fn sensors(sensors: &SensorsFile) -> [Change; 4] {
         ("heading_noise_rad", sensors.heading_noise_rad),
     ]
     .map(|(key, value)| Change::Number { path: format!("sensors.{key}"), value })
-}
-
-fn volts(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
-        _ => Err("expected a voltage above zero, in volts, such as 6".to_owned()),
-    }
 }
 
 fn hertz(text: &str) -> Result<f64, String> {

@@ -102,3 +102,11 @@ pub fn seconds(text: &str) -> Result<f64, String> {
         _ => Err("expected a time above zero, in seconds, such as 0.5".to_owned()),
     }
 }
+
+/// A voltage above zero [V].
+pub fn volts(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("expected a voltage above zero, in volts, such as 6".to_owned()),
+    }
+}

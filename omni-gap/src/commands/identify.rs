@@ -9,7 +9,7 @@ use omni_gap::check::check;
 use omni_gap::identify::{Asked, Fit, Prior, Shots, Windows, fit_tempered, nominal_free};
 use omni_gap::log::{RobotFile, corrected, write_whole};
 use omni_gap::report::num;
-use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded, Slot};
+use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded, Slot, supply_seen};
 use omni_gap::{Error, Session};
 
 use super::given::GivenSession;
@@ -73,8 +73,7 @@ fn fitted<const N: usize>(session: &Session, robot: &std::path::Path) -> Result<
         let told = "no run has a voltage, a signed current, a wheel speed or a commanded speed to drive the model with";
         return Err(Error::input(robot, told, "Log at least one of u, i, w or wset for every wheel").into());
     }
-    let largest = runs.iter().map(|r| r.largest_voltage).fold(0.0, f64::max);
-    let model = Model::<N>::nominal(&session.robot, if largest > 0.0 { largest } else { 1.0 });
+    let model = Model::<N>::nominal(&session.robot, supply_seen(&runs));
     let windows: Vec<Windows> = runs.iter().map(|r| Windows::new(r, WINDOW_S)).collect();
     let runs: Vec<&Recorded<N>> = runs.iter().collect();
     let fit = fit_tempered(

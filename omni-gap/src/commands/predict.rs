@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use omni_gap::log::{Channel, Group, Run, Sampled, write_whole_with};
-use omni_gap::simulate::{Model, Prediction, Recorded, predict};
+use omni_gap::simulate::{Model, Prediction, predict, supply_seen};
 
 use super::given::{RobotAndRun, robot_and_run, seconds};
 use super::{DONE, Done, Stop, Voice, place};
@@ -49,7 +49,7 @@ impl Predict {
 
     fn predicted<const N: usize>(&self, given: &RobotAndRun) -> Result<Run, Stop> {
         let recorded = given.recorded::<N>()?;
-        let plant = Model::<N>::nominal(&given.robot, supply(&recorded)).plant();
+        let plant = Model::<N>::nominal(&given.robot, supply_seen([&recorded])).plant();
         let mut run = given.run.clone();
         if self.columns.is_none() {
             with_blank_columns::<N>(&mut run);
@@ -69,11 +69,6 @@ fn with_blank_columns<const N: usize>(run: &mut Run) {
             *group = Some(blank(count));
         }
     }
-}
-
-/// The bus voltage to take where the robot file states none [V].
-pub fn supply<const N: usize>(recorded: &Recorded<N>) -> f64 {
-    if recorded.largest_voltage > 0.0 { recorded.largest_voltage } else { 1.0 }
 }
 
 /// The prediction in the place of what the run measured.

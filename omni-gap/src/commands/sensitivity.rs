@@ -7,6 +7,7 @@ use omni_gap::report::{num, sensitivity_terminal, write_sensitivity};
 use omni_gap::simulate::{StepPlan, sensitivity};
 use omni_gap::{Error, known_effects};
 
+use super::given::volts;
 use super::place::{self, NewFolder};
 use super::{DONE, Done, Stop, Voice};
 
@@ -66,13 +67,6 @@ impl Sensitivity {
             }
             _ => Ok(voltage),
         }
-    }
-}
-
-fn volts(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
-        _ => Err("expected a voltage above zero, in volts, such as 6".to_owned()),
     }
 }
 

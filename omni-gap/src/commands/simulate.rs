@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use omni_gap::log::{Channel, Group, Missing, Run, SensorsFile, write_whole_with};
-use omni_gap::simulate::{Model, Recording, record};
+use omni_gap::simulate::{Model, Recording, record, supply_seen};
 
 use super::given::{RobotAndRun, robot_and_run};
-use super::predict::supply;
 use super::{DONE, Done, Stop, Voice, place};
 
 /// Record what a robot file's model does with a run's inputs, starting at rest in the origin
@@ -59,7 +58,7 @@ impl Simulate {
 
     fn simulated<const N: usize>(&self, given: &RobotAndRun) -> Result<Run, Stop> {
         let recorded = given.recorded::<N>()?;
-        let plant = Model::<N>::nominal(&given.robot, supply(&recorded)).plant();
+        let plant = Model::<N>::nominal(&given.robot, supply_seen([&recorded])).plant();
         let silent = SensorsFile {
             current_noise_a: 0.0,
             wheel_speed_noise_rad_s: 0.0,

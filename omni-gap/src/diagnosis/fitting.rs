@@ -6,7 +6,7 @@ use crate::identify::{Prior, Windows};
 use crate::log::{Session, corrected};
 use crate::rank::{Cause, Data, Outcome, Verdict, decide};
 use crate::report;
-use crate::simulate::{Chain, Model, Recorded};
+use crate::simulate::{Chain, Model, Recorded, supply_seen};
 
 /// Length of a shooting window [s]
 const WINDOW_S: f64 = 0.5;
@@ -72,8 +72,7 @@ pub(super) fn fitted<const N: usize>(session: &Session, options: &Options) -> Di
             "log the pose, or voltages beside the wheel speeds",
         );
     }
-    let largest = fit.iter().chain(&held).fold(0.0, |most: f64, r| most.max(r.largest_voltage));
-    let nominal = Model::<N>::nominal(&session.robot, if largest > 0.0 { largest } else { 1.0 });
+    let nominal = Model::<N>::nominal(&session.robot, supply_seen(fit.iter().chain(&held)));
     let data = Data {
         fit_windows: fit.iter().map(|r| Windows::new(r, WINDOW_S)).collect(),
         held_windows: held.iter().map(|r| Windows::new(r, WINDOW_S)).collect(),

@@ -10,7 +10,7 @@ use super::guess::guessed;
 use super::joint::{Identified, Joint, Refused, joint};
 use super::words::TradeOff;
 use crate::log::{Change, RobotFile};
-use crate::simulate::{Chain, Experiment, Model, NOMINAL_KEYS, NominalKey, Recorded};
+use crate::simulate::{Chain, Experiment, Model, NOMINAL_KEYS, NominalKey, Recorded, supply_seen};
 use model::*;
 
 /// Figures of a number that is written into a robot file, and of its uncertainty.
@@ -18,7 +18,7 @@ const FIGURES: (i32, i32) = (6, 2);
 
 /// The key of the robot file that stands for a number.
 pub fn number_key(nominal: Nominal) -> &'static NominalKey {
-    NOMINAL_KEYS.iter().find(|key| key.factors == [nominal]).expect("every number that is identified has a key")
+    NominalKey::alone(nominal).expect("every number that is identified has a key")
 }
 
 /// What the runs of the experiments that are asked say of a robot. All of the session's drivable runs are given: the
@@ -27,9 +27,8 @@ pub fn number_key(nominal: Nominal) -> &'static NominalKey {
 /// # Errors
 /// Where the runs that are to be fitted cannot tell a single number.
 pub fn answer<const N: usize>(file: &RobotFile, runs: &[Recorded<N>], asked: Asked) -> Result<Answer, Refused> {
-    let largest = runs.iter().map(|run| run.largest_voltage).fold(0.0, f64::max);
     let (begin, guessed) = guessed(file);
-    let model = Model::<N>::nominal(&begin, if largest > 0.0 { largest } else { 1.0 });
+    let model = Model::<N>::nominal(&begin, supply_seen(runs));
     let (fitted, left_out) = chosen(runs, asked);
     let found = joint(&model, &begin, &fitted)?;
     let paper = classic(&model, &with_volts(runs));

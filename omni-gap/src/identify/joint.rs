@@ -23,7 +23,7 @@ use super::prior::Prior;
 use super::shoot::{Shots, Windows};
 use super::words::{KNOWN, TradeOff, Word, trade_offs, word_of};
 use crate::log::RobotFile;
-use crate::simulate::{Model, NOMINAL_KEYS, Recorded, Slot};
+use crate::simulate::{Model, NominalKey, Recorded, Slot};
 
 /// What is identified: R, K_t = K_v, J, and the friction of the body. Mass and geometry are weighed and measured.
 pub const IDENTIFIED: [Nominal; 9] = [
@@ -234,7 +234,7 @@ fn judged<const N: usize>(
 fn by_given(relative: &DMatrix<f64>, inverse: &DMatrix<f64>, seen: &[usize], file: &RobotFile) -> Vec<f64> {
     let mut square = vec![0.0; seen.len()];
     for (q, nominal) in GIVEN.iter().enumerate() {
-        let key = NOMINAL_KEYS.iter().find(|key| key.factors == [*nominal]).map(|key| key.key);
+        let key = NominalKey::alone(*nominal).map(|key| key.key);
         let stated = key.and_then(|key| file.relative_uncertainty(key)).unwrap_or(0.0);
         let column = DMatrix::from_fn(seen.len(), 1, |a, _| relative[(seen[a], IDENTIFIED.len() + q)]);
         let moved = inverse * column;

@@ -23,7 +23,7 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 use crate::log::{Run, Session};
-use crate::simulate::{Model, Recorded, drivable};
+use crate::simulate::{Model, Recorded, drivable, supply_seen};
 
 use compare::Compared;
 use figures::Sums;
@@ -91,8 +91,7 @@ fn validated<const N: usize>(session: &Session, horizons_s: &[f64]) -> Result<Va
     let told: Vec<(&Run, bool)> = told.collect();
     let recorded: Vec<Recorded<N>> =
         told.iter().map(|(run, _)| drivable(run, &session.robot)).collect::<Result<_>>()?;
-    let largest = recorded.iter().map(|run| run.largest_voltage).fold(0.0, f64::max);
-    let plant = Model::<N>::nominal(&session.robot, if largest > 0.0 { largest } else { 1.0 }).plant();
+    let plant = Model::<N>::nominal(&session.robot, supply_seen(&recorded)).plant();
 
     let measured: Vec<(RunFigures, Vec<(Signal, Sums)>)> = recorded
         .par_iter()

@@ -7,7 +7,7 @@ use super::picture::{INSIDE_X, INSIDE_Y, frame, path, x_axis, y_axis};
 use super::scale::Scale;
 
 /// Room right of the lines for the last numbers (px).
-const LABEL_ROOM: f64 = 40.0;
+pub(super) const LABEL_ROOM: f64 = 40.0;
 
 /// Two labels closer than this are set apart (px).
 const LABEL_HEIGHT: f64 = 13.0;
@@ -38,13 +38,18 @@ pub(super) fn horizon_chart(m: &mut Markup, curves: &[HorizonError]) {
             }
             labels.extend(points.last().map(|p| (y.at(p.1) + 3.5, *name, num(p.1))));
         }
-        labels.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut below = INSIDE_Y.0 + LABEL_HEIGHT;
-        for (at, name, label) in labels {
-            let at = at.min(below - LABEL_HEIGHT);
-            below = at;
-            let x = Px(INSIDE_X.1 - LABEL_ROOM + 9.0);
-            m.leaf("text", &[("class", &format!("value {name}")), ("x", &x), ("y", &Px(at))], &label);
-        }
+        last_numbers(m, labels);
     });
+}
+
+/// Numbers right of the ends of lines: (height of the end (px), class of the line, number), none over another.
+pub(super) fn last_numbers(m: &mut Markup, mut labels: Vec<(f64, &str, String)>) {
+    labels.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut below = INSIDE_Y.0 + LABEL_HEIGHT;
+    for (at, class, label) in labels {
+        let at = at.min(below - LABEL_HEIGHT);
+        below = at;
+        let x = Px(INSIDE_X.1 - LABEL_ROOM + 9.0);
+        m.leaf("text", &[("class", &format!("value {class}")), ("x", &x), ("y", &Px(at))], &label);
+    }
 }

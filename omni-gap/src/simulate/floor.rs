@@ -1,7 +1,6 @@
 //! How much floor a script takes: where the robot of a file goes when it plays it.
 
 use model_core::frames::{BodyTwist, Pose};
-use model_core::plant::Input;
 
 use super::model::Model;
 use super::script::Script;
@@ -45,10 +44,9 @@ pub fn floor_of<const N: usize>(model: &Model<N>, script: &Script<N>) -> Floor {
     let mut memory = vec![0.0; plant.memory_len()];
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
     let mut floor = Floor::default();
-    for (row, volts) in script.volts.iter().enumerate() {
+    for (row, input) in script.inputs().enumerate() {
         let Some(length) = script.t.get(row + 1).map(|next| next - script.t[row]) else { break };
         let steps = (length / LONGEST_STEP).ceil().max(1.0);
-        let input = volts.map_or(Input::Current([0.0; N]), Input::Voltage);
         for _ in 0..steps as usize {
             plant.step(&mut state, &mut memory, &input, length / steps);
         }

@@ -53,6 +53,11 @@ impl NominalKey {
         NOMINAL_KEYS.iter().find(|k| k.key == key)
     }
 
+    /// The number that this factor alone multiplies.
+    pub fn alone(nominal: Nominal) -> Option<&'static NominalKey> {
+        NOMINAL_KEYS.iter().find(|key| key.factors == [nominal])
+    }
+
     /// The file's number (of the first wheel, for a wheel's key) in SI units.
     pub fn value(&self, file: &RobotFile) -> f64 {
         (self.read)(file)

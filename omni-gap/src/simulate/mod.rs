@@ -20,6 +20,7 @@ mod script;
 mod sensing;
 mod sensitivity;
 mod start;
+mod terms;
 
 pub use drivable::drivable;
 pub use excite::{Excitation, excite};
@@ -29,10 +30,9 @@ pub use limits::{Allowed, Lowered, USUAL_FIELD, allowed, usual_voltage};
 pub use model::{Carried, Model, Slot, robot_of};
 pub use predict::{Prediction, predict, restart_rows};
 pub use record::{Recording, SpeedSensor, record};
-pub use recorded::{Chain, Channels, MAX_CHANNELS, Recorded, Row};
+pub use recorded::{Chain, Channels, MAX_CHANNELS, Recorded, Row, supply_seen};
 pub use script::{AXES, Experiment, Plan, Script, along, scripts};
 pub use sensing::Sensing;
-pub use sensitivity::{
-    AxisSensitivity, CurvePoint, Influence, PAPER_VOLTAGE, Sensitivity, StepPlan, Terms, motors_of, sensitivity, terms,
-};
+pub use sensitivity::{AxisSensitivity, CurvePoint, Influence, PAPER_VOLTAGE, Sensitivity, StepPlan, sensitivity};
 pub use start::{Start, start_at};
+pub use terms::{Terms, terms};

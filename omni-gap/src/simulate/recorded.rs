@@ -101,6 +101,13 @@ fn good_enough(group: &Group) -> bool {
     n > 0.0 && quantum <= COARSE * f64::sqrt(sum / n)
 }
 
+/// The bus voltage to take where the robot file states none: the largest that these runs show, one where they show none
+/// [V]
+pub fn supply_seen<'a, const N: usize>(runs: impl IntoIterator<Item = &'a Recorded<N>>) -> f64 {
+    let largest = runs.into_iter().map(|run| run.largest_voltage).fold(0.0, f64::max);
+    if largest > 0.0 { largest } else { 1.0 }
+}
+
 impl<const N: usize> Recorded<N> {
     /// Lays a run out; `None` where nothing in it can drive a model.
     pub fn new(run: &Run, robot: &RobotFile) -> Option<Self> {

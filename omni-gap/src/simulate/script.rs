@@ -11,8 +11,10 @@
 //! `coast-vn-1` belongs to experiment 2.
 
 use model_core::kinematics::Wheels;
+use model_core::plant::Input;
 use model_core::robot::Robot;
 
+use super::terms::terms;
 use crate::log::{Channel, Group, Missing, Run};
 
 /// One of the experiments.
@@ -108,6 +110,11 @@ pub struct Script<const N: usize> {
 const TENTHS_OF_A_MILLIVOLT: f64 = 1e4;
 
 impl<const N: usize> Script<N> {
+    /// What drives a plant, row by row; open bridges are motors without current.
+    pub fn inputs(&self) -> impl Iterator<Item = Input<N, f64>> + '_ {
+        self.volts.iter().map(|u| u.map_or(Input::Current([0.0; N]), Input::Voltage))
+    }
+
     /// The script as a run that nothing was measured in: `u` and `enable`, blank and zero where the bridges are open.
     ///
     /// Voltages are cut to tenths of a millivolt, towards zero.
@@ -250,15 +257,7 @@ pub fn along<const N: usize>(wheels: &Wheels<N, f64>, axis: usize, volts: f64) -
 
 /// The speed that an axis comes to under a voltage, by the plain model [m/s] or [rad/s].
 pub(super) fn final_speed<const N: usize>(robot: &Robot<N, f64>, axis: usize, volts: f64) -> f64 {
-    let (rows, motor) = (robot.wheels.rows(), &robot.motor);
-    let (mut push, mut brake) = (0.0, robot.friction.viscous[axis]);
-    for ((row, u), wheel) in rows.iter().zip(along(&robot.wheels, axis, volts)).zip(robot.wheels.wheels()) {
-        // f = l·K_t/(r·R)·(u − l·K_v·v_j/r)
-        let per_volt = motor.wheel_torque_constant() / (wheel.radius * motor.resistance);
-        push += row[axis] * per_volt * u;
-        brake += row[axis] * per_volt * motor.wheel_emf_constant() * row[axis] / wheel.radius;
-    }
-    (push - robot.friction.coulomb[axis]) / brake
+    terms(robot, axis, along(&robot.wheels, axis, volts)).final_speed()
 }
 
 #[cfg(test)]

@@ -21,6 +21,8 @@ use serde::Serialize;
 
 use super::keys::NOMINAL_KEYS;
 use super::model::{Model, Slot};
+use super::script::{AXES, along};
+use super::terms::{Terms, terms};
 use crate::log::RobotFile;
 
 /// Numbers of a robot file.
@@ -32,8 +34,6 @@ type Valued = (f64, [f64; KEYS]);
 
 /// The voltage of a step where none is asked for [V]: the paper's.
 pub const PAPER_VOLTAGE: f64 = 6.0;
-/// Names of the body axes.
-const AXES: [&str; 3] = ["v", "vn", "w"];
 /// Longest step of the plant [s]
 const STEP_S: f64 = 1e-3;
 /// Steps to the stated time at the least.
@@ -100,19 +100,6 @@ pub struct AxisSensitivity {
     pub curve: Vec<CurvePoint>,
 }
 
-/// What pushes and brakes one axis of the plain model, other axes at rest.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Terms {
-    /// Braking by the motors' back-EMF, per speed [1/s]
-    pub back_emf_per_s: f64,
-    /// Viscous friction, per speed [1/s]
-    pub viscous_per_s: f64,
-    /// Acceleration by the voltage [m/s² or rad/s²]
-    pub drive: f64,
-    /// Deceleration by Coulomb friction [m/s² or rad/s²]
-    pub coulomb: f64,
-}
-
 /// What one number of the robot file does: per cent for one per cent of the number.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Influence {
@@ -170,7 +157,7 @@ fn of_axis<const N: usize>(
     axis: usize,
     plan: &StepPlan,
 ) -> AxisSensitivity {
-    let motors = motors_of(robot, axis, plan.voltage);
+    let motors = along(&robot.wheels, axis, plan.voltage);
     let mut ride = Ride::new(plant, axis, motors);
     let dt = STEP_S.min(plan.time / FEWEST_STEPS as f64);
     let steps = (plan.time / dt).round().max(1.0) as usize;
@@ -206,33 +193,6 @@ fn of_axis<const N: usize>(
         final_speed: last.map(|(speed, _)| speed),
         influences,
         curve,
-    }
-}
-
-/// The motors' voltages that drive one axis: in proportion to the wheels' rows, the largest as given [V].
-pub fn motors_of<const N: usize>(robot: &Robot<N, f64>, axis: usize, voltage: f64) -> [f64; N] {
-    let rows = robot.wheels.rows();
-    let most = rows.iter().fold(0.0, |most: f64, row| most.max(row[axis].abs()));
-    rows.map(|row| if most > 0.0 { voltage * row[axis] / most } else { 0.0 })
-}
-
-/// What pushes and brakes one axis of the plain model, other axes at rest, under these motor voltages [V].
-pub fn terms<const N: usize>(robot: &Robot<N, f64>, axis: usize, motors: [f64; N]) -> Terms {
-    let unit = std::array::from_fn(|k| f64::from(u8::from(k == axis)));
-    let mass = [robot.mass, robot.mass, robot.inertia][axis];
-    let speed = robot.wheels.wheel_speeds(BodyTwist::from_array(unit));
-    // what the motors do to the axis: voltage and wheel speed → current → torque → force
-    let pushed = |volts: [f64; N], speed: [f64; N]| {
-        let force = std::array::from_fn(|j| {
-            robot.wheels.wheels()[j].rim().force(robot.motor.torque(robot.motor.current(volts[j], speed[j])))
-        });
-        robot.wheels.body_force(force)[axis] / mass
-    };
-    Terms {
-        back_emf_per_s: -pushed([0.0; N], speed),
-        viscous_per_s: robot.friction.viscous[axis] / mass,
-        drive: pushed(motors, [0.0; N]),
-        coulomb: robot.friction.coulomb[axis] / mass,
     }
 }
 

@@ -1,16 +1,13 @@
 //! Error over the time between restarts, signal group by signal group, on logarithmic axes.
 
 use crate::localise::validation::HorizonFigures;
+use crate::report::horizons::{LABEL_ROOM, last_numbers};
 use crate::report::markup::{Markup, Px};
 use crate::report::number::num;
 use crate::report::picture::{INSIDE_X, INSIDE_Y, frame, path, x_axis};
 use crate::report::scale::Scale;
 use crate::report::words;
 
-/// Room right of the lines for the last numbers (px).
-const LABEL_ROOM: f64 = 40.0;
-/// Two labels closer than this are set apart (px).
-const LABEL_HEIGHT: f64 = 13.0;
 /// The least error that is drawn [σ]
 const LEAST: f64 = 1e-3;
 
@@ -65,14 +62,7 @@ pub(super) fn chart(m: &mut Markup, horizons: &[HorizonFigures]) {
             let last = points.last().filter(|_| *solid);
             labels.extend(last.map(|p| (y.at(p.1) + 3.5, *ink, num(10_f64.powf(p.1)))));
         }
-        labels.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut below = INSIDE_Y.0 + LABEL_HEIGHT;
-        for (at, ink, label) in labels {
-            let at = at.min(below - LABEL_HEIGHT);
-            below = at;
-            let x = Px(INSIDE_X.1 - LABEL_ROOM + 9.0);
-            m.leaf("text", &[("class", &format!("value {ink}")), ("x", &x), ("y", &Px(at))], &label);
-        }
+        last_numbers(m, labels);
     });
 }
 
