@@ -1,8 +1,8 @@
 //! The dynamics of 3- and 4-wheel omnidirectional robots, and the effects a plain model leaves out.
 //!
 //! In reading order: the numbers ([`scalar`], [`trig`], [`dual`], [`small`]), the geometry ([`frames`], [`shafts`],
-//! [`kinematics`]), the winding ([`motor`]), the effects' pages ([`card`]), the robot ([`robot`], [`paper`]) and its
-//! motion ([`body`], [`plant`], [`feedforward`]).
+//! [`kinematics`]), the winding ([`motor`], [`phases`], [`calibration`]), the effects' pages ([`card`]), the
+//! robot ([`robot`], [`paper`]) and its motion ([`body`], [`plant`], [`feedforward`]).
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -27,6 +27,10 @@ pub mod kinematics;
 
 // The motor
 pub mod motor;
+
+pub mod phases;
+
+pub mod calibration;
 
 // The effects
 pub mod card;

@@ -48,6 +48,12 @@ pub trait Real:
     /// The angle of the point (x, self) [rad], in (−π, π].
     fn atan2(self, x: Self) -> Self;
 
+    /// A count of something, such as a converter's code; exact, and on the robot without double precision.
+    #[inline]
+    fn count(n: u16) -> Self {
+        Self::lit(f64::from(n))
+    }
+
     /// Zero.
     #[inline]
     fn zero() -> Self {
@@ -101,6 +107,10 @@ impl Real for f32 {
     #[inline]
     fn lit(x: f64) -> Self {
         x as f32
+    }
+    #[inline]
+    fn count(n: u16) -> Self {
+        f32::from(n)
     }
     #[inline]
     fn value(self) -> Self {
