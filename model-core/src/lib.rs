@@ -1,8 +1,9 @@
 //! The dynamics of 3- and 4-wheel omnidirectional robots, and the effects a plain model leaves out.
 //!
 //! In reading order: the numbers ([`scalar`], [`trig`], [`dual`], [`small`]), the geometry ([`frames`], [`shafts`],
-//! [`kinematics`]), the winding ([`motor`], [`phases`], [`calibration`]), the effects' pages ([`card`]), the
-//! robot ([`robot`], [`paper`]) and its motion ([`body`], [`plant`], [`feedforward`]).
+//! [`kinematics`]), the winding ([`motor`], [`phases`]) and what a drive does with it ([`calibration`], [`halls`],
+//! [`current_loop`]), the effects' pages ([`card`]), the robot ([`robot`], [`paper`]) and its
+//! motion ([`body`], [`plant`], [`feedforward`]).
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -31,6 +32,10 @@ pub mod motor;
 pub mod phases;
 
 pub mod calibration;
+
+pub mod halls;
+
+pub mod current_loop;
 
 // The effects
 pub mod card;

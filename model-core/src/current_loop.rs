@@ -1,0 +1,243 @@
+//! # Current loop: one motor, one period, from raw codes to duties
+//!
+//! ```text
+//! e = i_want − i,   u = u_ff + k_p·e + Σ k_i·Δt·e          on q; on d the same with i_want = 0 and u_ff = 0
+//! k_i·Δt = R·w·Δt,   k_p = k_i·Δt/(1 − e⁻ˣ),   x = R·Δt/L
+//! L → 0: k_p = R·w·Δt        x → 0: k_p = L·w
+//!
+//! |m_d| ≤ M/2,   |m_q| ≤ √(M² − m_d²),   m = u/U
+//! √(M² − m²) ≥ M·(1 − z/2 − c·z²),   z = (m/M)² ≤ ¼,   c = 14 − 8·√3
+//! ```
+//!
+//! | symbol | code | unit | meaning |
+//! |---|---|---|---|
+//! | i | [`CurrentDecided::current`] | A | DC-equivalent current, positive for positive torque |
+//! | u | [`CurrentDecided::voltage`] | V | DC-equivalent voltage, as limited |
+//! | u_ff | [`CurrentWant::voltage`] | V | what is known beforehand: the back-EMF l·K_v·ω_w |
+//! | U | [`CurrentSeen::bus`] | V | bus voltage |
+//! | m | `share` | 1 | share of the bus that the span of the three duties takes |
+//! | M | `max_duty` | 1 | the largest such share: duties stay within ½ ± M/2 |
+//! | w | `bandwidth` | rad/s | the current closes a gap as e^(−w·t) |
+//! | Δt | `period` | s | from one turn of the loop to the next |
+//! | R, L | `resistance`, `inductance` | Ω, H | DC-equivalent: between two terminals |
+//!
+//! The gains put the regulator's zero on the winding's pole, exactly so for a voltage held over a period; what is left
+//! of the loop is an integrator and the delay of one period until duties act. It has no overshoot up to
+//! w = 1/(4·Δt) and is stable up to 1/Δt. All vectors are carried in DC-equivalent numbers, in which d and q have the
+//! motor's R and L and the limit of the voltage is the bus itself (see [`crate::phases`]).
+//!
+//! Where the voltage is limited, d comes first, because current along d is what keeps the loop's angle; q gets what is
+//! left of the circle, by a bound that lies inside of it by less than 0.02 % and needs no root. An integral
+//! waits while its error asks for still more voltage than there is, and works while it asks for less: after a
+//! saturation the regulator goes on from where it was.
+//!
+//! Neglects: the voltage ω_e·L·i by which d and q disturb each other, left to the integrals (w well above ω_e is not
+//! needed, w above ω_e/4 is good); the angle ω_e·1.5·Δt by which the rotor runs ahead until the duties act, which a
+//! closed loop turns back by itself and which an open one loses as the cosine of it; dead time of the bridge. Fails
+//! when: a feedforward that holds R·i too is given in closed loop, where it comes on top of the integral: an overshoot of
+//! about R/(L·w) of the step then fades with L/R.
+//!
+//! How to measure L: see [`crate::motor`]. M: one less the share of a period that the converter needs to sample, both
+//! sides of the centre counted.
+//!
+//! Numbers: finite in, finite out, for currents and voltages up to 10³⁰ and a bus that is held above zero.
+//!
+//! Source: pole and zero from the step of [`crate::motor`]; conditional integration as in Åström and Hägglund, PID
+//! Controllers (1995), section 3.5.
+
+use crate::calibration::AdcCode;
+use crate::phases::{self, Rotation, Rotor, SIX_STEPS, Stationary};
+use crate::scalar::Real;
+
+const SQRT_3: f64 = 1.732_050_807_568_877_2;
+
+/// What does not change from turn to turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurrentLoop<T = f32> {
+    /// DC-equivalent current a count of 2a − b − c [A]
+    amps_along: T,
+    /// DC-equivalent current a count of b − c, or of the difference of two terminals [A]
+    amps_across: T,
+    /// k_p [V/A]
+    proportional: T,
+    /// k_i·Δt [V/A]
+    integral: T,
+    /// M [1]
+    max_duty: T,
+    /// M/2 [1]
+    half_duty: T,
+    /// 1/(2·M), the circle's curvature [1]
+    bend: T,
+    /// c/M³ [1]
+    bend_more: T,
+}
+
+/// What the loop remembers: its integrals, DC-equivalent.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurrentMemory<T = f32> {
+    /// Along d [V]
+    pub d: T,
+    /// Along q, or of the conducting pair [V]
+    pub q: T,
+}
+
+/// What the loop sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurrentSeen<T = f32> {
+    /// What the converter read of phases a, b, c
+    pub codes: [AdcCode; 3],
+    /// The codes of no current [counts]
+    pub offsets: [T; 3],
+    /// θ, electrical angle of the rotor [rad]; six steps do not look at it
+    pub angle: T,
+    /// U, bus voltage, above zero [V]
+    pub bus: T,
+    /// 1/U, the same for all motors [1/V]
+    pub per_bus: T,
+}
+
+/// What is wanted of the loop.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurrentWant<T = f32> {
+    /// DC-equivalent current [A]; not looked at in an open loop
+    pub current: T,
+    /// DC-equivalent voltage [V]: in a closed loop what to add (the back-EMF), in an open one all of it
+    pub voltage: T,
+    /// True to regulate the current, false to apply the voltage alone
+    pub closed: bool,
+}
+
+/// What the loop decides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurrentDecided<T = f32> {
+    /// Share of the period in which each leg is at the bus [1]
+    pub duties: [T; 3],
+    /// DC-equivalent current as measured [A]
+    pub current: T,
+    /// DC-equivalent voltage as limited [V]
+    pub voltage: T,
+}
+
+impl<T: Real> CurrentLoop<T> {
+    /// The loop of a motor with a DC-equivalent resistance [Ω] and inductance [H], a current sensor [A a count], a
+    /// bandwidth [rad/s], a period [s] and the largest share of the bus [1].
+    pub fn new(resistance: T, inductance: T, amps_per_count: T, bandwidth: T, period: T, max_duty: T) -> Self {
+        // k_i·Δt = R·w·Δt
+        let integral = resistance * bandwidth * period;
+        let drop = resistance * period;
+        // k_p = k_i·Δt/(1 − e⁻ˣ),  x = R·Δt/L
+        let proportional = if drop < T::lit(1e-3) * inductance {
+            // L·w·(1 + x/2 + …), where 1 − e⁻ˣ has lost its digits
+            bandwidth * (inductance + T::lit(0.5) * drop)
+        } else if drop < T::lit(100.0) * inductance {
+            integral / (T::one() - (-(drop / inductance)).exp())
+        } else {
+            // e⁻¹⁰⁰ is nothing in either precision; asked as a product, because L may be 0
+            integral
+        };
+        Self {
+            // √3/2·(2a − b − c)/3,  √3/2·(b − c)/√3
+            amps_along: amps_per_count * T::lit(0.5 / SQRT_3),
+            amps_across: amps_per_count * T::lit(0.5),
+            proportional,
+            integral,
+            max_duty,
+            half_duty: T::lit(0.5) * max_duty,
+            bend: T::lit(0.5) / max_duty,
+            bend_more: T::lit(14.0 - 8.0 * SQRT_3) / (max_duty * max_duty * max_duty),
+        }
+    }
+
+    /// One period of field-oriented control.
+    #[inline]
+    pub fn field_oriented(
+        &self,
+        memory: &mut CurrentMemory<T>,
+        seen: &CurrentSeen<T>,
+        want: &CurrentWant<T>,
+    ) -> CurrentDecided<T> {
+        let [a, b, c] = self.above_offset(seen);
+        // i_α = A·√3/2·(2a − b − c)/3,  i_β = A·√3/2·(b − c)/√3
+        let still = Stationary { alpha: (a + a - b - c) * self.amps_along, beta: (b - c) * self.amps_across };
+        let rotation = Rotation::of_angle(seen.angle);
+        let current = rotation.to_rotor(still);
+
+        let share = if want.closed {
+            let d = self.regulate(&mut memory.d, -current.d, T::zero(), seen.per_bus, self.half_duty);
+            // |m_q| ≤ M·(1 − z/2 − c·z²),  z = (m_d/M)²
+            let square = d * d;
+            let limit = self.max_duty - square * (self.bend + square * self.bend_more);
+            let q = self.regulate(&mut memory.q, want.current - current.q, want.voltage, seen.per_bus, limit);
+            Rotor { d, q }
+        } else {
+            *memory = CurrentMemory::default();
+            Rotor { d: T::zero(), q: self.open(want, seen) }
+        };
+
+        let Stationary { alpha, beta } = rotation.to_stationary(share);
+        // phases a, b, c of a DC-equivalent vector: m_α/√3, (−m_α/√3 ± m_β)/2
+        let a = alpha * T::lit(1.0 / SQRT_3);
+        let (along, across) = (a * T::lit(-0.5), beta * T::lit(0.5));
+        let duties = phases::centred([a, along + across, along - across]);
+        CurrentDecided { duties, current: current.q, voltage: share.q * seen.bus }
+    }
+
+    /// One period of six steps; without a legal sector no voltage is applied.
+    #[inline]
+    pub fn six_step(
+        &self,
+        memory: &mut CurrentMemory<T>,
+        seen: &CurrentSeen<T>,
+        sector: u8,
+        want: &CurrentWant<T>,
+    ) -> CurrentDecided<T> {
+        let half = T::lit(0.5);
+        let Some(step) = SIX_STEPS.get(usize::from(sector)) else {
+            *memory = CurrentMemory::default();
+            return CurrentDecided { duties: [half; 3], current: T::zero(), voltage: T::zero() };
+        };
+        let up = step.up.of(&seen.codes).counts::<T>() - step.up.of(&seen.offsets);
+        let down = step.down.of(&seen.codes).counts::<T>() - step.down.of(&seen.offsets);
+        // i = (i_up − i_down)/2
+        let current = (up - down) * self.amps_across;
+        let share = if want.closed {
+            self.regulate(&mut memory.q, want.current - current, want.voltage, seen.per_bus, self.max_duty)
+        } else {
+            *memory = CurrentMemory::default();
+            self.open(want, seen)
+        };
+        // δ = ½ ± m/2
+        let away = half * share;
+        CurrentDecided { duties: step.phases(half + away, half - away, half), current, voltage: share * seen.bus }
+    }
+
+    /// The codes less what they are at no current [counts].
+    #[inline]
+    fn above_offset(&self, seen: &CurrentSeen<T>) -> [T; 3] {
+        let ([a, b, c], [a0, b0, c0]) = (seen.codes, seen.offsets);
+        [a.counts::<T>() - a0, b.counts::<T>() - b0, c.counts::<T>() - c0]
+    }
+
+    /// The share of the bus [1] that a voltage alone takes.
+    #[inline]
+    fn open(&self, want: &CurrentWant<T>, seen: &CurrentSeen<T>) -> T {
+        // m = u/U, |m| ≤ M
+        (want.voltage * seen.per_bus).clamp(-self.max_duty, self.max_duty)
+    }
+
+    /// The share of the bus [1] that closes an error [A], and the integral's [V] next value.
+    #[inline]
+    fn regulate(&self, integral: &mut T, error: T, forward: T, per_bus: T, limit: T) -> T {
+        // u = u_ff + k_p·e + Σ k_i·Δt·e,  m = u/U
+        let asked = (forward + (self.proportional * error + *integral)) * per_bus;
+        let share = asked.clamp(-limit, limit);
+        // a saturated integral works only where its error asks for less
+        if share == asked || error * asked < T::zero() {
+            *integral += self.integral * error;
+        }
+        share
+    }
+}
+
+#[cfg(test)]
+mod tests;
