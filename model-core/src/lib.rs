@@ -56,3 +56,8 @@ pub mod body;
 pub mod plant;
 
 pub mod feedforward;
+
+// The bytes between robot and host
+mod bytes;
+
+pub mod link;

@@ -26,11 +26,11 @@ pub fn dependencies(manifest: &str) -> Vec<(usize, String)> {
     found
 }
 
-/// Every dependency but the one allowed.
-pub fn others_than(allowed: &str, manifest: &Source) -> Vec<Finding> {
-    let others = dependencies(&manifest.text).into_iter().filter(|(_, name)| name != allowed);
-    let what =
-        |name| format!("depends on `{name}`, {allowed} alone is allowed; write it here, or move what needs it out");
+/// Every dependency but those allowed.
+pub fn others_than(allowed: &[&str], manifest: &Source) -> Vec<Finding> {
+    let others = dependencies(&manifest.text).into_iter().filter(|(_, name)| !allowed.contains(&name.as_str()));
+    let listed = allowed.join(", ");
+    let what = |name| format!("depends on `{name}`, only {listed} may be; write it here, or move what needs it out");
     others.map(|(line, name)| Finding { file: manifest.path.clone(), line, what: what(name) }).collect()
 }
 
@@ -53,8 +53,9 @@ fn dependencies_of_every_form_are_found_and_those_of_tests_are_not() {
 
 #[test]
 fn one_other_dependency_is_one_finding() {
-    let manifest = Source { path: "Cargo.toml".into(), text: "[dependencies]\nlibm = \"0.2\"\nnum = \"1\"".into() };
-    let found = others_than("libm", &manifest);
+    let manifest =
+        Source { path: "Cargo.toml".into(), text: "[dependencies]\nlibm = \"0.2\"\ncrc = \"3\"\nnum = \"1\"".into() };
+    let found = others_than(&["libm", "crc"], &manifest);
     assert_eq!(found.len(), 1);
-    assert!(found[0].to_string().starts_with("Cargo.toml:3: depends on `num`, libm alone"), "{}", found[0]);
+    assert!(found[0].to_string().starts_with("Cargo.toml:4: depends on `num`, only libm, crc"), "{}", found[0]);
 }
