@@ -61,3 +61,11 @@ pub mod feedforward;
 mod bytes;
 
 pub mod link;
+
+pub mod faults;
+
+pub mod command;
+
+pub mod record;
+
+pub mod hello;
