@@ -69,3 +69,5 @@ pub mod command;
 pub mod record;
 
 pub mod hello;
+
+pub mod block;

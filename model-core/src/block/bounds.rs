@@ -1,0 +1,83 @@
+//! What the numbers of a block may be: wide enough for every small robot, narrow enough to catch a wrong unit.
+
+use core::f32::consts::TAU;
+
+use super::{Limits, Reason, Refused};
+
+/// A number of a block: its key in the robot file, and its bounds in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Field {
+    /// Its key in a robot file.
+    pub key: &'static str,
+    /// The least and the most that it may be.
+    pub within: (f32, f32),
+}
+
+const fn field(key: &'static str, low: f32, high: f32) -> Field {
+    Field { key, within: (low, high) }
+}
+
+/// Of every wheel; the key of the first names degrees, the block holds radians.
+pub const WHEEL: [Field; 3] =
+    [field("drive_angle_deg", -TAU, TAU), field("distance_m", 0.005, 2.0), field("radius_m", 0.002, 0.5)];
+
+/// Of the robot, in the order of the form.
+pub const SCALARS: [Field; 26] = [
+    field("gear_ratio", 0.1, 1000.0),
+    field("resistance_ohm", 1e-3, 1000.0),
+    field("emf_constant_V_s", 1e-5, 10.0),
+    field("torque_constant_Nm_per_A", 1e-5, 10.0),
+    field("inductance_H", 1e-6, 0.1),
+    field("mass_kg", 0.05, 500.0),
+    field("inertia_kg_m2", 1e-6, 500.0),
+    field("viscous_v_N_s_per_m", 0.0, 1000.0),
+    field("viscous_vn_N_s_per_m", 0.0, 1000.0),
+    field("viscous_w_Nm_s", 0.0, 1000.0),
+    field("coulomb_v_N", 0.0, 1000.0),
+    field("coulomb_vn_N", 0.0, 1000.0),
+    field("coulomb_w_Nm", 0.0, 1000.0),
+    field("voltage_V", 3.0, 60.0),
+    field("current_A", 0.05, 200.0),
+    field("speed_m_s", 0.01, 20.0),
+    field("acceleration_v_m_s2", 0.01, 200.0),
+    field("acceleration_vn_m_s2", 0.01, 200.0),
+    field("acceleration_w_rad_s2", 0.1, 5000.0),
+    field("under_voltage_V", 0.0, 60.0),
+    field("over_voltage_V", 3.0, 80.0),
+    field("feedback_A_s_per_rad", 0.0, 100.0),
+    field("feedback_A_per_rad", 0.0, 1000.0),
+    field("bandwidth_rad_s", 10.0, 20_000.0),
+    field("amps_per_count", 1e-5, 1.0),
+    field("bus_volts_per_count", 1e-4, 1.0),
+];
+
+/// Of the motor.
+pub const POLE_PAIRS: Field = field("pole_pairs", 1.0, 50.0);
+
+/// Counts from the middle of the converter's range that a limit of current may take; the rest is for ripple and zeros.
+pub const USABLE_COUNTS: f32 = 2000.0;
+
+/// The highest code of the converter.
+const HIGHEST_CODE: f32 = 4095.0;
+
+impl Field {
+    /// Refuses a number that is not within the bounds.
+    pub fn holds(&self, value: f32) -> Result<(), Refused> {
+        let Field { key: field, within } = *self;
+        let (low, high) = within;
+        if !value.is_finite() {
+            Err(Refused { reason: Reason::NotFinite, field, value, within })
+        } else if low <= value && value <= high {
+            Ok(())
+        } else {
+            Err(Refused { reason: Reason::OutOfBounds, field, value, within })
+        }
+    }
+}
+
+/// Refuses limits that contradict the supply, or that the sensors could not see being broken.
+pub fn together(supply: f32, limits: &Limits, amps_per_count: f32, bus_volts_per_count: f32) -> Result<(), Refused> {
+    field("current_A", 0.0, USABLE_COUNTS * amps_per_count).holds(limits.current)?;
+    field("under_voltage_V", 0.0, supply).holds(limits.under_voltage)?;
+    field("over_voltage_V", supply, HIGHEST_CODE * bus_volts_per_count).holds(limits.over_voltage)
+}
