@@ -121,6 +121,19 @@ impl Nominal {
 }
 
 impl<const N: usize, T: Real> Robot<N, T> {
+    /// Each wheel's share of the body's Coulomb friction, as a torque at its shaft [N·m].
+    ///
+    /// The force that each wheel would have to give for the body's (C_v, C_vn) to come from the wheels alone.
+    pub fn coulomb_shares(&self) -> [T; N] {
+        let mut reach = T::zero();
+        for row in self.wheels.rows() {
+            reach += row[0].abs() + row[1].abs();
+        }
+        // F_c = (C_v + C_vn) / Σ_j (|cos α_j| + |sin α_j|),  τ_c = r_j·F_c
+        let coulomb = (self.friction.coulomb[0] + self.friction.coulomb[1]) / reach;
+        self.wheels.wheels().map(|wheel| coulomb * wheel.radius)
+    }
+
     /// The robot with every nominal value multiplied by its factor, in the order of [`Nominal::ALL`].
     pub fn scaled(&self, factor: &[T; Nominal::COUNT]) -> Self {
         let f = |p: Nominal| factor[p as usize];

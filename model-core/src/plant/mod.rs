@@ -126,14 +126,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             stiffness: zero,
             shape: T::one(),
         }; N];
-        // the Coulomb force that each wheel would have to give for the body's (C_v, C_vn) to come from the wheels:
-        // F_c = (C_v + C_vn) / Σ_j (|cos α_j| + |sin α_j|)
-        let mut reach = zero;
-        for row in rows {
-            reach += row[0].abs() + row[1].abs();
-        }
-        let coulomb = (robot.friction.coulomb[0] + robot.friction.coulomb[1]) / reach;
-        let mut coulomb_share = [zero; N];
+        let coulomb_share = robot.coulomb_shares();
         let mut plain_rate = [[zero; 3]; 3];
         let (emf, kt) = (robot.motor.wheel_emf_constant(), robot.motor.wheel_torque_constant());
         let per_resistance = T::one() / robot.motor.resistance;
@@ -143,7 +136,6 @@ impl<const N: usize, T: Real> Plant<N, T> {
             let radius = robot.wheels.wheels()[j].radius;
             contact[j].radius = radius;
             contact[j].per_radius = T::one() / radius;
-            coulomb_share[j] = coulomb * radius;
             // k = (l²·K_t·K_v/R)/r²
             let per_radius = contact[j].per_radius;
             accumulate_outer(&mut plain_rate, electric * (per_radius * per_radius), rows[j]);

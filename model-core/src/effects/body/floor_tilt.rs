@@ -63,14 +63,27 @@ pub const CARD: Card = Card {
     look_alikes: &[],
 };
 
+/// Downhill pull over mass of a floor as steep as this [m/s²].
+#[inline]
+pub fn steepest<T: Real>(tilt: T) -> T {
+    let (sin_tilt, _) = tilt.sin_cos();
+    // g·sin β
+    T::lit(STANDARD_GRAVITY) * sin_tilt
+}
+
+/// Force along the robot's axes (v, vn) over mass [m/s², m/s²], of a pull over mass [m/s²] that lies at `bearing` from
+/// the heading [rad].
+#[inline]
+pub fn along_axes<T: Real>(steepest: T, bearing: T) -> [T; 2] {
+    let (sin, cos) = bearing.sin_cos();
+    // F/M = g·sin β · (cos(φ − θ), sin(φ − θ))
+    [steepest * cos, steepest * sin]
+}
+
 /// Force along the robot's axes (v, vn) over mass [m/s², m/s²], downhill lying at `bearing` from the heading [rad].
 #[inline]
 pub fn pull<T: Real>(tilt: T, bearing: T) -> [T; 2] {
-    let (sin_tilt, _) = tilt.sin_cos();
-    let (sin, cos) = bearing.sin_cos();
-    // F/M = g·sin β · (cos(φ − θ), sin(φ − θ))
-    let g = T::lit(STANDARD_GRAVITY) * sin_tilt;
-    [g * cos, g * sin]
+    along_axes(steepest(tilt), bearing)
 }
 
 /// Tilt of the floor.

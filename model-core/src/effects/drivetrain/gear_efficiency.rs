@@ -51,11 +51,17 @@ pub const CARD: Card = Card {
     look_alikes: &[],
 };
 
+/// True if the motor drives the wheel, false if the wheel drives the motor; torque in any unit, speed in rad/s.
+#[inline]
+pub fn drives<T: Real>(motor_torque: T, wheel_speed: T) -> bool {
+    // a wheel that is held stands still only up to rounding
+    motor_torque * wheel_speed >= T::zero() || wheel_speed.abs() < T::lit(1e-6)
+}
+
 /// Torque that the gear can take away [N·m].
 #[inline]
 pub fn loss<T: Real>(efficiency: T, motor_torque: T, wheel_speed: T) -> T {
-    // a wheel that is held stands still only up to rounding
-    let driving = motor_torque * wheel_speed >= T::zero() || wheel_speed.abs() < T::lit(1e-6);
+    let driving = drives(motor_torque, wheel_speed);
     // τ_loss = (1 − η)·|τ_m| driving, (1/η − 1)·|τ_m| driven
     (if driving { T::one() - efficiency } else { T::one() / efficiency - T::one() }) * motor_torque.abs()
 }
