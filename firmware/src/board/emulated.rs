@@ -1,0 +1,261 @@
+//! # Emulated: the same verbs on QEMU's `netduinoplus2`
+//!
+//! That machine has the core, SysTick and the interrupt controller of an STM32F405, but no converters, timers with PWM
+//! or pins that one could use. Here SysTick is the PWM period, its handler raises the converters' interrupt, and
+//! [`Bridges::read`] exchanges one frame with the host ([`crate::exchange`]), which has the motors.
+//!
+//! An instruction counts as one nanosecond (`-icount shift=0`) and SysTick runs at 168 MHz, so that 0.168 of its counts
+//! are one instruction. Semihosting calls cost one instruction each.
+
+use core::cell::UnsafeCell;
+
+use cortex_m::peripheral::{NVIC, SYST, syst::SystClkSource};
+use cortex_m_rt::exception;
+use cortex_m_semihosting::{debug, nr::open, syscall};
+use defmt_semihosting as _;
+use heapless::spsc::Queue;
+use panic_halt as _;
+use stm32f4xx_hal::pac;
+
+use crate::codes::{Codes, MOTORS};
+use crate::exchange::{Bytes, DOWN_FILE, Down, LINK_BYTES, TOPS, UP_FILE, Up};
+
+/// What [`cycles`] counts in one period: SysTick's 168 MHz.
+pub const CYCLES_PER_PERIOD: u32 = 8_400;
+
+/// Periods without food after which the dog bites: 20 ms.
+const DOG_PERIODS: u32 = 400;
+
+/// Bytes on their way out and in; the task of the link is the one end, the exchange the other.
+static WIRE: Line = Line(UnsafeCell::new(Buffers { out: Queue::new(), inward: Queue::new() }));
+static DOG: Line<u32> = Line(UnsafeCell::new(0));
+static BURN: Line<u16> = Line(UnsafeCell::new(0));
+
+struct Buffers {
+    out: Queue<u8, 1024>,
+    inward: Queue<u8, 1024>,
+}
+
+struct Line<T = Buffers>(UnsafeCell<T>);
+
+// SAFETY: one core, and every use goes through `with`, which masks all interrupts.
+unsafe impl<T> Sync for Line<T> {}
+
+impl<T> Line<T> {
+    fn with<R>(&self, f: impl FnOnce(&mut T) -> R) -> R {
+        // SAFETY: interrupts are masked, so no other task runs, and `f` cannot come here again with the same line.
+        cortex_m::interrupt::free(|_| f(unsafe { &mut *self.0.get() }))
+    }
+}
+
+/// Everything on the board, asleep.
+pub struct Parts {
+    /// Bridges, converters and halls
+    pub bridges: Bridges,
+    /// The link
+    pub wire: Wire,
+    /// The watchdog
+    pub dog: Dog,
+    /// Where the parameter block is kept
+    pub store: Store,
+}
+
+/// The bridges of all motors, with what is measured there.
+pub struct Bridges {
+    syst: SYST,
+    up: usize,
+    down: usize,
+    next: Up,
+    began: u32,
+}
+
+/// The link to the host.
+pub struct Wire(());
+
+/// The watchdog: it bites by opening all bridges for good.
+pub struct Dog(());
+
+/// Where the parameter block is kept: memory, which a reset of the emulator forgets.
+pub struct Store(());
+
+/// Takes the board, everything asleep.
+pub fn take(core: cortex_m::Peripherals, _device: pac::Peripherals) -> Parts {
+    let bridges = Bridges {
+        syst: core.SYST,
+        up: open(UP_FILE, open::W_TRUNC_BINARY),
+        down: open(DOWN_FILE, open::R_BINARY),
+        next: Up::default(),
+        began: 0,
+    };
+    Parts { bridges, wire: Wire(()), dog: Dog(()), store: Store(()) }
+}
+
+/// Opens a file of the host; ends the emulator where there is none.
+fn open(name: &str, mode: usize) -> usize {
+    let mut path = [0_u8; 16];
+    path[..name.len()].copy_from_slice(name.as_bytes());
+    // SAFETY: semihosting reads `len` bytes of `path`, which ends with a zero and lives over the call.
+    let handle = unsafe { syscall!(OPEN, path.as_ptr(), mode, name.len()) };
+    if handle == usize::MAX {
+        debug::exit(debug::EXIT_FAILURE);
+    }
+    handle
+}
+
+impl Bridges {
+    /// Lets the periods begin; the bridges stay open until they are driven.
+    pub fn start(&mut self) {
+        self.syst.set_clock_source(SystClkSource::Core);
+        self.syst.set_reload(CYCLES_PER_PERIOD - 1);
+        self.syst.clear_current();
+        self.syst.enable_counter();
+        self.syst.enable_interrupt();
+    }
+
+    /// What was measured in this period. Called once a period, first of all.
+    pub fn read(&mut self) -> Codes {
+        let hungry = DOG.with(|hungry| {
+            *hungry = hungry.saturating_add(1);
+            *hungry
+        });
+        if hungry > DOG_PERIODS {
+            self.next.bitten = true;
+        }
+        if self.next.bitten {
+            self.next.enabled = 0;
+        }
+        let mut out = [0; LINK_BYTES];
+        let count = WIRE.with(|wire| {
+            let mut count = 0;
+            while count < LINK_BYTES {
+                let Some(byte) = wire.out.dequeue() else { break };
+                out[count] = byte;
+                count += 1;
+            }
+            count
+        });
+        self.next.link = Bytes::of(&out[..count]);
+
+        let sent = self.next.to_bytes();
+        let mut got = [0_u8; Down::LEN];
+        // SAFETY: semihosting reads and writes the lengths given, of buffers that live over the calls.
+        let left = unsafe {
+            syscall!(WRITE, self.up, sent.as_ptr(), sent.len())
+                + syscall!(READ, self.down, got.as_mut_ptr(), got.len())
+        };
+        let down = Down::from_bytes(&got);
+        if left != 0 || down.end {
+            debug::exit(if left == 0 { debug::EXIT_SUCCESS } else { debug::EXIT_FAILURE });
+        }
+        self.began = cycles();
+        self.next.period = self.next.period.wrapping_add(1);
+        WIRE.with(|wire| {
+            for byte in down.link.as_slice() {
+                let _full = wire.inward.enqueue(*byte);
+            }
+        });
+        BURN.with(|burn| *burn = (*burn).max(down.burn_motion));
+        idle(down.burn_current);
+        down.codes
+    }
+
+    /// Drives the next period: duties of the three phases of every motor [1], and a bit for each motor that is enabled.
+    pub fn drive(&mut self, duties: &[[f32; 3]; MOTORS], enabled: u8) {
+        for ((compare, duty), top) in self.next.compare.iter_mut().zip(duties).zip(TOPS) {
+            for (count, duty) in compare.iter_mut().zip(duty) {
+                // rounded to the nearest count, and held to the timer's range by the conversion and the minimum
+                *count = ((duty * f32::from(top) + 0.5) as u16).min(top);
+            }
+        }
+        self.next.enabled = enabled;
+        self.next.cycles = elapsed(self.began) as u16;
+    }
+}
+
+impl Bridges {
+    /// True if the next period has begun before this turn was over.
+    pub fn is_late(&self) -> bool {
+        NVIC::is_pending(pac::Interrupt::ADC)
+    }
+}
+
+impl Wire {
+    /// Hands bytes to the link; how many it had room for.
+    pub fn send(&mut self, bytes: &[u8]) -> usize {
+        WIRE.with(|wire| bytes.iter().take_while(|byte| wire.out.enqueue(**byte).is_ok()).count())
+    }
+
+    /// Takes the bytes that have come; how many.
+    pub fn receive(&mut self, into: &mut [u8]) -> usize {
+        WIRE.with(|wire| {
+            let mut count = 0;
+            for place in into {
+                let Some(byte) = wire.inward.dequeue() else { break };
+                *place = byte;
+                count += 1;
+            }
+            count
+        })
+    }
+}
+
+impl Dog {
+    /// Feeds the dog.
+    pub fn feed(&mut self) {
+        DOG.with(|hungry| *hungry = 0);
+    }
+}
+
+impl Store {
+    /// The block that was kept; empty here, because the emulator starts from nothing.
+    pub fn load(&self) -> &'static [u8] {
+        &[]
+    }
+
+    /// Keeps a block; true if it is kept.
+    pub fn save(&mut self, _block: &[u8]) -> bool {
+        true
+    }
+}
+
+/// Processor cycles since the beginning of the period.
+#[inline]
+pub fn cycles() -> u32 {
+    // SysTick counts down
+    CYCLES_PER_PERIOD - 1 - SYST::get_current()
+}
+
+/// Processor cycles since [`cycles`] said `then`, for anything that takes less than a period.
+#[inline]
+pub fn elapsed(then: u32) -> u32 {
+    let now = cycles();
+    if now >= then { now - then } else { now + CYCLES_PER_PERIOD - then }
+}
+
+/// Writes text on the host's standard output.
+pub fn say(text: core::fmt::Arguments<'_>) {
+    cortex_m_semihosting::hprint!("{}", text);
+}
+
+/// Ends the emulator, all well.
+pub fn end() -> ! {
+    loop {
+        debug::exit(debug::EXIT_SUCCESS);
+    }
+}
+
+/// Idle instructions that the host asked for, to make the motion turn late; none on a board.
+pub fn burn_motion() {
+    idle(BURN.with(core::mem::take));
+}
+
+fn idle(turns: u16) {
+    for _ in 0..u32::from(turns) * 64 {
+        cortex_m::asm::nop();
+    }
+}
+
+#[exception]
+fn SysTick() {
+    NVIC::pend(pac::Interrupt::ADC);
+}

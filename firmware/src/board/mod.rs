@@ -1,0 +1,27 @@
+//! # Board: the only room that knows pins, registers and `unsafe`
+//!
+//! One file a board, chosen by a feature. Every board hands out the same parts with the same verbs, asleep: bridges open,
+//! timers stopped.
+//!
+//! | part | verbs |
+//! |---|---|
+//! | `Bridges` | `start`, `read` the codes of this period, `drive` the next one; `is_late` |
+//! | `Wire` | `send` and `receive` bytes, as many as it has room for |
+//! | `Dog` | `feed` |
+//! | `Store` | `load` and `save` the parameter block |
+//!
+//! and a counter of processor cycles, [`cycles`] and [`elapsed`], with `CYCLES_PER_PERIOD`.
+#![allow(unsafe_code)]
+
+#[cfg(feature = "emulated")]
+mod emulated;
+#[cfg(feature = "emulated")]
+pub use emulated::*;
+
+#[cfg(feature = "f405")]
+mod f405;
+#[cfg(feature = "f405")]
+pub use f405::*;
+
+/// The chip's registers, as the application framework wants to know them.
+pub use stm32f4xx_hal::pac;

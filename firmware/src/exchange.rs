@@ -1,0 +1,230 @@
+//! # Exchange: what the emulated board and its host tell each other, once a period
+//!
+//! In place of timers, converters and pins the emulated board has two files. It writes an [`Up`] and then waits for a
+//! [`Down`]; the host, which has the motors and the robot, does the opposite. So the host is the clock: nothing here
+//! depends on how fast either side runs.
+//!
+//! What an [`Up`] asks for holds over the period that follows, as compare registers that are loaded at the update do; the
+//! codes of a [`Down`] are those of that period's PWM centre.
+
+use model_core::calibration::AdcCode;
+use model_core::halls::HallCode;
+
+use crate::codes::{Codes, MOTORS};
+
+/// The name of the file from the image to the host, in QEMU's working folder.
+pub const UP_FILE: &str = "omni-up";
+/// The name of the file from the host to the image.
+pub const DOWN_FILE: &str = "omni-down";
+
+/// Timer counts of half a PWM period, motor by motor: TIM1 and TIM8 count at 168 MHz, TIM3 and TIM4 at 84 MHz.
+pub const TOPS: [u16; MOTORS] = [4200, 4200, 2100, 2100];
+
+/// Bytes that the link carries in a period: 2 Mbaud.
+pub const LINK_BYTES: usize = 10;
+
+/// From the image to the host.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Up {
+    /// Periods since the start
+    pub period: u32,
+    /// Compare counts of every motor's three phases, of [`TOPS`]
+    pub compare: [[u16; 3]; MOTORS],
+    /// One bit a motor: its gate driver is enabled
+    pub enabled: u8,
+    /// The watchdog has bitten; nothing is driven any more
+    pub bitten: bool,
+    /// Processor cycles that the last current turn took, as the emulator counts
+    pub cycles: u16,
+    /// Bytes for the link
+    pub link: Bytes,
+}
+
+/// From the host to the image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Down {
+    /// What the converters, the hall lines and the fault line say
+    pub codes: Codes,
+    /// True: the image is to end
+    pub end: bool,
+    /// Injected overrun: so many times 64 idle instructions in the current turn
+    pub burn_current: u16,
+    /// The same in the next motion turn
+    pub burn_motion: u16,
+    /// Bytes from the link
+    pub link: Bytes,
+}
+
+/// What the link carries in one period, [`LINK_BYTES`] at most.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bytes {
+    held: [u8; LINK_BYTES],
+    len: u8,
+}
+
+impl Bytes {
+    /// As many of these bytes as a period has room for.
+    pub fn of(bytes: &[u8]) -> Self {
+        let mut held = [0; LINK_BYTES];
+        let mut len = 0;
+        for (to, from) in held.iter_mut().zip(bytes) {
+            *to = *from;
+            len += 1;
+        }
+        Self { held, len }
+    }
+
+    /// The bytes.
+    pub fn as_slice(&self) -> &[u8] {
+        self.held.get(..usize::from(self.len)).unwrap_or(&self.held)
+    }
+}
+
+impl Up {
+    /// Bytes of this frame.
+    pub const LEN: usize = 44;
+
+    /// The frame's bytes, little endian.
+    pub fn to_bytes(&self) -> [u8; Self::LEN] {
+        let mut bytes = [0; Self::LEN];
+        let mut put = Cursor { bytes: &mut bytes, at: 0 };
+        put.put(self.period.to_le_bytes());
+        self.compare.as_flattened().iter().for_each(|count| put.put(count.to_le_bytes()));
+        put.put([self.enabled, u8::from(self.bitten)]);
+        put.put(self.cycles.to_le_bytes());
+        put.put([self.link.len]);
+        put.put(self.link.held);
+        bytes
+    }
+
+    /// The frame of these bytes.
+    pub fn from_bytes(bytes: &[u8; Self::LEN]) -> Self {
+        let mut get = Reader { bytes, at: 0 };
+        let period = u32::from_le_bytes(get.take());
+        let compare = [(); MOTORS].map(|()| [(); 3].map(|()| u16::from_le_bytes(get.take())));
+        let [enabled, flags] = get.take();
+        let cycles = u16::from_le_bytes(get.take());
+        Self { period, compare, enabled, bitten: flags & 1 != 0, cycles, link: get.link() }
+    }
+}
+
+impl Down {
+    /// Bytes of this frame.
+    pub const LEN: usize = 48;
+
+    /// The frame's bytes, little endian.
+    pub fn to_bytes(&self) -> [u8; Self::LEN] {
+        let mut bytes = [0; Self::LEN];
+        let mut put = Cursor { bytes: &mut bytes, at: 0 };
+        self.codes.phases.as_flattened().iter().for_each(|code| put.put(code.0.to_le_bytes()));
+        put.put(self.codes.bus.0.to_le_bytes());
+        put.put(self.codes.halls.map(|code| code.0));
+        put.put([u8::from(self.codes.driver_fault), u8::from(self.end)]);
+        put.put(self.burn_current.to_le_bytes());
+        put.put(self.burn_motion.to_le_bytes());
+        put.put([self.link.len]);
+        put.put(self.link.held);
+        bytes
+    }
+
+    /// The frame of these bytes.
+    pub fn from_bytes(bytes: &[u8; Self::LEN]) -> Self {
+        let mut get = Reader { bytes, at: 0 };
+        let phases = [(); MOTORS].map(|()| [(); 3].map(|()| AdcCode(u16::from_le_bytes(get.take()))));
+        let bus = AdcCode(u16::from_le_bytes(get.take()));
+        let halls = get.take().map(HallCode);
+        let [line, end] = get.take();
+        let codes = Codes { phases, bus, halls, driver_fault: line != 0 };
+        let burn_current = u16::from_le_bytes(get.take());
+        let burn_motion = u16::from_le_bytes(get.take());
+        Self { codes, end: end != 0, burn_current, burn_motion, link: get.link() }
+    }
+}
+
+/// Writes numbers one behind the other; what does not fit is left out, which a test of the lengths excludes.
+struct Cursor<'a> {
+    bytes: &'a mut [u8],
+    at: usize,
+}
+
+impl Cursor<'_> {
+    fn put<const K: usize>(&mut self, number: [u8; K]) {
+        if let Some(to) = self.bytes.get_mut(self.at..self.at + K) {
+            to.copy_from_slice(&number);
+        }
+        self.at += K;
+    }
+}
+
+/// Reads numbers one behind the other; zeros past the end, which a test of the lengths excludes.
+struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl Reader<'_> {
+    fn take<const K: usize>(&mut self) -> [u8; K] {
+        let from = self.bytes.get(self.at..self.at + K).and_then(|from| from.try_into().ok());
+        self.at += K;
+        from.unwrap_or([0; K])
+    }
+
+    fn link(&mut self) -> Bytes {
+        let [len] = self.take();
+        Bytes { held: self.take(), len: len.min(LINK_BYTES as u8) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_up_frame_comes_back_as_it_was() {
+        let up = Up {
+            period: 0x8123_4567,
+            compare: [[1, 2, 3], [4, 5, 6], [7, 8, 9], [10, 11, 4200]],
+            enabled: 0b1010,
+            bitten: true,
+            cycles: 65_000,
+            link: Bytes::of(&[1, 2, 3, 4, 5, 6, 7, 8, 9, 255]),
+        };
+        assert_eq!(Up::from_bytes(&up.to_bytes()), up);
+        // the last byte but one is the link's last: nothing was left out
+        assert_eq!(up.to_bytes()[Up::LEN - 2], 255);
+    }
+
+    #[test]
+    fn a_down_frame_comes_back_as_it_was() {
+        let code = |k: u16| AdcCode(4000 + k);
+        let down = Down {
+            codes: Codes {
+                phases: [
+                    [code(1), code(2), code(3)],
+                    [code(4), code(5), code(6)],
+                    [code(7), code(8), code(9)],
+                    [code(10), code(11), code(12)],
+                ],
+                bus: AdcCode(1354),
+                halls: [1, 3, 2, 6].map(HallCode),
+                driver_fault: true,
+            },
+            end: true,
+            burn_current: 513,
+            burn_motion: 1027,
+            link: Bytes::of(&[9; LINK_BYTES]),
+        };
+        assert_eq!(Down::from_bytes(&down.to_bytes()), down);
+        assert_eq!(down.to_bytes()[Down::LEN - 2], 9);
+    }
+
+    #[test]
+    fn the_link_takes_what_a_period_has_room_for() {
+        assert_eq!(Bytes::of(&[7; 40]).as_slice(), &[7; LINK_BYTES]);
+        assert_eq!(Bytes::of(&[]).as_slice(), &[] as &[u8]);
+        // a length that cannot be is cut
+        let mut bytes = Up::default().to_bytes();
+        bytes[32] = 200;
+        assert_eq!(Up::from_bytes(&bytes).link.as_slice().len(), LINK_BYTES);
+    }
+}

@@ -1,0 +1,21 @@
+//! The robot's controller, but for the clockwork: everything here builds and is tested on the host too.
+//!
+//! No equation lives here (they are `model-core`'s), and no pin outside [`board`]. In reading order: what a board hands
+//! out ([`codes`]), the turn of the windings, the turn of the motion, the link.
+#![no_std]
+#![deny(missing_docs)]
+#![allow(rustdoc::broken_intra_doc_links)]
+
+#[cfg(all(target_os = "none", not(any(feature = "f405", feature = "emulated"))))]
+compile_error!("no board chosen: build with `--features f405` for the robot or `--features emulated` for QEMU");
+#[cfg(all(feature = "f405", feature = "emulated"))]
+compile_error!("two boards chosen: f405 and emulated exclude each other");
+
+pub mod codes;
+
+pub mod exchange;
+
+pub mod parity;
+
+#[cfg(target_os = "none")]
+pub mod board;

@@ -1,0 +1,70 @@
+//! # Parity: the model's results, bit by bit
+//!
+//! The same functions, in single precision, on the host and on the chip: 20,000 results are folded into one number
+//! (FNV-1a over their bits). A test on the host, the image in the emulator and a test on the board compare it.
+
+use model_core::frames::{BodyTwist, Pose};
+use model_core::paper;
+use model_core::plant::{Input, Plant};
+use model_core::scalar::Real;
+
+/// How many results [`hash`] folds.
+pub const RESULTS: u32 = 20_000;
+
+/// FNV-1a, 64 bits.
+#[derive(Clone, Copy, Debug)]
+struct Fold {
+    hash: u64,
+    results: u32,
+}
+
+impl Fold {
+    fn add(&mut self, result: f32) {
+        for byte in result.to_bits().to_le_bytes() {
+            self.hash = (self.hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+        self.results += 1;
+    }
+
+    fn add_all<const K: usize>(&mut self, results: [f32; K]) {
+        results.into_iter().for_each(|result| self.add(result));
+    }
+}
+
+/// Numbers in −1 ..= 1, the same on every machine (a linear congruential generator's upper 24 bits).
+struct Draws(u32);
+
+impl Draws {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        // 24 bits fit a single's mantissa
+        (self.0 >> 8) as f32 / 8_388_608.0 - 1.0
+    }
+}
+
+/// The folded bits of [`RESULTS`] results of the model: trigonometry, inverse dynamics and plant, three and four wheels.
+pub fn hash() -> u64 {
+    let mut fold = Fold { hash: 0xcbf2_9ce4_8422_2325, results: 0 };
+    let mut draws = Draws(1);
+    let three = Plant::<3, f32>::new(paper::three_wheels(), Default::default());
+    let four = Plant::<4, f32>::new(paper::four_wheels(), Default::default());
+    let rest = Pose { x: 0.0, y: 0.0, theta: 0.0 };
+    let mut three_state = three.start(0.0, rest, BodyTwist::from_array([0.0; 3]));
+    let mut four_state = four.start(0.0, rest, BodyTwist::from_array([0.0; 3]));
+    while fold.results < RESULTS {
+        let (sin, cos) = (40.0 * draws.next()).sin_cos();
+        fold.add_all([sin, cos, draws.next().atan2(draws.next())]);
+
+        let twist = BodyTwist::from_array([draws.next(), draws.next(), 5.0 * draws.next()]);
+        let acceleration = BodyTwist::from_array([3.0 * draws.next(), 3.0 * draws.next(), 10.0 * draws.next()]);
+        fold.add_all(three.robot().demand(twist, acceleration).voltage);
+        fold.add_all(four.robot().demand(twist, acceleration).voltage);
+
+        let volts = [12.0 * draws.next(), 12.0 * draws.next(), 12.0 * draws.next(), 12.0 * draws.next()];
+        let [a, b, c, _] = volts;
+        fold.add_all(three.step(&mut three_state, &mut [], &Input::Voltage([a, b, c]), 1.0e-3).current);
+        fold.add_all(four.step(&mut four_state, &mut [], &Input::Voltage(volts), 1.0e-3).current);
+        fold.add_all(four_state.twist.to_array());
+    }
+    fold.hash
+}
