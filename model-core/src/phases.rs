@@ -197,8 +197,12 @@ pub enum Phase {
 impl Phase {
     /// What belongs to this phase, of a, b, c.
     #[inline]
-    pub fn of<X: Copy + Default>(self, phases: &[X; 3]) -> X {
-        phases.get(self as usize).copied().unwrap_or_default()
+    pub fn of<X>(self, [a, b, c]: [X; 3]) -> X {
+        match self {
+            Self::A => a,
+            Self::B => b,
+            Self::C => c,
+        }
     }
 }
 
@@ -206,13 +210,15 @@ impl Step {
     /// What is up, down and idle, as phases a, b, c.
     #[inline]
     pub fn phases<X: Copy>(self, up: X, down: X, idle: X) -> [X; 3] {
-        let mut phases = [idle; 3];
-        for (phase, x) in [(self.up, up), (self.down, down)] {
-            if let Some(place) = phases.get_mut(phase as usize) {
-                *place = x;
+        [Phase::A, Phase::B, Phase::C].map(|phase| {
+            if phase == self.up {
+                up
+            } else if phase == self.down {
+                down
+            } else {
+                idle
             }
-        }
-        phases
+        })
     }
 }
 

@@ -113,6 +113,11 @@ impl Real for f32 {
         f32::from(n)
     }
     #[inline]
+    fn abs(self) -> Self {
+        // one instruction, where a comparison takes four
+        f32::abs(self)
+    }
+    #[inline]
     fn value(self) -> Self {
         self
     }
