@@ -31,11 +31,13 @@
 //! waits while its error asks for still more voltage than there is, and works while it asks for less: after a
 //! saturation the regulator goes on from where it was.
 //!
-//! Neglects: the voltage ω_e·L·i by which d and q disturb each other, left to the integrals (w well above ω_e is not
-//! needed, w above ω_e/4 is good); the angle ω_e·1.5·Δt by which the rotor runs ahead until the duties act, which a
-//! closed loop turns back by itself and which an open one loses as the cosine of it; dead time of the bridge. Fails
-//! when: a feedforward that holds R·i too is given in closed loop, where it comes on top of the integral: an overshoot of
-//! about R/(L·w) of the step then fades with L/R.
+//! The current along d is held at zero even where q gets a voltage alone: only then is the motor the DC motor of
+//! [`crate::motor`] at speed. Left to itself it is i_d = ω_e·L·i/R, and the motor has R + (ω_e·L)²/R for R. For the same
+//! reason the voltage is turned on to where the rotor will be in the middle of the period that the duties are for.
+//!
+//! Neglects: the voltage ω_e·L·i by which d and q disturb each other, left to the integrals; harmonics; dead time of the
+//! bridge. Fails when: a feedforward that holds R·i too is given in a closed loop, where it comes on top of the
+//! integral: an overshoot of up to R/(L·w) of the step then fades with L/R.
 //!
 //! How to measure L: see [`crate::motor`]. M: one less the share of a period that the converter needs to sample, both
 //! sides of the centre counted.
@@ -90,6 +92,9 @@ pub struct CurrentSeen<T = f32> {
     pub offsets: [T; 3],
     /// θ, electrical angle of the rotor [rad]; six steps do not look at it
     pub angle: T,
+    /// ω_e·Δt, by how much the rotor will be ahead of it in the middle of the period that the duties are for [rad];
+    /// up to half a radian, and not looked at by six steps
+    pub ahead: T,
     /// U, bus voltage, above zero [V]
     pub bus: T,
     /// 1/U, the same for all motors [1/V]
@@ -103,7 +108,7 @@ pub struct CurrentWant<T = f32> {
     pub current: T,
     /// DC-equivalent voltage [V]: in a closed loop what to add (the back-EMF), in an open one all of it
     pub voltage: T,
-    /// True to regulate the current, false to apply the voltage alone
+    /// True to regulate the current, false to apply the voltage as it is; along d the current is held at zero either way
     pub closed: bool,
 }
 
@@ -162,24 +167,18 @@ impl<T: Real> CurrentLoop<T> {
         let rotation = Rotation::of_angle(seen.angle);
         let current = rotation.to_rotor(still);
 
-        let share = if want.closed {
-            let d = self.regulate(&mut memory.d, -current.d, T::zero(), seen.per_bus, self.half_duty);
-            // |m_q| ≤ M·(1 − z/2 − c·z²),  z = (m_d/M)²
-            let square = d * d;
-            let limit = self.max_duty - square * (self.bend + square * self.bend_more);
-            let q = self.regulate(&mut memory.q, want.current - current.q, want.voltage, seen.per_bus, limit);
-            Rotor { d, q }
-        } else {
-            *memory = CurrentMemory::default();
-            Rotor { d: T::zero(), q: self.open(want, seen) }
-        };
+        let d = self.regulate(&mut memory.d, -current.d, T::zero(), seen.per_bus, self.half_duty);
+        // |m_q| ≤ M·(1 − z/2 − c·z²),  z = (m_d/M)²
+        let square = d * d;
+        let limit = self.max_duty - square * (self.bend + square * self.bend_more);
+        let q = self.along_torque(&mut memory.q, current.q, seen, want, limit);
 
-        let Stationary { alpha, beta } = rotation.to_stationary(share);
+        let Stationary { alpha, beta } = rotation.ahead(seen.ahead).to_stationary(Rotor { d, q });
         // phases a, b, c of a DC-equivalent vector: m_α/√3, (−m_α/√3 ± m_β)/2
         let a = alpha * T::lit(1.0 / SQRT_3);
         let (along, across) = (a * T::lit(-0.5), beta * T::lit(0.5));
         let duties = phases::centred([a, along + across, along - across]);
-        CurrentDecided { duties, current: current.q, voltage: share.q * seen.bus }
+        CurrentDecided { duties, current: current.q, voltage: q * seen.bus }
     }
 
     /// One period of six steps; without a legal sector no voltage is applied.
@@ -219,12 +218,7 @@ impl<T: Real> CurrentLoop<T> {
         let down = step.down.of(seen.codes).counts::<T>() - step.down.of(seen.offsets);
         // i = (i_up − i_down)/2
         let current = (up - down) * self.amps_across;
-        let share = if want.closed {
-            self.regulate(&mut memory.q, want.current - current, want.voltage, seen.per_bus, self.max_duty)
-        } else {
-            *memory = CurrentMemory::default();
-            self.open(want, seen)
-        };
+        let share = self.along_torque(&mut memory.q, current, seen, want, self.max_duty);
         // δ = ½ ± m/2
         let (half, away) = (T::lit(0.5), T::lit(0.5) * share);
         CurrentDecided { duties: step.phases(half + away, half - away, half), current, voltage: share * seen.bus }
@@ -237,11 +231,15 @@ impl<T: Real> CurrentLoop<T> {
         [a.counts::<T>() - a0, b.counts::<T>() - b0, c.counts::<T>() - c0]
     }
 
-    /// The share of the bus [1] that a voltage alone takes.
+    /// The share of the bus [1] that makes the torque: regulated, or the voltage alone.
     #[inline]
-    fn open(&self, want: &CurrentWant<T>, seen: &CurrentSeen<T>) -> T {
+    fn along_torque(&self, integral: &mut T, current: T, seen: &CurrentSeen<T>, want: &CurrentWant<T>, limit: T) -> T {
+        if want.closed {
+            return self.regulate(integral, want.current - current, want.voltage, seen.per_bus, limit);
+        }
+        *integral = T::zero();
         // m = u/U, |m| ≤ M
-        (want.voltage * seen.per_bus).clamp(-self.max_duty, self.max_duty)
+        (want.voltage * seen.per_bus).clamp(-limit, limit)
     }
 
     /// The share of the bus [1] that closes an error [A], and the integral's [V] next value.

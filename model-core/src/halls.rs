@@ -252,6 +252,15 @@ impl Halls {
         angle_of_code(self.angle_code())
     }
 
+    /// How far the angle goes on in a period [rad], signed; 0 where the speed is not known.
+    ///
+    /// It is the speed that [`Halls::angle`] interpolates with: cheap, and without a look at whether the next edge is late.
+    #[inline]
+    pub fn ahead<T: Real>(&self) -> T {
+        let ahead: T = angle_of_code(high(self.step));
+        if self.backwards { -ahead } else { ahead }
+    }
+
     /// ω_e [rad a period], signed; 0 where it is not known.
     #[inline]
     pub fn electrical_speed<T: Real>(&self) -> T {

@@ -96,6 +96,17 @@ impl<T: Real> Rotation<T> {
         Self { sin, cos }
     }
 
+    /// The rotor turned on by a small angle [rad], its sine and cosine to within δ⁵/120 and δ⁴/24.
+    #[inline]
+    pub fn ahead(self, angle: T) -> Self {
+        // cos δ = 1 − δ²/2 + …,  sin δ = δ − δ³/6 + …
+        let square = angle * angle;
+        let cos = T::one() - T::lit(0.5) * square;
+        let sin = angle - T::lit(1.0 / 6.0) * square * angle;
+        // sin(θ + δ) = sin θ·cos δ + cos θ·sin δ,  cos(θ + δ) = cos θ·cos δ − sin θ·sin δ
+        Self { sin: self.sin * cos + self.cos * sin, cos: self.cos * cos - self.sin * sin }
+    }
+
     /// Park's vector: the one that stands still, seen from the rotor.
     #[inline]
     pub fn to_rotor(self, x: Stationary<T>) -> Rotor<T> {
