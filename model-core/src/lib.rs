@@ -2,8 +2,10 @@
 //!
 //! In reading order: the numbers ([`scalar`], [`trig`], [`dual`], [`small`]), the geometry ([`frames`], [`shafts`],
 //! [`kinematics`]), the winding ([`motor`], [`phases`]) and what a drive does with it ([`calibration`], [`halls`],
-//! [`current_loop`]), the effects' pages ([`card`]), the robot ([`robot`], [`paper`]) and its
-//! motion ([`body`], [`plant`], [`feedforward`]).
+//! [`current_loop`]), the effects' pages ([`card`]), the robot ([`robot`], [`paper`]) and its motion ([`body`],
+//! [`plant`], [`feedforward`]), the loop that moves it ([`reference`](mod@reference), [`headroom`], [`compensation`],
+//! [`tick`]), and what robot and host tell each other ([`link`], [`command`], [`record`], [`hello`], [`faults`],
+//! [`block`]).
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -71,3 +73,11 @@ pub mod record;
 pub mod hello;
 
 pub mod block;
+// The control loop
+pub mod reference;
+
+pub mod headroom;
+
+pub mod compensation;
+
+pub mod tick;

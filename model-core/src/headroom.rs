@@ -1,0 +1,129 @@
+//! # Headroom: what the bus and the current limit leave of a wish
+//!
+//! ```text
+//! i_j = p_j + s·q_j                                 p the steady part, q what accelerates
+//! u_j = R_j·i_j + e_j                               e the back-EMF
+//! |i_j| ≤ I,  |u_j| ≤ U   for all j
+//! s = min_j (L − sign(q_j)·p_j)/|q_j|               over currents and voltages, held within 0 … 1
+//! k_i = min(1, I/max_j|i_j|),  i_j ← k_i·i_j        only where s alone does not do it
+//! k_u = min(1, U/max_j|u_j|),  u_j ← k_u·u_j,  i_j = (u_j − e_j)/R_j
+//! ```
+//!
+//! | symbol | code | unit | meaning |
+//! |---|---|---|---|
+//! | p | [`Wish::steady`] | A | current of each wheel that holds the motion: friction, feedback, effects |
+//! | q | [`Wish::accelerating`] | A | current of each wheel that changes the motion |
+//! | e | [`Wish::emf`] | V | voltage of each wheel that its speed takes |
+//! | R | [`Wish::resistance`] | Ω | of each winding |
+//! | I | [`Room::current`] | A | most current in a motor |
+//! | U | [`Room::voltage`] | V | most voltage across a motor: bus voltage times the largest duty |
+//! | s | [`Share::acceleration`] | 1 | how much of the acceleration fits |
+//! | k | [`Share::steady`] | 1 | k_i·k_u, how much of the steady part fits |
+//!
+//! Clipping each wheel by itself turns the robot aside: the wheel that is short pushes less than the others count on. One
+//! factor for all wheels keeps the direction of the body's acceleration, because currents and body force are in a linear
+//! relation. What accelerates gives way first: a robot at its top speed stops accelerating and holds its course. Only where
+//! even holding is too much (the bus sags, something blocks the wheels) is the whole wish scaled, motion and all.
+//!
+//! Closed form, three looks at each wheel at most. Voltages always fit. Currents fit too, but where the bus has fallen so
+//! far below the back-EMF that the bridge cannot but let a braking current through.
+//!
+//! Neglects: the inductance's voltage while the current rises. Fails when: the bus falls with the currents asked for (see
+//! the effect `supply_sag`): the bus measured in this turn is that of the last turn's currents.
+
+use crate::scalar::Real;
+
+/// What a motor may be asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Room<T = f32> {
+    /// I, most current either way [A]
+    pub current: T,
+    /// U, most voltage either way [V]
+    pub voltage: T,
+}
+
+/// What is asked of the motors, by its two reasons.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wish<const N: usize, T = f32> {
+    /// p, currents that hold the motion [A]
+    pub steady: [T; N],
+    /// q, currents that change it [A]
+    pub accelerating: [T; N],
+    /// e, back-EMF [V]
+    pub emf: [T; N],
+    /// R [Ω]
+    pub resistance: [T; N],
+}
+
+/// How much of a wish fits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share<T = f32> {
+    /// s, of the acceleration, 0 … 1 [1]
+    pub acceleration: T,
+    /// k, of the steady part, 0 … 1 [1]
+    pub steady: T,
+}
+
+/// What is left of a wish.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fitted<const N: usize, T = f32> {
+    /// Motor currents [A]
+    pub current: [T; N],
+    /// Motor voltages [V]
+    pub voltage: [T; N],
+    /// How much of the wish that is.
+    pub share: Share<T>,
+}
+
+impl<T: Real> Room<T> {
+    /// True if no current and no voltage is beyond its limit.
+    #[inline(always)]
+    pub fn holds<const N: usize>(&self, current: &[T; N], voltage: &[T; N]) -> bool {
+        let mut holds = true;
+        for j in 0..N {
+            holds &= current[j].abs() <= self.current;
+            holds &= voltage[j].abs() <= self.voltage;
+        }
+        holds
+    }
+
+    /// As much of a wish as there is room for.
+    pub fn fit<const N: usize>(&self, wish: &Wish<N, T>) -> Fitted<N, T> {
+        let (zero, one) = (T::zero(), T::one());
+        let Wish { steady, accelerating, emf, resistance } = wish;
+        let mut s = one;
+        for j in 0..N {
+            s = s.min(most(steady[j], accelerating[j], self.current));
+            // u = R·(p + s·q) + e
+            s = s.min(most(resistance[j] * steady[j] + emf[j], resistance[j] * accelerating[j], self.voltage));
+        }
+        let s = s.max(zero);
+        let wanted: [T; N] = core::array::from_fn(|j| steady[j] + s * accelerating[j]);
+        // k_i = min(1, I/max|i|)
+        let by_current = share(&wanted, self.current);
+        let wanted: [T; N] = core::array::from_fn(|j| resistance[j] * (by_current * wanted[j]) + emf[j]);
+        // k_u = min(1, U/max|u|)
+        let by_voltage = share(&wanted, self.voltage);
+        // the limit itself, where rounding would go beyond it
+        let voltage = wanted.map(|u| (by_voltage * u).clamp(-self.voltage, self.voltage));
+        // i = (u − e)/R
+        let current = core::array::from_fn(|j| (voltage[j] - emf[j]) / resistance[j]);
+        Fitted { current, voltage, share: Share { acceleration: s, steady: by_current * by_voltage } }
+    }
+}
+
+/// The largest factor on `q` that keeps p + s·q below the limit on the side to which q pushes; 1 where q is nothing.
+#[inline]
+fn most<T: Real>(p: T, q: T, limit: T) -> T {
+    let push = q.abs();
+    // (L − sign(q)·p)/|q|, asked as a product first: q may be 0 and L infinite
+    let left = if q < T::zero() { limit + p } else { limit - p };
+    if left < push { left / push } else { T::one() }
+}
+
+/// The factor that brings the largest of these within the limit; 1 where it is.
+#[inline]
+fn share<const N: usize, T: Real>(x: &[T; N], limit: T) -> T {
+    let largest = x.iter().fold(T::zero(), |most, x| most.max(x.abs()));
+    if largest > limit { limit / largest } else { T::one() }
+}
