@@ -27,6 +27,8 @@ mod integration;
 #[path = "proof/symmetry.rs"]
 mod symmetry;
 
+#[path = "proof/block.rs"]
+mod block;
 #[path = "proof/derivatives.rs"]
 mod derivatives;
 #[path = "proof/docs.rs"]

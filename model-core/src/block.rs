@@ -284,7 +284,8 @@ impl Parameters {
             return Err(Refused { value: f32::from(version), ..Refused::because(reason, "version") });
         }
         let length = usize::from(reader.u16().ok_or(short)?);
-        let block = bytes.get(..length).filter(|_| length <= MAX_BYTES).ok_or(short)?;
+        let possible = (HEADER + 4..=MAX_BYTES).contains(&length);
+        let block = bytes.get(..length).filter(|_| possible).ok_or(short)?;
         let (before, check) = block.split_last_chunk::<4>().ok_or(short)?;
         if CHECK.checksum(before).to_le_bytes() != *check {
             return Err(Refused::because(Reason::Checksum, "checksum"));
