@@ -11,7 +11,8 @@
 //! - [`generated`]: the paper's robots as Rust, from their robot files;
 //! - [`catalogue`]: the benchmark of the diagnosis, on recordings whose truth is known;
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
-//! - [`real`]: what the diagnosis says of recordings of real robots.
+//! - [`real`]: what the diagnosis says of recordings of real robots;
+//! - [`virtual_board`]: what the robot's electronics see, without the robot.
 //!
 //! The paper is Oliveira, Sousa, Moreira and Costa, *Dynamical Models for Omni-directional Robots with 3 and 4 Wheels*
 //! (ICINCO 2008). Nothing in the first five rooms depends on the core: two implementations that agree prove something only
@@ -30,3 +31,4 @@ pub mod paper;
 pub mod printed;
 pub mod real;
 pub mod reference;
+pub mod virtual_board;

@@ -1,0 +1,347 @@
+//! # Board: compare counts in, codes out, one period a call
+//!
+//! A robot and its effects are given as the plant of the core takes them. Each effect goes where it belongs:
+//!
+//! | seam | here |
+//! |---|---|
+//! | supply (`supply_sag`) | the battery |
+//! | drive (`dead_time`) | the legs of the bridge |
+//! | winding (`motor_mismatch`) | K_v and R of that motor's machine; K_t in the plant |
+//! | sense (`current_sensor_offset`) | the codes of the phase currents |
+//! | gear, contact, body | the plant |
+//!
+//! `actuation_delay` is refused: on this board nothing stands between command and bridge, a late command is late on the link.
+//! Within a period the wheels' speeds are those of its beginning; the plant then takes one step under the mean currents.
+
+use firmware::codes::{Codes, MOTORS};
+use firmware::exchange::TOPS;
+use model_core::active::{Active, Effects};
+use model_core::calibration::AdcCode;
+use model_core::card::Seam;
+use model_core::frames::{BodyTwist, Pose};
+use model_core::halls::HallCode;
+use model_core::plant::{Input, Plant, State};
+use model_core::robot::Robot;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::adc::{Channel, FULL_SCALE};
+use super::battery::Battery;
+use super::faults::{BLOCKED, Fault};
+use super::halls::Halls;
+use super::machine::{LegLoss, Legs, Machine, Magnet, Outcome, Vector, phases};
+
+/// One PWM period [s].
+pub const PERIOD: f64 = 50e-6;
+
+/// The hall code of the motor that is not there: a legal position at which nothing moves.
+const RESTING: HallCode = HallCode(1);
+
+/// What a program writes for a period.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// Compare counts of every motor's three phases, of [`TOPS`]
+    pub compare: [[u16; 3]; MOTORS],
+    /// One bit a motor: its gate driver is enabled
+    pub enabled: u8,
+}
+
+/// What a board and its robot are made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Setup<const N: usize> {
+    /// The robot
+    pub robot: Robot<N, f64>,
+    /// What it has besides
+    pub effects: Effects<N, f64>,
+    /// DC-equivalent inductance of a motor [H]
+    pub inductance: f64,
+    /// Pole pairs of a motor
+    pub pole_pairs: u8,
+    /// Phase current over code [A]
+    pub amps_per_count: f64,
+    /// Bus voltage over code [V]
+    pub bus_volts_per_count: f64,
+    /// How far the converters' zeros lie from the middle, at most [counts]
+    pub offset_spread: f64,
+    /// σ of every converter [counts]
+    pub noise: f64,
+    /// How far the hall switches sit from their places, at most [rad, electrical]
+    pub hall_spread: f64,
+    /// What zeros, placements, rotor angles and noise are drawn with
+    pub seed: u64,
+}
+
+impl<const N: usize> Setup<N> {
+    /// A robot on the board's default scaling: ±10 A and 36 V of full scale, offsets within 12 codes and noise of 1.5.
+    pub fn new(robot: Robot<N, f64>, effects: Effects<N, f64>, seed: u64) -> Self {
+        Self {
+            robot,
+            effects,
+            inductance: 0.6e-3,
+            pole_pairs: 8,
+            amps_per_count: 0.0049,
+            bus_volts_per_count: 0.00886,
+            offset_spread: 12.0,
+            noise: 1.5,
+            hall_spread: 0.0,
+            seed,
+        }
+    }
+
+    /// The same with converters and switches that are as they should be.
+    pub fn ideal(self) -> Self {
+        Self { offset_spread: 0.0, noise: 0.0, hall_spread: 0.0, ..self }
+    }
+}
+
+/// A motor with its converters and switches.
+#[derive(Clone, Copy, Debug)]
+struct Motor {
+    machine: Machine,
+    channels: [Channel; 3],
+    halls: Halls,
+    /// o of `current_sensor_offset` [A, DC-equivalent]
+    sensor_offset: f64,
+    /// Space vector of the phase currents [A]
+    current: Vector,
+    /// Electrical angle [rad]
+    angle: f64,
+    outcome: Outcome,
+}
+
+/// The board with its robot.
+#[derive(Debug)]
+pub struct VirtualBoard<const N: usize> {
+    setup: Setup<N>,
+    /// The effects that the plant carries
+    carried: Effects<N, f64>,
+    plant: Plant<N, f64>,
+    state: State<N, f64>,
+    memory: Vec<f64>,
+    motors: [Motor; N],
+    battery: Battery,
+    bus: f64,
+    /// Current drawn from the battery in the last period [A]
+    drawn: f64,
+    bus_channel: Channel,
+    dice: ChaCha8Rng,
+    faults: Vec<Fault>,
+}
+
+impl<const N: usize> VirtualBoard<N> {
+    /// A board whose robot stands in the origin, every rotor at an angle of its own.
+    pub fn new(setup: Setup<N>) -> Self {
+        Self::moving(setup, Pose::default(), BodyTwist::default())
+    }
+
+    /// A board whose robot is on its way.
+    ///
+    /// # Panics
+    /// With `actuation_delay` among the effects.
+    pub fn moving(setup: Setup<N>, pose: Pose<f64>, twist: BodyTwist<f64>) -> Self {
+        let mut dice = ChaCha8Rng::seed_from_u64(setup.seed);
+        let motors = std::array::from_fn(|j| Motor::new(&setup, j, &mut dice));
+        let mut battery = Battery { open_circuit: setup.robot.supply, resistance: 0.0 };
+        for sag in setup.effects.at(Seam::Supply) {
+            if let [resistance, open_circuit] = *sag.params() {
+                battery.resistance = resistance;
+                battery.open_circuit = if open_circuit > 0.0 { open_circuit } else { battery.open_circuit };
+            }
+        }
+        let delayed = setup.effects.iter().any(|active| active.effect.card().id == "actuation_delay");
+        assert!(!delayed, "actuation_delay has no place on the board: send the commands late");
+        let mut carried = Effects::default();
+        for active in setup.effects.iter().filter(|active| in_plant(active)) {
+            carried.add(active.effect, active.wheel, active.params()).expect("it was in a set of the same size");
+        }
+        let plant = Plant::new(setup.robot, carried);
+        let state = plant.start(0.0, pose, twist);
+        let mut memory = vec![0.0; plant.memory_len()];
+        plant.restart(&state, &mut memory);
+        Self {
+            carried,
+            plant,
+            state,
+            memory,
+            motors,
+            battery,
+            bus: battery.bus(0.0),
+            drawn: 0.0,
+            bus_channel: Channel { step: setup.bus_volts_per_count, offset: 0.0, noise: setup.noise },
+            dice,
+            faults: Vec::new(),
+            setup,
+        }
+    }
+
+    /// One period under these outputs; the codes are those of its middle.
+    pub fn period(&mut self, outputs: &Outputs) -> Codes {
+        self.bus = self.bus_now();
+        let speeds = self.wheel_speeds();
+        let mut codes = self.resting();
+        for (j, motor) in self.motors.iter_mut().enumerate() {
+            let legs = Legs {
+                duties: outputs.compare[j].map(|count| (f64::from(count) / f64::from(TOPS[j])).min(1.0)),
+                bus: self.bus,
+                enabled: outputs.enabled >> j & 1 != 0,
+            };
+            // ω = p·l·ω_w
+            let speed = motor.machine.pole_pairs * self.setup.robot.motor.gear_ratio * speeds[j];
+            let magnet = Magnet { angle: motor.angle, speed };
+            motor.outcome = motor.machine.period(&mut motor.current, &legs, magnet, PERIOD);
+            let middle = magnet.angle + 0.5 * speed * PERIOD;
+            motor.angle = (magnet.angle + speed * PERIOD).rem_euclid(std::f64::consts::TAU);
+            codes.halls[j] = HallCode(motor.halls.code(middle));
+            codes.phases[j] = motor.codes(middle, &mut self.dice);
+        }
+        codes.bus = AdcCode(self.bus_channel.code(self.bus, &mut self.dice));
+        self.drawn = self.motors.iter().map(|motor| motor.outcome.bus_current).sum();
+        let current = Input::Current(self.currents());
+        self.plant.step(&mut self.state, &mut self.memory, &current, PERIOD);
+        self.spoil(&mut codes, outputs.enabled);
+        codes
+    }
+
+    /// The codes of a board on which nothing is connected.
+    fn resting(&mut self) -> Codes {
+        let zero = Channel { step: 1.0, offset: 2048.0, noise: self.setup.noise };
+        let dice = &mut self.dice;
+        let unconnected: [[AdcCode; 3]; MOTORS] =
+            std::array::from_fn(
+                |j| {
+                    if j < N { [AdcCode(0); 3] } else { [(); 3].map(|()| AdcCode(zero.code(0.0, dice))) }
+                },
+            );
+        Codes { phases: unconnected, bus: AdcCode(0), halls: [RESTING; MOTORS], driver_fault: false }
+    }
+
+    /// What faults make of the codes.
+    fn spoil(&self, codes: &mut Codes, enabled: u8) {
+        for fault in &self.faults {
+            match *fault {
+                Fault::Short { motor, phase } if enabled >> motor & 1 != 0 => {
+                    codes.phases[motor][phase] = AdcCode(FULL_SCALE);
+                }
+                Fault::Halls { motor, code } => codes.halls[motor] = HallCode(code),
+                Fault::DriverLine => codes.driver_fault = true,
+                Fault::Short { .. } | Fault::Bus(_) | Fault::Blocked { .. } | Fault::Offset { .. } => {}
+            }
+        }
+    }
+
+    /// Something goes wrong, from the next period on.
+    pub fn inject(&mut self, fault: Fault) {
+        if let Fault::Offset { motor, phase, counts } = fault {
+            self.motors[motor].channels[phase].offset = counts;
+        }
+        self.faults.push(fault);
+        self.rebuild();
+    }
+
+    /// All faults are mended; a converter's zero stays where it was put.
+    pub fn heal(&mut self) {
+        self.faults.clear();
+        self.rebuild();
+    }
+
+    /// The plant with the wheels that are blocked now.
+    fn rebuild(&mut self) {
+        let mut effects = self.carried;
+        for fault in &self.faults {
+            if let Fault::Blocked { motor } = *fault {
+                effects.add(&BLOCKED, Some(motor), &[]).expect("room for a blocked wheel");
+            }
+        }
+        self.plant = Plant::new(self.setup.robot, effects);
+    }
+
+    fn bus_now(&self) -> f64 {
+        let held = self.faults.iter().rev().find_map(|fault| if let Fault::Bus(u) = fault { Some(*u) } else { None });
+        held.unwrap_or_else(|| self.battery.bus(self.drawn))
+    }
+
+    /// Where the robot is.
+    pub fn state(&self) -> &State<N, f64> {
+        &self.state
+    }
+
+    /// Speed of each wheel at its shaft [rad/s].
+    pub fn wheel_speeds(&self) -> [f64; N] {
+        // a wheel that rolls turns with the body; the plant keeps the speed of one that slips
+        if self.carried.none_at(Seam::Contact) {
+            self.setup.robot.wheels.wheel_speeds(self.state.twist)
+        } else {
+            self.state.wheel_speed
+        }
+    }
+
+    /// Mean DC-equivalent current of each motor over the last period [A].
+    pub fn currents(&self) -> [f64; N] {
+        std::array::from_fn(|j| self.motors[j].outcome.current)
+    }
+
+    /// Electrical angle of each rotor at the end of the last period [rad], 0 to 2π.
+    pub fn angles(&self) -> [f64; N] {
+        std::array::from_fn(|j| self.motors[j].angle)
+    }
+
+    /// Bus voltage over the last period [V].
+    pub fn bus(&self) -> f64 {
+        self.bus
+    }
+
+    /// Mean current drawn from the battery over the last period [A].
+    pub fn bus_current(&self) -> f64 {
+        self.drawn
+    }
+
+    /// Codes of zero current, phase by phase [counts].
+    pub fn offsets(&self) -> [[f64; 3]; N] {
+        std::array::from_fn(|j| self.motors[j].channels.map(|channel| channel.offset))
+    }
+}
+
+impl Motor {
+    /// Motor `j` with its mismatch, dead time and whatever is drawn.
+    fn new<const N: usize>(setup: &Setup<N>, j: usize, dice: &mut ChaCha8Rng) -> Self {
+        let motor = setup.robot.motor;
+        let params = |id: &str| {
+            let on = |active: &&Active<f64>| active.effect.card().id == id && active.on(j);
+            setup.effects.iter().find(on).map_or(Vec::new(), |active| active.params().to_vec())
+        };
+        let (k, rho) = if let [k, rho] = params("motor_mismatch")[..] { (k, rho) } else { (1.0, 1.0) };
+        let mut machine =
+            Machine::dc_equivalent(rho * motor.resistance, setup.inductance, k * motor.emf_constant, setup.pole_pairs);
+        if let [voltage, smoothing] = params("dead_time")[..] {
+            machine.loss = Some(LegLoss::dc_equivalent(voltage, smoothing));
+        }
+        let sensor_offset = if let [offset] = params("current_sensor_offset")[..] { offset } else { 0.0 };
+        let mut within = |most: f64| most * dice.random_range(-1.0..=1.0);
+        let channels = [(); 3].map(|()| Channel {
+            step: setup.amps_per_count,
+            offset: 2048.0 + within(setup.offset_spread),
+            noise: setup.noise,
+        });
+        let halls = Halls { errors: [(); 3].map(|()| within(setup.hall_spread)) };
+        let angle = within(std::f64::consts::PI).rem_euclid(std::f64::consts::TAU);
+        let (current, outcome) = (Vector::default(), Outcome::default());
+        Self { machine, channels, halls, sensor_offset, current, angle, outcome }
+    }
+
+    /// Codes of the phase currents, sampled while the rotor is at an electrical angle [rad].
+    fn codes(&self, angle: f64, dice: &mut ChaCha8Rng) -> [AdcCode; 3] {
+        // the effect speaks of the DC-equivalent current: what reads o too much there turns with the rotor, i_q = 2/√3·o
+        let turning = Vector::new(0.0, 2.0 / 3.0_f64.sqrt() * self.sensor_offset) * Vector::from_polar(1.0, angle);
+        let wrong = phases(turning);
+        std::array::from_fn(|x| AdcCode(self.channels[x].code(self.outcome.sampled[x] + wrong[x], dice)))
+    }
+}
+
+/// True for an effect that acts where the plant is: all but those of battery and bridge.
+fn in_plant(active: &Active<f64>) -> bool {
+    active.effect.card().seams.iter().any(|seam| !matches!(seam, Seam::Supply | Seam::Drive))
+}
+
+#[cfg(test)]
+#[path = "board_tests.rs"]
+mod tests;

@@ -1,0 +1,79 @@
+//! # Faults: what can go wrong with a board, on purpose
+//!
+//! Faults are injected one by one and stay until they are healed.
+
+use model_core::card::{Card, Place, Seam};
+use model_core::effects::Effect;
+use model_core::seams::{At, Gear};
+
+/// Something that is wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fault {
+    /// A short in a motor's cable: the converter of that phase is at its end while the bridge is enabled.
+    Short {
+        /// Which motor
+        motor: usize,
+        /// Which of its phases
+        phase: usize,
+    },
+    /// The bus is at this voltage, whatever the load [V].
+    Bus(f64),
+    /// The hall lines of a motor are stuck at a code.
+    Halls {
+        /// Which motor
+        motor: usize,
+        /// What they read; 0 and 7 are no position of a rotor
+        code: u8,
+    },
+    /// A gate driver pulls the shared fault line.
+    DriverLine,
+    /// A wheel does not turn.
+    Blocked {
+        /// Which wheel
+        motor: usize,
+    },
+    /// The zero of a converter is elsewhere.
+    Offset {
+        /// Which motor
+        motor: usize,
+        /// Which of its phases
+        phase: usize,
+        /// Code of zero current [counts]
+        counts: f64,
+    },
+}
+
+/// Torque that holds a blocked wheel [N·m]: more than any motor of such a robot has at its wheel.
+const HELD: f64 = 1.0e3;
+
+/// A wheel that does not turn, as an effect of the plant: its shaft can hold anything.
+#[derive(Debug)]
+pub struct BlockedWheel;
+
+/// The effect that blocks a wheel.
+pub static BLOCKED: BlockedWheel = BlockedWheel;
+
+static CARD: Card = Card {
+    id: "blocked_wheel",
+    title: "Blocked wheel",
+    summary: "Something has got between a wheel and the robot.",
+    equation: "budget → budget + 1000 N·m",
+    source: "a fault of the virtual board",
+    seams: &[Seam::Gear],
+    place: Place::OneWheel,
+    params: &[],
+    memory: 0,
+    needs_current: false,
+    signature: "the wheel stands, whatever its current",
+    look_alikes: &[],
+};
+
+impl Effect<f64> for BlockedWheel {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn gear(&self, _: &[f64], _: &[f64], _: &At<f64>, x: &mut Gear<f64>) {
+        x.budget += HELD;
+    }
+}
