@@ -5,7 +5,7 @@
 //! [`current_loop`]), the effects' pages ([`card`]), the robot ([`robot`], [`paper`]) and its motion ([`body`],
 //! [`plant`], [`feedforward`]), the loop that moves it ([`reference`](mod@reference), [`headroom`], [`compensation`],
 //! [`tick`]), and what robot and host tell each other ([`link`], [`command`], [`record`], [`hello`], [`faults`],
-//! [`block`]).
+//! [`block`], [`mover`]).
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -73,6 +73,8 @@ pub mod record;
 pub mod hello;
 
 pub mod block;
+
+pub mod mover;
 // The control loop
 pub mod reference;
 
