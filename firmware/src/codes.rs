@@ -15,7 +15,7 @@ pub const PERIODS_PER_SECOND: u32 = 20_000;
 pub const PERIODS_PER_TURN: u32 = 20;
 
 /// What was measured in one period.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Codes {
     /// The three phase currents of every motor, each at the centre of that motor's PWM
     pub phases: [[AdcCode; 3]; MOTORS],

@@ -15,6 +15,25 @@ pub mod codes;
 
 pub mod exchange;
 
+// The windings, 20 kHz
+pub mod offsets;
+
+pub mod guard;
+
+pub mod setup;
+
+pub mod windings;
+
+// The motion, 1 kHz
+pub mod motion;
+
+// The link
+pub mod listener;
+
+pub mod inbox;
+
+pub mod post;
+
 pub mod parity;
 
 #[cfg(target_os = "none")]

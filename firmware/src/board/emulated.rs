@@ -18,7 +18,7 @@ use panic_halt as _;
 use stm32f4xx_hal::pac;
 
 use crate::codes::{Codes, MOTORS};
-use crate::exchange::{Bytes, DOWN_FILE, Down, LINK_BYTES, TOPS, UP_FILE, Up};
+use crate::exchange::{Bytes, DOWN_FILE, Down, LINK_BYTES, TOPS, UP_FILE, Up, compare};
 
 /// What [`cycles`] counts in one period: SysTick's 168 MHz.
 pub const CYCLES_PER_PERIOD: u32 = 8_400;
@@ -161,18 +161,22 @@ impl Bridges {
 
     /// Drives the next period: duties of the three phases of every motor [1], and a bit for each motor that is enabled.
     pub fn drive(&mut self, duties: &[[f32; 3]; MOTORS], enabled: u8) {
-        for ((compare, duty), top) in self.next.compare.iter_mut().zip(duties).zip(TOPS) {
-            for (count, duty) in compare.iter_mut().zip(duty) {
-                // rounded to the nearest count, and held to the timer's range by the conversion and the minimum
-                *count = ((duty * f32::from(top) + 0.5) as u16).min(top);
+        for ((counts, duties), top) in self.next.compare.iter_mut().zip(duties).zip(TOPS) {
+            for (count, duty) in counts.iter_mut().zip(duties) {
+                *count = compare(*duty, top);
             }
         }
         self.next.enabled = enabled;
-        self.next.cycles = elapsed(self.began) as u16;
+        self.next.cycles = self.spent() as u16;
     }
 }
 
 impl Bridges {
+    /// Processor cycles since the codes of this period were there.
+    pub fn spent(&self) -> u32 {
+        elapsed(self.began)
+    }
+
     /// True if the next period has begun before this turn was over.
     pub fn is_late(&self) -> bool {
         NVIC::is_pending(pac::Interrupt::ADC)

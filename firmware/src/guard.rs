@@ -1,0 +1,180 @@
+//! # Guard: what must not be, looked for once a period
+//!
+//! | fault | seen when | periods |
+//! |---|---|---|
+//! | over-current | any phase beyond the trip current | 1 |
+//! | over-voltage, under-voltage | supply out of its range | 3 in a row |
+//! | hall code | a code that no rotor makes, or a sector left out | 2 in a row |
+//! | driver line | a gate driver pulls the line | 1 |
+//!
+//! Several periods in a row where one sample may be noise; a short is never waited for. What is seen is latched.
+
+use model_core::calibration::AdcCode;
+use model_core::faults::{Fault, Faults};
+
+use crate::codes::MOTORS;
+
+/// What is too much.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Phase current beyond which the bridges open [counts from the offset]
+    pub trip_counts: f32,
+    /// Lowest supply [V]
+    pub least_supply: f32,
+    /// Highest supply [V]
+    pub most_supply: f32,
+}
+
+/// Periods in a row that a supply out of range must last.
+const SUPPLY_PERIODS: u8 = 3;
+
+/// Periods in a row that a bad hall code must last.
+const HALL_PERIODS: u8 = 2;
+
+/// What was seen, latched.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Guard {
+    faults: Faults,
+    lost: u8,
+    over: u8,
+    under: u8,
+    halls: [u8; MOTORS],
+}
+
+impl Guard {
+    /// Faults that open all bridges.
+    #[inline]
+    pub fn faults(&self) -> Faults {
+        self.faults
+    }
+
+    /// One bit a motor that is out of use while the others go on.
+    #[inline]
+    pub fn lost(&self) -> u8 {
+        self.lost
+    }
+
+    /// Latches a fault that opens all bridges.
+    #[inline]
+    pub fn latch(&mut self, fault: Fault) {
+        self.faults.add(fault);
+    }
+
+    /// Latches faults that open all bridges.
+    pub fn latch_all(&mut self, faults: Faults) {
+        self.faults = Faults::from_bits(self.faults.bits() | faults.bits());
+    }
+
+    /// Looks at the supply [V].
+    #[inline]
+    pub fn supply(&mut self, limits: &Limits, bus: f32) {
+        let lasts = |count: &mut u8, bad: bool| {
+            *count = if bad { count.saturating_add(1) } else { 0 };
+            *count >= SUPPLY_PERIODS
+        };
+        if lasts(&mut self.over, bus > limits.most_supply) {
+            self.latch(Fault::OverVoltage);
+        }
+        if lasts(&mut self.under, bus < limits.least_supply) {
+            self.latch(Fault::UnderVoltage);
+        }
+    }
+
+    /// True if any phase carries too much.
+    #[inline]
+    pub fn over_current(&self, limits: &Limits, codes: &[AdcCode; 3], offsets: &[f32; 3]) -> bool {
+        let beyond = |k: usize| (f32::from(codes[k].0) - offsets[k]).abs() > limits.trip_counts;
+        beyond(0) | beyond(1) | beyond(2)
+    }
+
+    /// A bad hall code of a motor in this period.
+    pub fn bad_hall(&mut self, motor: usize, wheels: u8) {
+        if let Some(count) = self.halls.get_mut(motor) {
+            *count = count.saturating_add(1);
+            if *count >= HALL_PERIODS {
+                self.lose(Fault::HallCode, motor, wheels);
+            }
+        }
+    }
+
+    /// A good hall code of a motor in this period.
+    #[inline]
+    pub fn good_hall(&mut self, motor: usize) {
+        if let Some(count) = self.halls.get_mut(motor) {
+            *count = 0;
+        }
+    }
+
+    /// Takes a motor out of use; a robot that cannot go on without it, or has lost another, stops.
+    pub fn lose(&mut self, fault: Fault, motor: usize, wheels: u8) {
+        let bit = 1_u8 << (motor & 7);
+        if wheels < 4 || self.lost & !bit != 0 {
+            self.latch(fault);
+        }
+        self.lost |= bit;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMITS: Limits = Limits { trip_counts: 1000.0, least_supply: 9.0, most_supply: 14.0 };
+
+    #[test]
+    fn one_sample_of_the_supply_is_noise_and_three_are_a_fault() {
+        for (bus, fault) in [(14.1, Fault::OverVoltage), (8.9, Fault::UnderVoltage)] {
+            let mut guard = Guard::default();
+            for bus in [bus, bus, 12.0, bus, bus] {
+                guard.supply(&LIMITS, bus);
+            }
+            assert!(guard.faults().is_empty());
+            guard.supply(&LIMITS, bus);
+            assert!(guard.faults().has(fault));
+        }
+    }
+
+    #[test]
+    fn a_short_is_seen_in_any_phase_and_of_either_sign() {
+        let guard = Guard::default();
+        for phase in 0..3 {
+            for code in [3049, 1047] {
+                let mut codes = [AdcCode(2048); 3];
+                codes[phase] = AdcCode(code);
+                assert!(guard.over_current(&LIMITS, &codes, &[2048.0; 3]), "{phase} {code}");
+            }
+        }
+        assert!(!guard.over_current(&LIMITS, &[AdcCode(3048), AdcCode(1048), AdcCode(2048)], &[2048.0; 3]));
+    }
+
+    #[test]
+    fn four_wheels_go_on_without_one_and_not_without_two() {
+        let mut guard = Guard::default();
+        guard.lose(Fault::HallCode, 2, 4);
+        assert!(guard.faults().is_empty() && guard.lost() == 0b0100);
+        guard.lose(Fault::HallCode, 2, 4);
+        assert!(guard.faults().is_empty(), "the same wheel once more is not another");
+        guard.lose(Fault::Stall, 0, 4);
+        assert!(guard.faults().has(Fault::Stall) && guard.lost() == 0b0101);
+    }
+
+    #[test]
+    fn three_wheels_do_not_go_on_without_one() {
+        let mut guard = Guard::default();
+        guard.lose(Fault::Stall, 1, 3);
+        assert!(guard.faults().has(Fault::Stall));
+    }
+
+    #[test]
+    fn a_single_bad_hall_code_is_a_glitch() {
+        let mut guard = Guard::default();
+        for _ in 0..5 {
+            guard.bad_hall(1, 3);
+            guard.good_hall(1);
+        }
+        assert!(guard.faults().is_empty());
+        guard.bad_hall(1, 3);
+        guard.bad_hall(1, 3);
+        assert!(guard.faults().has(Fault::HallCode));
+    }
+}

@@ -1,0 +1,57 @@
+//! # Inbox: what the link has brought for the motion turn
+
+use model_core::command::Reply;
+use model_core::frames::BodyTwist;
+
+use crate::listener::{Accepted, Heard};
+
+/// What has come and was not taken yet.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Inbox {
+    /// The motion that was commanded last
+    pub twist: BodyTwist,
+    /// How many commands have come; wraps
+    pub commands: u32,
+    /// True: open the bridges
+    pub open: bool,
+    /// True: forget latched faults
+    pub clear: bool,
+    /// A command came that cannot be followed
+    pub bad_command: bool,
+    /// A parameter block came that cannot be taken
+    pub bad_block: bool,
+    /// Other parameters
+    pub parameters: Option<Accepted>,
+    /// An answer to what came last
+    pub reply: Option<Reply>,
+}
+
+impl Inbox {
+    /// Something was heard.
+    pub fn put(&mut self, heard: Heard) {
+        match heard {
+            Heard::Drive(twist) => {
+                self.twist = twist;
+                self.open = false;
+                self.commands = self.commands.wrapping_add(1);
+            }
+            Heard::Open => self.open = true,
+            Heard::Clear(reply) => {
+                self.clear = true;
+                self.reply = Some(reply);
+            }
+            Heard::Parameters(accepted, reply) => {
+                self.parameters = Some(accepted);
+                self.reply = reply;
+            }
+            Heard::BadCommand(reply) => {
+                self.bad_command = true;
+                self.reply = Some(reply);
+            }
+            Heard::BadBlock(reply) => {
+                self.bad_block = true;
+                self.reply = Some(reply);
+            }
+        }
+    }
+}

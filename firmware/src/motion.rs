@@ -1,0 +1,200 @@
+//! # Motion: the turn of the robot, a thousand times a second
+//!
+//! ```text
+//!  parameters      offsets learned      command
+//! ASLEEP ────► CALIBRATING ────► OPEN ◄────────► DRIVING ── any fault ──► FAULTED ── clear ──► OPEN
+//!                                     open
+//! ```
+//!
+//! A turn takes what the windings tell, has `model-core`'s controller decide, and asks the windings for currents and
+//! voltages. It also watches what only shows over many periods: a silent command, a wheel that draws current and does not
+//! turn. After a fault is cleared the robot waits for a fresh command.
+
+use model_core::faults::{Fault, Faults};
+use model_core::command::Reply;
+use model_core::frames::BodyTwist;
+use model_core::mover::{Moved, Mover};
+use model_core::hello::{Hello, OFFSET_PARTS};
+use model_core::record::Stage;
+
+use crate::codes::{MOTORS, PERIODS_PER_SECOND, PERIODS_PER_TURN};
+use crate::inbox::Inbox;
+use crate::listener::Accepted;
+use crate::setup::{MAX_DUTY, Setup};
+use crate::windings::{Ask, Told};
+
+/// Turns without a command after which the robot stops: 200 ms.
+pub const SILENT_TURNS: u16 = 200;
+
+/// Turns for which a wheel may draw nearly its limit without a hall edge: 300 ms.
+pub const STALL_TURNS: u16 = 300;
+
+/// Length of a turn [s].
+const TURN: f32 = PERIODS_PER_TURN as f32 / PERIODS_PER_SECOND as f32;
+
+/// Share of the current limit from which a wheel that does not turn is stalled [1].
+const STALL_SHARE: f32 = 0.5;
+
+/// What a turn decided.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Turn {
+    /// For the windings
+    pub ask: Ask,
+    /// Faults seen in this turn, for the windings to latch
+    pub faults: Faults,
+    /// One bit a motor that is stalled, to be taken out of use
+    pub stalled: u8,
+    /// True: latched faults are to be forgotten
+    pub clear: bool,
+    /// What the robot is doing
+    pub stage: Stage,
+    /// The motion that is being followed
+    pub reference: BodyTwist,
+    /// Share of the wanted acceleration that the voltage had room for [1]
+    pub headroom: f32,
+    /// Other parameters, for the windings
+    pub setup: Option<Setup>,
+    /// An answer to a command
+    pub reply: Option<Reply>,
+    /// How to read the records; none without parameters
+    pub hello: Option<Hello>,
+    /// What happened: [`events`]
+    pub events: u8,
+}
+
+/// Bits of [`Turn::events`].
+pub mod events {
+    /// Other parameters were taken: records read differently from here on
+    pub const PARAMETERS: u8 = 1;
+    /// The voltage or the current had no room for all that was wanted
+    pub const SATURATED: u8 = 2;
+    /// A wheel is out of use
+    pub const WHEEL_LOST: u8 = 4;
+    /// Latched faults were forgotten
+    pub const CLEARED: u8 = 8;
+}
+
+/// One wheel's patience.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stall {
+    edges: i32,
+    turns: u16,
+}
+
+/// The motion turn and its memory.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Motion {
+    mover: Option<Mover>,
+    hello: Option<Hello>,
+    stage: Stage,
+    commands: u32,
+    silent: u16,
+    stalls: [Stall; MOTORS],
+    lost: u8,
+}
+
+impl Motion {
+    /// Takes other parameters; a motion that is being followed goes on.
+    #[inline(never)]
+    fn swap(&mut self, accepted: &Accepted) -> Setup {
+        let parameters = &accepted.parameters;
+        let setup = Setup::of(parameters);
+        let mut mover = Mover::of(parameters, MAX_DUTY, TURN);
+        if let Some(old) = &self.mover {
+            mover.go_on_from(old);
+        }
+        mover.lose(self.lost);
+        self.mover = Some(mover);
+        self.hello = Some(setup.hello(parameters, accepted.check));
+        setup
+    }
+
+    /// One turn.
+    pub fn turn(&mut self, told: &Told, inbox: &mut Inbox) -> Turn {
+        let mut turn = Turn { reply: inbox.reply.take(), headroom: 1.0, ..Turn::default() };
+        if let Some(accepted) = inbox.parameters.take() {
+            turn.setup = Some(self.swap(&accepted));
+            turn.events |= events::PARAMETERS;
+        }
+        if core::mem::take(&mut inbox.bad_command) {
+            turn.faults.add(Fault::BadCommand);
+        }
+        if core::mem::take(&mut inbox.bad_block) {
+            turn.faults.add(Fault::BadBlock);
+        }
+        if core::mem::take(&mut inbox.clear) {
+            turn.clear = true;
+            turn.events |= events::CLEARED;
+        }
+        let fresh = inbox.commands != self.commands;
+        self.commands = inbox.commands;
+        self.silent = if fresh { 0 } else { self.silent.saturating_add(1) };
+        if self.stage == Stage::Driving && self.silent >= SILENT_TURNS {
+            turn.faults.add(Fault::CommandSilent);
+        }
+        self.hello = self.hello.map(|hello| with_offsets(hello, told));
+        turn.hello = self.hello;
+
+        let before = self.stage;
+        let faulty = !told.faults.is_empty() || !turn.faults.is_empty();
+        self.stage = match before {
+            _ if faulty => Stage::Faulted,
+            _ if self.mover.is_none() => Stage::Asleep,
+            _ if !told.ready => Stage::Calibrating,
+            Stage::Asleep | Stage::Calibrating | Stage::Faulted => Stage::Open,
+            Stage::Open if fresh && !inbox.open => Stage::Driving,
+            Stage::Driving if inbox.open => Stage::Open,
+            stage => stage,
+        };
+        turn.stage = self.stage;
+        let Some(mover) = &mut self.mover else { return turn };
+        if told.lost != self.lost {
+            self.lost = told.lost;
+            mover.lose(self.lost);
+        }
+        if self.lost != 0 {
+            turn.events |= events::WHEEL_LOST;
+        }
+        if self.stage != Stage::Driving {
+            mover.rest();
+            self.stalls = [Stall::default(); MOTORS];
+            return turn;
+        }
+        let moved = mover.turn(&told.wheel_speed, told.bus, inbox.twist);
+        turn.reference = moved.reference;
+        turn.headroom = moved.headroom;
+        if moved.headroom < 1.0 {
+            turn.events |= events::SATURATED;
+        }
+        turn.ask = Ask {
+            current: moved.current,
+            voltage: moved.voltage,
+            closed: mover.controls_current(),
+            enabled: mover.motors() & !self.lost,
+        };
+        let much = STALL_SHARE * mover.current_limit();
+        turn.stalled = self.stalled(told, &moved, much);
+        turn
+    }
+
+    /// One bit a motor that has drawn much current for long without turning.
+    fn stalled(&mut self, told: &Told, moved: &Moved, much: f32) -> u8 {
+        let mut stalled = 0;
+        for (j, stall) in self.stalls.iter_mut().enumerate() {
+            let turns = told.edges[j] != stall.edges;
+            stall.edges = told.edges[j];
+            let strains = told.current[j].abs().max(moved.current[j].abs()) > much;
+            stall.turns = if turns || !strains { 0 } else { stall.turns.saturating_add(1) };
+            if stall.turns >= STALL_TURNS {
+                stalled |= 1 << j;
+            }
+        }
+        stalled
+    }
+}
+
+/// The same with the converters' zeros as they are known now, in 1/16 counts.
+fn with_offsets(hello: Hello, told: &Told) -> Hello {
+    let offsets = told.offsets.map(|phases| phases.map(|zero| (zero * f32::from(OFFSET_PARTS)) as u16));
+    Hello { offsets, ..hello }
+}

@@ -1,0 +1,9 @@
+//! What the tasks do, one a file.
+
+pub mod current;
+pub mod idle;
+pub mod listen;
+pub mod load;
+pub mod motion;
+pub mod record;
+pub mod start;

@@ -1,0 +1,28 @@
+//! Everything asleep, then the first period.
+
+use firmware::board;
+use firmware::inbox::Inbox;
+use firmware::listener::Listener;
+use firmware::motion::Motion;
+use firmware::post;
+use firmware::windings::Windings;
+
+use crate::app;
+use crate::tasks::load::Load;
+
+/// Takes the board, reads the parameters that were kept, and lets the periods begin.
+pub fn init(cx: app::init::Context<'_>) -> (app::Shared, app::Local) {
+    let board::Parts { mut bridges, wire, dog, store } = board::take(cx.core, cx.device);
+    let (sender, post) = post::split(cx.local.room);
+    let mut listener = Listener::default();
+    let mut inbox = Inbox::default();
+    if let Some(heard) = listener.restore(store.load()) {
+        inbox.put(heard);
+    }
+    defmt::info!("asleep; bridges open, {} bytes of parameters kept", store.load().len());
+    bridges.start();
+    (
+        app::Shared { windings: Windings::default(), inbox, load: Load::default(), wire, alive: 0 },
+        app::Local { bridges, motion_turn: Motion::default(), listener, store, sender, post, dog },
+    )
+}

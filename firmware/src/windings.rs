@@ -1,0 +1,277 @@
+//! # Windings: the turn of all motors, once a period
+//!
+//! ```text
+//! codes ─ guards ─ halls ─ angle ─┬─ current loop ─ duties
+//!                                 └─ what the motion turn is told
+//! ```
+//!
+//! First the offsets of the converters are learned with the bridges open. Then every period looks for what must not be,
+//! follows the halls, and has the current loop decide: six-step while a motor's speed is not known yet, field-oriented
+//! once its halls tell where the rotor is between two edges. A fault opens the bridges in the turn that sees it; it is
+//! latched until it is cleared. Without parameters nothing is driven.
+//!
+//! A voltage decided in one period holds over the next (compare registers are loaded at the update), so the mean that a
+//! record tells covers exactly the periods from its predecessor's codes to its own.
+
+use model_core::current_loop::{CurrentMemory, CurrentSeen, CurrentWant};
+use model_core::faults::{Fault, Faults};
+use model_core::halls::{HallCode, HallFault, Halls, angle_of_code};
+
+use crate::codes::{Codes, MOTORS, PERIODS_PER_TURN};
+use crate::guard::Guard;
+use crate::offsets::Offsets;
+use crate::motion::Turn;
+use crate::setup::Setup;
+
+/// What the motion turn asks of the windings.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ask {
+    /// DC-equivalent currents [A]
+    pub current: [f32; MOTORS],
+    /// DC-equivalent voltages [V] that go ahead of the currents, or stand alone where `closed` is false
+    pub voltage: [f32; MOTORS],
+    /// True: the currents are controlled; false: the voltages are applied as they are
+    pub closed: bool,
+    /// One bit a motor: its bridge may be closed
+    pub enabled: u8,
+}
+
+/// What the motion turn is told of the windings.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Told {
+    /// The period of the codes, since the start
+    pub period: u32,
+    /// The codes themselves
+    pub codes: Codes,
+    /// Electrical angle that the currents were turned by [2⁻¹⁶ turn]
+    pub angle: [u16; MOTORS],
+    /// Hall edges since the start
+    pub edges: [i32; MOTORS],
+    /// Periods since the last edge
+    pub since_edge: [u16; MOTORS],
+    /// Periods that the edges looked at for the speed took
+    pub interval: [u16; MOTORS],
+    /// Speed at the wheel's shaft [rad/s]
+    pub wheel_speed: [f32; MOTORS],
+    /// DC-equivalent current measured last [A]
+    pub current: [f32; MOTORS],
+    /// What the converters say without current [counts]
+    pub offsets: [[f32; 3]; MOTORS],
+    /// Mean DC-equivalent voltage since the last turn [V]
+    pub voltage: [f32; MOTORS],
+    /// Supply [V]
+    pub bus: f32,
+    /// Faults that are latched here
+    pub faults: Faults,
+    /// One bit a motor: it is out of use
+    pub lost: u8,
+    /// True once the offsets are known
+    pub ready: bool,
+    /// One bit a motor: its bridge was closed over this turn
+    pub driven: u8,
+}
+
+/// What the board is to do in the next period.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drive {
+    /// Duties of the three phases [1]
+    pub duties: [[f32; 3]; MOTORS],
+    /// One bit a motor: its gate driver is enabled
+    pub enabled: u8,
+}
+
+/// One motor's memory.
+#[derive(Clone, Copy, Debug, Default)]
+struct Motor {
+    halls: Option<Halls>,
+    memory: CurrentMemory<f32>,
+    /// Electrical angle of this period [2⁻¹⁶ turn]
+    angle: u16,
+    current: f32,
+    /// The voltage decided last, which is on the motor now [V]
+    applied: f32,
+    /// Its sum since the last motion turn [V]
+    sum: f32,
+}
+
+/// All windings.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Windings {
+    setup: Setup,
+    offsets: Offsets,
+    guard: Guard,
+    motors: [Motor; MOTORS],
+    ask: Ask,
+    told: Told,
+    period: u32,
+    driven: u8,
+}
+
+impl Windings {
+    /// Takes what a motion turn decided, from the next period on.
+    pub fn take(&mut self, turn: &Turn) {
+        self.ask = turn.ask;
+        if let Some(setup) = turn.setup {
+            self.setup = setup;
+        }
+        if turn.clear {
+            self.clear();
+        }
+        self.guard.latch_all(turn.faults);
+        for j in (0..MOTORS).filter(|j| turn.stalled >> j & 1 != 0) {
+            self.guard.lose(Fault::Stall, j, self.setup.wheels);
+        }
+    }
+
+    /// Forgets latched faults; what is still there is found again in the next turns.
+    fn clear(&mut self) {
+        self.guard = Guard::default();
+        if self.offsets.are_bad() {
+            self.offsets = Offsets::default();
+        }
+    }
+
+    /// Latches a fault that was seen elsewhere.
+    pub fn latch(&mut self, fault: Fault) {
+        self.guard.latch(fault);
+    }
+
+    /// What the last motion turn's codes were, and what goes with them.
+    pub fn told(&self) -> Told {
+        self.told
+    }
+
+    /// True if a motion turn begins with the period that has just been looked at.
+    #[inline]
+    pub fn begins_motion(&self) -> bool {
+        self.period.is_multiple_of(PERIODS_PER_TURN)
+    }
+
+    /// One period: what to do in the next.
+    #[inline]
+    pub fn turn(&mut self, codes: &Codes) -> Drive {
+        self.period = self.period.wrapping_add(1);
+        let ask = self.ask;
+        let bus = self.setup.calibration.bus_voltage(codes.bus);
+        if self.setup.wheels > 0 {
+            self.guard.supply(&self.setup.limits, bus);
+        }
+        if codes.driver_fault {
+            self.guard.latch(Fault::DriverLine);
+        }
+        if !self.offsets.are_known() {
+            self.offsets.learn(&codes.phases);
+            if self.offsets.are_bad() {
+                self.guard.latch(Fault::OffsetCalibration);
+            }
+        }
+        let ready = self.offsets.are_known();
+        let may = if ready { ask.enabled & !self.guard.lost() } else { 0 };
+
+        let mut drive = Drive::default();
+        let per_bus = 1.0 / bus;
+        for j in 0..MOTORS {
+            let motor = &mut self.motors[j];
+            motor.sum += motor.applied;
+            if j >= usize::from(self.setup.wheels) {
+                continue;
+            }
+            let bit = 1 << j;
+            match motor.follow(codes.halls[j]) {
+                Ok(()) => self.guard.good_hall(j),
+                Err(_) => self.guard.bad_hall(j, self.setup.wheels),
+            }
+            if !ready {
+                continue;
+            }
+            let offsets = self.offsets.of(j);
+            if self.guard.over_current(&self.setup.limits, &codes.phases[j], &offsets) {
+                self.guard.latch(Fault::OverCurrent);
+            }
+            let sector = motor.sector(self.setup.six_step);
+            let angle = angle_of_code(motor.angle);
+            let ahead = motor.halls.as_ref().map_or(0.0, Halls::ahead);
+            let seen = CurrentSeen { codes: codes.phases[j], offsets, angle, ahead, bus, per_bus };
+            let want = CurrentWant { current: ask.current[j], voltage: ask.voltage[j], closed: ask.closed };
+            let decided = match sector {
+                Some(sector) => self.setup.current_loop.six_step(&mut motor.memory, &seen, sector, &want),
+                None => self.setup.current_loop.field_oriented(&mut motor.memory, &seen, &want),
+            };
+            motor.current = decided.current;
+            if may & bit != 0 {
+                drive.duties[j] = decided.duties;
+                motor.applied = decided.voltage;
+            } else {
+                motor.memory = CurrentMemory::default();
+                motor.applied = 0.0;
+            }
+        }
+        if self.guard.faults().is_empty() {
+            drive.enabled = may & !self.guard.lost();
+        } else {
+            self.motors.iter_mut().for_each(|motor| motor.applied = 0.0);
+        }
+        self.driven = drive.enabled;
+        if self.begins_motion() {
+            self.told = self.tell(codes, bus);
+        }
+        drive
+    }
+
+    /// What the motion turn is to know of this period; begins its next mean.
+    #[inline]
+    fn tell(&mut self, codes: &Codes, bus: f32) -> Told {
+        let mut told = Told {
+            period: self.period,
+            codes: *codes,
+            bus,
+            faults: self.guard.faults(),
+            lost: self.guard.lost(),
+            ready: self.offsets.are_known(),
+            offsets: *self.offsets.all(),
+            driven: self.driven,
+            ..Told::default()
+        };
+        for (j, motor) in self.motors.iter_mut().enumerate().take(usize::from(self.setup.wheels)) {
+            told.angle[j] = motor.angle;
+            told.current[j] = motor.current;
+            told.voltage[j] = motor.sum * (1.0 / PERIODS_PER_TURN as f32);
+            motor.sum = 0.0;
+            if let Some(halls) = &motor.halls {
+                told.edges[j] = halls.edges();
+                told.since_edge[j] = halls.since_edge();
+                told.interval[j] = halls.interval();
+                told.wheel_speed[j] = halls.electrical_speed::<f32>() * self.setup.wheel_speed_per_electrical;
+            }
+        }
+        told
+    }
+}
+
+impl Motor {
+    /// Follows the halls.
+    #[inline]
+    fn follow(&mut self, code: HallCode) -> Result<(), HallFault> {
+        match &mut self.halls {
+            Some(halls) => halls.turn(code)?,
+            None => self.halls = Some(Halls::new(code)?),
+        }
+        Ok(())
+    }
+
+    /// The sector to commutate by, where the angle between two edges is not known or not wanted; sets the angle.
+    #[inline]
+    fn sector(&mut self, six_step: bool) -> Option<u8> {
+        let Some(halls) = &self.halls else { return Some(NO_SECTOR) };
+        if halls.interval() > 0 && !six_step {
+            self.angle = halls.angle_code();
+            return None;
+        }
+        // the middle of the sector
+        self.angle = (u32::from(halls.sector()) * 65_536 / 6) as u16;
+        Some(halls.sector())
+    }
+}
+
+/// A sector that no rotor is in: the current loop then applies no voltage.
+const NO_SECTOR: u8 = 6;
