@@ -1,6 +1,6 @@
 //! The dynamics of 3- and 4-wheel omnidirectional robots, and the effects a plain model leaves out.
 //!
-//! In reading order: the numbers ([`scalar`], [`trig`], [`dual`], [`small`]), the geometry ([`frames`], [`shafts`],
+//! In reading order: the numbers ([`scalar`], [`trig`], [`root`], [`dual`], [`small`]), the geometry ([`frames`], [`shafts`],
 //! [`kinematics`]), the winding ([`motor`], [`phases`]) and what a drive does with it ([`calibration`], [`halls`],
 //! [`current_loop`]), the effects' pages ([`card`]), the robot ([`robot`], [`paper`]) and its motion ([`body`],
 //! [`plant`], [`feedforward`]), the loop that moves it ([`reference`](mod@reference), [`headroom`], [`compensation`],
@@ -16,6 +16,8 @@
 pub mod scalar;
 
 pub mod trig;
+
+pub mod root;
 
 pub mod dual;
 

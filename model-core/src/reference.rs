@@ -53,14 +53,26 @@ impl<T: Real> Limiter<T> {
     #[inline(always)]
     pub fn change(&self, now: BodyTwist<T>, want: BodyTwist<T>) -> BodyTwist<T> {
         let (v, vn) = (want.v - now.v, want.vn - now.vn);
-        let w = (want.w - now.w).clamp(-self.turn, self.turn);
+        let w = within(want.w - now.w, self.turn);
         let (p, q) = (v * self.per_step[0], vn * self.per_step[1]);
         let square = p * p + q * q;
         if square > T::one() {
             // δ/size; a wish so large that its square is no number stands for none
-            let shrink = T::one() / square.sqrt();
+            let shrink = square.inverse_sqrt();
             return BodyTwist { v: shrink * v, vn: shrink * vn, w };
         }
         BodyTwist { v, vn, w }
+    }
+}
+
+/// A number held within ± a limit; most are.
+#[inline(always)]
+fn within<T: Real>(x: T, limit: T) -> T {
+    if x.abs() <= limit {
+        x
+    } else if x < T::zero() {
+        -limit
+    } else {
+        limit
     }
 }

@@ -7,6 +7,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use crate::root;
 use crate::trig;
 
 /// A real number: `f32` on the robot, `f64` on the host, a dual number for exact sensitivities.
@@ -39,6 +40,11 @@ pub trait Real:
     fn is_finite(self) -> bool;
     /// √x.
     fn sqrt(self) -> Self;
+    /// 1/√x for x > 0.
+    #[inline]
+    fn inverse_sqrt(self) -> Self {
+        Self::one() / self.sqrt()
+    }
     /// eˣ.
     fn exp(self) -> Self;
     /// xʸ for x ≥ 0.
@@ -132,6 +138,10 @@ impl Real for f32 {
     #[inline]
     fn sqrt(self) -> Self {
         libm::sqrtf(self)
+    }
+    #[inline]
+    fn inverse_sqrt(self) -> Self {
+        root::inverse_sqrt_f32(self)
     }
     #[inline]
     fn exp(self) -> Self {

@@ -140,10 +140,6 @@ struct Drive<T> {
     row: [T; 3],
     /// r_j/(l·K_t)·((GᵀG)⁻¹·G_j): current over body force [A/N, A/N, A/(N·m)]
     share: [T; 3],
-    /// R [Ω]
-    resistance: T,
-    /// l·K_v [V·s]
-    emf: T,
 }
 
 /// A motion controller, folded from its [`Settings`]; it never changes.
@@ -166,6 +162,10 @@ pub struct Controller<const N: usize, T = f32> {
     integral_gain: T,
     current_limit: T,
     max_duty: T,
+    /// R [Ω]
+    resistance: T,
+    /// l·K_v [V·s]
+    emf: T,
     drives: [Drive<T>; N],
     undo: Undo<N, T>,
 }
@@ -174,7 +174,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
     /// One turn: sees, remembers, decides. Finite in, finite out.
     #[inline]
     pub fn tick(&self, memory: &mut Memory<T>, seen: &Seen<N, T>, want: BodyTwist<T>) -> Decided<N, T> {
-        if self.flags == 0 { self.turn::<false>(memory, seen, want) } else { self.turn::<true>(memory, seen, want) }
+        if self.flags == 0 { self.turn::<false>(memory, seen, want) } else { self.turn_and_undo(memory, seen, want) }
     }
 
     /// What the motors have to do so that the robot, moving with `twist`, accelerates as wanted, effects undone, with no
@@ -190,6 +190,12 @@ impl<const N: usize, T: Real> Controller<N, T> {
         }
     }
 
+    /// A turn with effects undone: by itself, so that one without stays short.
+    #[inline(never)]
+    fn turn_and_undo(&self, memory: &mut Memory<T>, seen: &Seen<N, T>, want: BodyTwist<T>) -> Decided<N, T> {
+        self.turn::<true>(memory, seen, want)
+    }
+
     /// A turn, with or without effects undone.
     #[inline(always)]
     fn turn<const UNDO: bool>(&self, memory: &mut Memory<T>, seen: &Seen<N, T>, want: BodyTwist<T>) -> Decided<N, T> {
@@ -202,10 +208,8 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let a = BodyTwist { v: change.v * self.rate, vn: change.vn * self.rate, w: change.w * self.rate };
         let feedback = Some((seen, memory.integral));
         let (mut asked, missing) = self.ask::<UNDO>(x.to_array(), a.to_array(), memory.heading, feedback);
-        let bus = seen.bus * self.max_duty;
-        let room = Room { current: self.current_limit, voltage: if UNDO { bus - self.undo.kept } else { bus } };
-        if !room.holds(&asked.current, &asked.voltage) {
-            return self.squeeze::<UNDO>(memory, &asked, &room, a, missing);
+        if !self.room::<UNDO>(seen).holds(&asked.current, &asked.voltage) {
+            return self.squeeze::<UNDO>(memory, seen, want);
         }
         // x ← x + δ
         memory.reference = BodyTwist { v: x.v + change.v, vn: x.vn + change.vn, w: x.w + change.w };
@@ -261,26 +265,43 @@ impl<const N: usize, T: Real> Controller<N, T> {
         if UNDO {
             self.undo_losses(&wheel_speed, &mut current);
         }
-        // u_j = R·i_j + l·K_v·ω_j
-        let voltage = array::from_fn(|j| self.drives[j].resistance * current[j] + self.drives[j].emf * wheel_speed[j]);
+        let voltage = array::from_fn(|j| {
+            let (resistance, emf) = self.winding::<UNDO>(j);
+            // u_j = R·i_j + l·K_v·ω_j
+            resistance * current[j] + emf * wheel_speed[j]
+        });
         (Asked { wheel_speed, current, voltage }, missing)
     }
 
-    /// A turn whose wish does not fit.
+    /// R [Ω] and l·K_v [V·s] of a wheel's motor.
+    #[inline(always)]
+    fn winding<const UNDO: bool>(&self, j: usize) -> (T, T) {
+        if UNDO { self.undo.winding[j] } else { (self.resistance, self.emf) }
+    }
+
+    /// What the motors may be asked for in this turn.
+    #[inline(always)]
+    fn room<const UNDO: bool>(&self, seen: &Seen<N, T>) -> Room<T> {
+        let most = seen.bus * self.max_duty;
+        Room { current: self.current_limit, voltage: if UNDO { most - self.undo.kept } else { most } }
+    }
+
+    /// A turn whose wish does not fit, from its beginning: one that fits then carries nothing for this one.
     #[cold]
     #[inline(never)]
     fn squeeze<const UNDO: bool>(
         &self,
         memory: &mut Memory<T>,
-        asked: &Asked<N, T>,
-        room: &Room<T>,
-        a: BodyTwist<T>,
-        missing: [T; 3],
+        seen: &Seen<N, T>,
+        want: BodyTwist<T>,
     ) -> Decided<N, T> {
         let zero = T::zero();
+        let x = memory.reference;
+        let a = scaled(self.rate, self.limiter.change(x, want).to_array());
+        let (asked, missing) = self.ask::<UNDO>(x.to_array(), a, memory.heading, Some((seen, memory.integral)));
+        let room = self.room::<UNDO>(seen);
         let wheel_speed = asked.wheel_speed;
         // q, what of the currents accelerates; p, the rest
-        let a = a.to_array();
         let mut force: [T; 3] = array::from_fn(|k| self.mass[k] * a[k]);
         if UNDO {
             self.undo_coupling(a, &mut force);
@@ -289,15 +310,14 @@ impl<const N: usize, T: Real> Controller<N, T> {
         if UNDO {
             self.undo_losses_as(&wheel_speed, &asked.current, &mut accelerating);
         }
-        let fitted = Room { voltage: room.voltage.max(zero), ..*room }.fit(&Wish {
+        let fitted = Room { voltage: room.voltage.max(zero), ..room }.fit(&Wish {
             steady: array::from_fn(|j| asked.current[j] - accelerating[j]),
             accelerating,
-            emf: array::from_fn(|j| self.drives[j].emf * wheel_speed[j]),
-            resistance: array::from_fn(|j| self.drives[j].resistance),
+            emf: array::from_fn(|j| self.winding::<UNDO>(j).1 * wheel_speed[j]),
+            resistance: array::from_fn(|j| self.winding::<UNDO>(j).0),
         });
         let (mut current, mut voltage) = (fitted.current, fitted.voltage);
         let (s, k) = (fitted.share.acceleration, fitted.share.steady);
-        let x = memory.reference;
         let change = if k < T::one() {
             // back towards what fits, k·x
             self.limiter.change(x, BodyTwist { v: k * x.v, vn: k * x.vn, w: k * x.w })

@@ -70,6 +70,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let mut drives = [Drive::default(); N];
         let mut all_rows = [[zero; 3]; N];
         let mut push = [zero; N];
+        let mut windings = [(zero, zero); N];
         let mut turning = [[zero; 3]; 3];
         for j in 0..N {
             let rim = robot.wheels.wheels()[j].rim();
@@ -90,9 +91,8 @@ impl<const N: usize, T: Real> Controller<N, T> {
             drives[j] = Drive {
                 row: if settings.working[j] { all_rows[j] } else { [zero; 3] },
                 share: rows[j].map(|share| rim.wheel_torque(share) / winding.torque_constant),
-                resistance: winding.resistance,
-                emf: winding.emf_constant * on,
             };
+            windings[j] = (winding.resistance, winding.emf_constant * on);
             push[j] = rim.force(winding.torque_constant);
             // M → M + Σ J_w/r²·G_jᵀ·G_j: a lost wheel turns along
             accumulate_outer(&mut turning, rim.mass(undo.rotor_inertia[j]), row);
@@ -119,8 +119,10 @@ impl<const N: usize, T: Real> Controller<N, T> {
             integral_gain: kt * settings.feedback_integral * dt,
             current_limit: settings.current_limit,
             max_duty: settings.max_duty,
+            resistance: robot.motor.resistance,
+            emf: robot.motor.wheel_emf_constant() * on,
             drives,
-            undo: fold(undo, robot.mass, dt, &robot.wheels, Rows { rows: all_rows, excess, push, turning }),
+            undo: fold(undo, robot.mass, dt, &robot.wheels, Rows { windings, rows: all_rows, excess, push, turning }),
         }
     }
 
@@ -135,6 +137,8 @@ fn flags<const N: usize, T: Real>(settings: &Settings<N, T>, moves: bool, couple
     let undo = &settings.undo;
     let none = Compensation::<N, T>::none();
     let motion = settings.feedforward;
+    let mismatch =
+        undo.torque_constant_ratio != none.torque_constant_ratio || undo.resistance_ratio != none.resistance_ratio;
     let bit = |there: bool, bit: u32| if there { bit } else { 0 };
     bit(!moves, undo::STAYS)
         | bit(motion && undo.coriolis != none.coriolis, undo::CORIOLIS)
@@ -144,11 +148,13 @@ fn flags<const N: usize, T: Real>(settings: &Settings<N, T>, moves: bool, couple
         | bit(undo.gear_efficiency != none.gear_efficiency, undo::GEAR)
         | bit(undo.dead_time.iter().any(|d| d.voltage != T::zero()), undo::DEAD_TIME)
         | bit(motion && undo.creep != none.creep, undo::CREEP)
+        | bit(mismatch, undo::MISMATCH)
         | bit(undo.current_offset != none.current_offset, undo::OFFSET)
 }
 
 /// What the wheels give to the effects.
 struct Rows<const N: usize, T> {
+    windings: [(T, T); N],
     rows: [[T; 3]; N],
     excess: [T; N],
     push: [T; N],
@@ -164,6 +170,7 @@ fn fold<const N: usize, T: Real>(
 ) -> Undo<N, T> {
     let one = T::one();
     Undo {
+        winding: of.windings,
         coriolis: undo.coriolis,
         mass,
         steepest: floor_tilt::steepest(undo.tilt),

@@ -32,12 +32,17 @@ pub(super) const CREEP: u32 = 1 << 7;
 /// `current_sensor_offset` is undone.
 pub(super) const OFFSET: u32 = 1 << 8;
 
+/// `motor_mismatch` is undone: the windings are not alike.
+pub(super) const MISMATCH: u32 = 1 << 9;
+
 /// Nearer to standstill than this, a rim's dry friction has no direction [m/s]: less than a turn adds, more than rounding.
 const STILL: f64 = 1e-5;
 
 /// The effects' numbers, folded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Undo<const N: usize, T> {
+    /// R [Ω] and l·K_v [V·s] of each motor
+    pub winding: [(T, T); N],
     /// k of coriolis [1]
     pub coriolis: T,
     /// M of the body alone, which coriolis and tilt act on [kg]
