@@ -12,7 +12,8 @@
 //! - [`catalogue`]: the benchmark of the diagnosis, on recordings whose truth is known;
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
 //! - [`real`]: what the diagnosis says of recordings of real robots;
-//! - [`virtual_board`]: what the robot's electronics see, without the robot.
+//! - [`virtual_board`]: what the robot's electronics see, without the robot;
+//! - [`emulator`]: the robot's image in QEMU, driving a virtual board.
 //!
 //! The paper is Oliveira, Sousa, Moreira and Costa, *Dynamical Models for Omni-directional Robots with 3 and 4 Wheels*
 //! (ICINCO 2008). Nothing in the first five rooms depends on the core: two implementations that agree prove something only
@@ -22,6 +23,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod catalogue;
+pub mod emulator;
 pub mod excite;
 pub mod flow;
 pub mod generated;

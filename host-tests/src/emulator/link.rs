@@ -1,0 +1,109 @@
+//! The serial line: bytes a period in both directions, whole frames at the ends.
+
+use std::collections::VecDeque;
+
+use firmware::exchange::{Bytes, LINK_BYTES};
+use model_core::command::Command;
+use model_core::link::{Decoder, MAX_FRAME};
+
+/// A frame that has come from the robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Its kind, see `model_core::link::Kind`
+    pub kind: u8,
+    /// What it carries
+    pub payload: Vec<u8>,
+}
+
+/// The host's end of the line.
+#[derive(Clone, Debug, Default)]
+pub struct Line {
+    waiting: VecDeque<u8>,
+    decoder: Decoder,
+    frames: Vec<Frame>,
+    /// Every byte that has come, as a recorder would keep it
+    received: Vec<u8>,
+}
+
+impl Line {
+    /// Puts bytes on the line, behind those that wait; [`LINK_BYTES`] leave in a period.
+    pub fn send(&mut self, bytes: &[u8]) {
+        self.waiting.extend(bytes);
+    }
+
+    /// Puts a command on the line.
+    pub fn command(&mut self, command: &Command<'_>) {
+        let mut room = [0; MAX_FRAME];
+        let frame = command.frame(&mut room).expect("every command fits a frame");
+        self.waiting.extend(&*frame);
+    }
+
+    /// What leaves in this period.
+    pub fn next(&mut self) -> Bytes {
+        let count = self.waiting.len().min(LINK_BYTES);
+        let leaving: Vec<u8> = self.waiting.drain(..count).collect();
+        Bytes::of(&leaving)
+    }
+
+    /// What came in this period.
+    pub fn take(&mut self, bytes: &Bytes) {
+        self.received.extend(bytes.as_slice());
+        for byte in bytes.as_slice() {
+            if let Some(frame) = self.decoder.push(*byte) {
+                self.frames.push(Frame { kind: frame.kind, payload: frame.payload.to_vec() });
+            }
+        }
+    }
+
+    /// The frames that have come since this was last asked.
+    pub fn frames(&mut self) -> Vec<Frame> {
+        std::mem::take(&mut self.frames)
+    }
+
+    /// Every byte that has come.
+    pub fn received(&self) -> &[u8] {
+        &self.received
+    }
+
+    /// Bytes that still wait to leave.
+    pub fn waiting(&self) -> usize {
+        self.waiting.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use model_core::frames::BodyTwist;
+    use model_core::link::{Kind, frame};
+
+    #[test]
+    fn a_command_leaves_in_pieces_of_a_period_and_comes_whole() {
+        let mut line = Line::default();
+        let drive = Command::Drive { sequence: 7, twist: BodyTwist { v: 0.5, vn: 0.0, w: -1.0 } };
+        line.command(&drive);
+        let mut other = Line::default();
+        let mut periods = 0;
+        while line.waiting() > 0 {
+            other.take(&line.next());
+            periods += 1;
+        }
+        // 1 + 14 + 2 bytes of body and two more
+        assert_eq!(periods, 2);
+        let frames = other.frames();
+        assert_eq!(frames.len(), 1);
+        assert_eq!(Command::decode(frames[0].kind, &frames[0].payload), Ok(drive));
+        assert!(other.frames().is_empty() && other.received().len() == 19);
+    }
+
+    #[test]
+    fn a_frame_between_broken_ones_is_found() {
+        let mut room = [0; MAX_FRAME];
+        let whole = frame(Kind::Reply.code(), &[1, 2, 3], &mut room).expect("it fits").to_vec();
+        let mut line = Line::default();
+        for piece in [&[9, 9, 0][..], &whole, &[4, 1, 0]].concat().chunks(LINK_BYTES) {
+            line.take(&Bytes::of(piece));
+        }
+        assert_eq!(line.frames(), [Frame { kind: Kind::Reply.code(), payload: vec![1, 2, 3] }]);
+    }
+}

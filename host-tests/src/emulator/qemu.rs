@@ -1,0 +1,245 @@
+//! # QEMU: an image on `netduinoplus2`, an STM32F405 without peripherals worth the name
+//!
+//! The image opens two files in the working folder by semihosting; here they are named pipes. Both are opened for reading
+//! and writing on this side, so that no open waits for the other; that an image has ended is told by its process.
+
+use std::fs::{File, OpenOptions};
+use std::io::{Read, Write};
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use firmware::exchange::{DOWN_FILE, Down, UP_FILE, Up};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::{CWD, Mode, mkfifoat};
+use tempfile::TempDir;
+
+use super::brain::{Brain, Trouble};
+
+/// The emulator.
+pub const PROGRAM: &str = "qemu-system-arm";
+
+/// What it is called with, before the image. `-icount shift=0` makes an instruction a nanosecond, on every machine.
+pub const OPTIONS: [&str; 11] = [
+    "-M",
+    "netduinoplus2",
+    "-nographic",
+    "-monitor",
+    "none",
+    "-serial",
+    "none",
+    "-semihosting-config",
+    "enable=on,target=native",
+    "-icount",
+    "shift=0,sleep=off",
+];
+
+/// How often a waiting host looks whether the emulator still lives [ms].
+const GLANCE: i64 = 20;
+
+/// The file that what it says goes to.
+const SAID: &str = "said";
+
+/// An image that runs. It is ended when this is dropped.
+#[derive(Debug)]
+pub struct Qemu {
+    child: Child,
+    up: File,
+    down: File,
+    folder: TempDir,
+    patience: Duration,
+    exchanges: u64,
+}
+
+impl Qemu {
+    /// Starts an image. `patience` is how long it may think about one period.
+    ///
+    /// # Errors
+    /// [`Trouble::NotStarted`] if pipes or process cannot be made.
+    pub fn start(image: &Path, patience: Duration) -> Result<Self, Trouble> {
+        let image = image.canonicalize().map_err(not_started(format!("the image {}", image.display())))?;
+        let mut command = Command::new(PROGRAM);
+        command.args(OPTIONS).arg("-kernel").arg(&image);
+        Self::launch(command, patience)
+    }
+
+    fn launch(mut command: Command, patience: Duration) -> Result<Self, Trouble> {
+        let folder = tempfile::tempdir().map_err(not_started("a folder for the emulator".into()))?;
+        let pipe = |name: &str| {
+            let path = folder.path().join(name);
+            mkfifoat(CWD, &path, Mode::RUSR | Mode::WUSR)
+                .map_err(std::io::Error::from)
+                .and_then(|()| OpenOptions::new().read(true).write(true).open(&path))
+                .map_err(not_started(format!("the pipe {}", path.display())))
+        };
+        let (up, down) = (pipe(UP_FILE)?, pipe(DOWN_FILE)?);
+        let said = File::create(folder.path().join(SAID)).map_err(not_started("a file for its words".into()))?;
+        let also = said.try_clone().map_err(not_started("a file for its words".into()))?;
+        let name = command.get_program().to_string_lossy().into_owned();
+        let child = command
+            .current_dir(folder.path())
+            .stdin(Stdio::null())
+            .stdout(said)
+            .stderr(also)
+            .spawn()
+            .map_err(not_started(format!("{name} (Debian: apt-get install qemu-system-arm)")))?;
+        Ok(Self { child, up, down, folder, patience, exchanges: 0 })
+    }
+
+    /// What the emulator and the image have said so far; bytes of defmt are shown as they can be.
+    pub fn said(&self) -> String {
+        String::from_utf8_lossy(&self.said_bytes()).into_owned()
+    }
+
+    /// The same as bytes, for a decoder of defmt.
+    pub fn said_bytes(&self) -> Vec<u8> {
+        std::fs::read(self.folder.path().join(SAID)).unwrap_or_default()
+    }
+
+    /// Waits for the end of an image that ends by itself or has been told to.
+    ///
+    /// # Errors
+    /// [`Trouble::Silent`] if it does not end in time.
+    pub fn wait(&mut self) -> Result<ExitStatus, Trouble> {
+        let began = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().map_err(Trouble::Exchange)? {
+                return Ok(status);
+            }
+            if began.elapsed() > self.patience {
+                return Err(self.silent(began.elapsed()));
+            }
+            std::thread::sleep(Duration::from_millis(GLANCE as u64 / 4));
+        }
+    }
+
+    /// Tells the image to end, in the period that it has just asked for, and waits until it has.
+    ///
+    /// # Errors
+    /// [`Trouble::Silent`] if it does not end in time, [`Trouble::Ended`] if it ends with a failure.
+    pub fn end(&mut self, last: &Down) -> Result<(), Trouble> {
+        self.down(&Down { end: true, ..*last })?;
+        let status = self.wait()?;
+        if status.success() { Ok(()) } else { Err(self.ended(status)) }
+    }
+
+    /// Waits until there is something to read.
+    fn listen(&mut self) -> Result<(), Trouble> {
+        let began = Instant::now();
+        let glance = Timespec { tv_sec: 0, tv_nsec: GLANCE * 1_000_000 };
+        loop {
+            let ready = poll(&mut [PollFd::new(&self.up, PollFlags::IN)], Some(&glance));
+            match ready {
+                Ok(0) => {}
+                Ok(_) => return Ok(()),
+                Err(rustix::io::Errno::INTR) => continue,
+                Err(why) => return Err(Trouble::Exchange(why.into())),
+            }
+            if let Some(status) = self.child.try_wait().map_err(Trouble::Exchange)? {
+                // its last words may have come between the two looks
+                let left = poll(&mut [PollFd::new(&self.up, PollFlags::IN)], Some(&Timespec::default()));
+                return if left == Ok(1) { Ok(()) } else { Err(self.ended(status)) };
+            }
+            if began.elapsed() > self.patience {
+                return Err(self.silent(began.elapsed()));
+            }
+        }
+    }
+
+    fn ended(&self, status: ExitStatus) -> Trouble {
+        Trouble::Ended { how: status.to_string(), exchanges: self.exchanges, said: self.said() }
+    }
+
+    fn silent(&self, waited: Duration) -> Trouble {
+        Trouble::Silent { waited, exchanges: self.exchanges, said: self.said() }
+    }
+}
+
+fn not_started(what: String) -> impl FnOnce(std::io::Error) -> Trouble {
+    move |why| Trouble::NotStarted { what, why }
+}
+
+impl Brain for Qemu {
+    fn up(&mut self) -> Result<Up, Trouble> {
+        let mut bytes = [0; Up::LEN];
+        let mut have = 0;
+        while have < bytes.len() {
+            self.listen()?;
+            have += self.up.read(&mut bytes[have..]).map_err(Trouble::Exchange)?;
+        }
+        self.exchanges += 1;
+        Ok(Up::from_bytes(&bytes))
+    }
+
+    fn down(&mut self, down: &Down) -> Result<(), Trouble> {
+        // far less than a pipe holds: this does not wait, and what a dead image does not take is found at the next `up`
+        self.down.write_all(&down.to_bytes()).map_err(Trouble::Exchange)
+    }
+}
+
+impl Drop for Qemu {
+    fn drop(&mut self) {
+        // it may have ended by itself
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use firmware::codes::Codes;
+    use firmware::exchange::Bytes;
+    use model_core::calibration::AdcCode;
+    use model_core::halls::HallCode;
+
+    fn down() -> Down {
+        let phases = [[AdcCode(2048); 3]; 4];
+        let codes = Codes { phases, bus: AdcCode(1354), halls: [HallCode(1); 4], driver_fault: false };
+        Down { codes, end: false, burn_current: 0, burn_motion: 0, link: Bytes::default() }
+    }
+
+    /// A shell in the emulator's place.
+    fn shell(script: &str, patience: Duration) -> Qemu {
+        let mut command = Command::new("sh");
+        command.args(["-c", script]);
+        Qemu::launch(command, patience).expect("a shell")
+    }
+
+    #[test]
+    fn frames_go_both_ways_and_the_end_is_waited_for() {
+        // an up frame of zeros, a down frame read, another up frame, and what is left
+        let script = "exec 3>omni-up 4<omni-down; head -c 44 /dev/zero >&3; head -c 48 <&4 >seen; \
+                      head -c 44 /dev/zero >&3; head -c 48 <&4 >seen; cat seen";
+        let mut qemu = shell(script, Duration::from_secs(20));
+        assert_eq!(qemu.up().expect("a frame"), Up::default());
+        qemu.down(&down()).expect("taken");
+        assert_eq!(qemu.up().expect("a frame"), Up::default());
+        qemu.end(&down()).expect("it ends well");
+        assert_eq!(qemu.said_bytes(), Down { end: true, ..down() }.to_bytes());
+    }
+
+    #[test]
+    fn one_that_ends_early_is_told_with_its_last_words() {
+        let mut qemu = shell("echo no such machine >&2; exit 3", Duration::from_secs(20));
+        let why = qemu.up().expect_err("there is nobody").to_string();
+        assert!(why.contains("ended (exit status: 3) after 0 exchanges, unasked; it said: no such machine"), "{why}");
+    }
+
+    #[test]
+    fn one_that_hangs_is_told_and_ended() {
+        let mut qemu = shell("exec sleep 60", Duration::from_millis(100));
+        let began = Instant::now();
+        let why = qemu.up().expect_err("it sleeps").to_string();
+        assert!(why.contains("hangs") && why.contains("it said: nothing"), "{why}");
+        drop(qemu);
+        // far below the minute that it would have slept
+        assert!(began.elapsed() < Duration::from_secs(20));
+    }
+
+    #[test]
+    fn an_image_that_is_not_there_is_named() {
+        let why = Qemu::start(Path::new("no/such.elf"), Duration::ZERO).expect_err("no file").to_string();
+        assert!(why.starts_with("the image no/such.elf: "), "{why}");
+    }
+}
