@@ -13,7 +13,8 @@
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
 //! - [`real`]: what the diagnosis says of recordings of real robots;
 //! - [`virtual_board`]: what the robot's electronics see, without the robot;
-//! - [`emulator`]: the robot's image in QEMU, driving a virtual board.
+//! - [`emulator`]: the robot's image in QEMU, driving a virtual board;
+//! - [`in_loop`]: the robot's program, a robot that is not what it believes, and somebody who commands it.
 //!
 //! The paper is Oliveira, Sousa, Moreira and Costa, *Dynamical Models for Omni-directional Robots with 3 and 4 Wheels*
 //! (ICINCO 2008). Nothing in the first five rooms depends on the core: two implementations that agree prove something only
@@ -28,6 +29,7 @@ pub mod excite;
 pub mod flow;
 pub mod generated;
 pub mod identification;
+pub mod in_loop;
 pub mod matrices;
 pub mod paper;
 pub mod printed;

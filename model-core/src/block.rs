@@ -5,7 +5,7 @@
 //! both hold it to the same bounds with the same function, [`Block::check`].
 //!
 //! ```text
-//! magic "OMNI" · version u16 · length u16 · wheels u8 · mode u8 · commutation u8 · pole pairs u8
+//! magic "OMNI" · version u16 · length u16 · wheels u8 · mode u8 · feedforward u8 · commutation u8 · pole pairs u8
 //! · wheels × (α [rad], d [m], r [m]) f32
 //! · l, R, K_v, K_t, L, M, J, B_v, B_vn, B_ω, C_v, C_vn, C_ω, supply f32
 //! · limits: current, speed, acceleration along v and vn, about the vertical axis, lowest and highest bus voltage f32
@@ -42,7 +42,7 @@ pub const VERSION: u16 = 1;
 pub const MAX_BYTES: usize = 512;
 
 const MAGIC: [u8; 4] = *b"OMNI";
-const HEADER: usize = 12;
+const HEADER: usize = 13;
 const CHECK: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// The longest block that there can be: four wheels and all effects with all parameters.
@@ -84,6 +84,8 @@ pub struct Block<const N: usize> {
     pub inductance: f32,
     /// How the wheels are driven.
     pub mode: Mode,
+    /// True: the model goes ahead of the feedback; false: feedback alone, to compare with.
+    pub feedforward: bool,
     /// How the motors' phases are driven.
     pub commutation: Commutation,
     /// p [1]
@@ -118,6 +120,7 @@ impl<const N: usize> Default for Block<N> {
             },
             inductance: 0.0,
             mode: Mode::default(),
+            feedforward: true,
             commutation: Commutation::default(),
             pole_pairs: 0,
             limits: Limits::default(),
@@ -215,7 +218,8 @@ impl<const N: usize> Block<N> {
         writer.bytes(&MAGIC);
         writer.u16(VERSION);
         writer.u16(length as u16);
-        writer.bytes(&[N as u8, self.mode as u8, self.commutation.code(), self.pole_pairs]);
+        writer.bytes(&[N as u8, self.mode as u8, u8::from(self.feedforward)]);
+        writer.bytes(&[self.commutation.code(), self.pole_pairs]);
         for wheel in self.robot.wheels.wheels() {
             [wheel.drive_angle, wheel.distance, wheel.radius].into_iter().for_each(|x| writer.f32(x));
         }
@@ -233,11 +237,16 @@ impl<const N: usize> Block<N> {
     fn read(reader: &mut Reader) -> Result<Self, Refused> {
         let mut block = Self::default();
         let short = Refused::because(Reason::Length, "length");
-        let [mode, commutation, pole_pairs] = reader.array().ok_or(short)?;
+        let [mode, feedforward, commutation, pole_pairs] = reader.array().ok_or(short)?;
         block.mode = match mode {
             0 => Mode::Voltage,
             1 => Mode::Current,
             _ => return Err(Refused { value: f32::from(mode), ..Refused::because(Reason::Mode, "mode") }),
+        };
+        block.feedforward = match feedforward {
+            0 => false,
+            1 => true,
+            _ => return Err(Refused { value: f32::from(feedforward), ..Refused::because(Reason::Mode, "feedforward") }),
         };
         let unknown = Refused { value: f32::from(commutation), ..Refused::because(Reason::Mode, "commutation") };
         block.commutation = Commutation::from_code(commutation).ok_or(unknown)?;
@@ -268,6 +277,17 @@ impl<const N: usize> Block<N> {
 }
 
 impl Parameters {
+    /// Writes the block into `out` and returns how many bytes it has.
+    ///
+    /// # Errors
+    /// [`Refused`] as [`Block::check`]; a block that is not sound is not written.
+    pub fn encode(&self, out: &mut [u8; MAX_BYTES]) -> Result<usize, Refused> {
+        match self {
+            Parameters::Three(block) => block.encode(out),
+            Parameters::Four(block) => block.encode(out),
+        }
+    }
+
     /// Reads a block; bytes that follow it are not looked at.
     ///
     /// # Errors

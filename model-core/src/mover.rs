@@ -130,7 +130,7 @@ impl<const N: usize> Wheeled<N> {
             max_duty,
             feedback: block.feedback,
             feedback_integral: block.feedback_integral,
-            feedforward: true,
+            feedforward: block.feedforward,
             working: [true; N],
             dt,
         };
