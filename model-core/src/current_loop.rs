@@ -22,8 +22,8 @@
 //! | R, L | `resistance`, `inductance` | Ω, H | DC-equivalent: between two terminals |
 //!
 //! The gains put the regulator's zero on the winding's pole, exactly so for a voltage held over a period; what is left
-//! of the loop is an integrator and the delay of one period until duties act. It has no overshoot up to
-//! w = 1/(4·Δt) and is stable up to 1/Δt. All vectors are carried in DC-equivalent numbers, in which d and q have the
+//! of the loop is an integrator and the delay until duties act. Even if that is a whole period, there is no overshoot up
+//! to w = 1/(4·Δt), and the loop is stable up to 1/Δt. All vectors are carried in DC-equivalent numbers, in which d and q have the
 //! motor's R and L and the limit of the voltage is the bus itself (see [`crate::phases`]).
 //!
 //! Where the voltage is limited, d comes first, because current along d is what keeps the loop's angle; q gets what is

@@ -18,13 +18,14 @@
 //!
 //! The switches are read once a period, so that an edge is known to a period: ±½ on average, hence the ½ in the angle.
 //! Switches and magnet stand up to some 5° off their places; six sectors in a row are a whole electrical turn whatever
-//! the places are, so that this drops out of the mean of six. A sector that took a quarter longer or shorter than the
+//! the places are, so that this drops out of the mean of six. A sector that took a fifth longer or shorter than the
 //! mean is no error of place but an acceleration: the older ones are forgotten, and the mean begins anew with it.
 //!
 //! An edge crossed back says nothing of the speed; so do the first edge and one after 50 ms of rest. The angle is then
 //! the middle of the sector, off by 30° at most. The speed is 0 until two edges have followed each other.
 //!
-//! Neglects: the acceleration within a sector; the angle is off by up to a sector in the moment of a reversal. Fails
+//! Neglects: the acceleration over the sectors looked at: the speed told is that of half a turn ago, too low by the share
+//! π·(dω_e/dt)/ω_e² of it, up to some 30 % just after a start; the angle is off by up to a sector in the moment of a reversal. Fails
 //! when: the rotor passes a sector in less than a period (3,333 electrical turns a second at 20 kHz).
 //!
 //! How to measure the order of the codes and the places: turn the motor with another drive at constant speed and record
@@ -183,9 +184,9 @@ impl Halls {
 
     /// What a sector took [periods] that was left just now.
     fn learn(&mut self, left: u8, took: u16) {
-        // |t·n − Σ t| > Σ t/4 + n: a quarter off the mean, and a period that the reading may err by
+        // |t·n − Σ t| > Σ t/5 + n: a fifth off the mean, and a period that the reading may err by
         let (sum, n) = (u32::from(self.sum), u32::from(self.looked_at));
-        if 4 * (u32::from(took) * n).abs_diff(sum) > sum + 4 * n {
+        if 5 * (u32::from(took) * n).abs_diff(sum) > sum + 5 * n {
             self.forget();
         }
         if let Some(slot) = self.took.get_mut(usize::from(left)) {
@@ -281,10 +282,10 @@ pub fn angle_of_code<T: Real>(code: u16) -> T {
     T::count(code) * T::lit(TAU / 65_536.0)
 }
 
-/// The upper half of an angle in 2⁻³² turns.
+/// An angle in 2⁻³² turns, rounded to 2⁻¹⁶ turns.
 #[inline]
 fn high(angle: u32) -> u16 {
-    (angle >> 16) as u16
+    (angle.wrapping_add(1 << 15) >> 16) as u16
 }
 
 #[cfg(test)]

@@ -93,6 +93,19 @@ fn heat_is_that_of_the_three_resistances() {
 }
 
 #[test]
+fn a_rotor_a_little_ahead_is_turned_by_that_angle() {
+    for k in -50..=50 {
+        let (angle, ahead) = (0.37 * f64::from(k), 0.01 * f64::from(k));
+        let (got, want) = (Rotation::of_angle(angle).ahead(ahead), Rotation::of_angle(angle + ahead));
+        // the next terms of the series
+        let [square, left] = [ahead * ahead, libm::pow(ahead, 4.0) / 24.0];
+        assert_close([got.sin, got.cos], [want.sin, want.cos], left * (1.0 + 0.2 * ahead.abs()) + CLOSE);
+        let length = libm::sqrt(got.sin * got.sin + got.cos * got.cos);
+        assert!(length <= 1.0 + CLOSE && length >= 1.0 - left * (1.0 + square) - CLOSE, "{length}");
+    }
+}
+
+#[test]
 fn naming_the_phases_onward_turns_the_vector_by_a_third() {
     let mut seed = 4;
     for _ in 0..100 {
