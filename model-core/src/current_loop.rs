@@ -27,7 +27,7 @@
 //! motor's R and L and the limit of the voltage is the bus itself (see [`crate::phases`]).
 //!
 //! Where the voltage is limited, d comes first, because current along d is what keeps the loop's angle; q gets what is
-//! left of the circle, by a bound that lies inside of it by less than 0.02 % and needs no root. An integral
+//! left of the circle, by a bound that lies inside of it by less than 0.02 % of M and needs no root. An integral
 //! waits while its error asks for still more voltage than there is, and works while it asks for less: after a
 //! saturation the regulator goes on from where it was.
 //!

@@ -286,6 +286,9 @@ fn when_the_edges_stop_the_speed_falls_as_the_time_grows_and_is_0_after_50_ms() 
         // as it was until the edge is a quarter late, and then no more than a late edge leaves room for
         let most = 1.25 * FRAC_PI_3 / f64::from(n);
         assert!((speed - steady.min(most)).abs() < 1e-15, "{n}: {speed}");
+        // the angle goes to the end of the sector and stays there
+        let passed = (FRAC_PI_3 * (f64::from(n) + 0.5) / 40.0).min(FRAC_PI_3);
+        assert!((ahead(halls.angle(), FRAC_PI_3 - FRAC_PI_6) - passed).abs() <= 2.0 * FINE, "{n}: {passed}");
     }
     wait(&mut halls, 1);
     assert_eq!((halls.electrical_speed::<f64>(), halls.interval(), halls.ahead::<f64>()), (0.0, 0, 0.0));
