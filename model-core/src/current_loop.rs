@@ -23,13 +23,13 @@
 //!
 //! The gains put the regulator's zero on the winding's pole, exactly so for a voltage held over a period; what is left
 //! of the loop is an integrator and the delay until duties act. Even if that is a whole period, there is no overshoot up
-//! to w = 1/(4·Δt), and the loop is stable up to 1/Δt. All vectors are carried in DC-equivalent numbers, in which d and q have the
-//! motor's R and L and the limit of the voltage is the bus itself (see [`crate::phases`]).
+//! to w = 1/(4·Δt), and the loop is stable up to 1/Δt. All vectors are carried in DC-equivalent numbers, in which d and
+//! q have the motor's R and L and the limit of the voltage is the bus itself (see [`crate::phases`]).
 //!
-//! Where the voltage is limited, d comes first, because current along d is what keeps the loop's angle; q gets what is
-//! left of the circle, by a bound that lies inside of it by less than 0.02 % of M and needs no root. An integral
-//! waits while its error asks for still more voltage than there is, and works while it asks for less: after a
-//! saturation the regulator goes on from where it was.
+//! Where the voltage is limited, d comes first, because a current along d makes heat and no torque; q gets what is left
+//! of the circle, by a bound that lies inside of it by less than 0.02 % of M and needs no root. An integral waits while
+//! its error asks for still more voltage than there is, and works while it asks for less: after a saturation the
+//! regulator goes on from where it was.
 //!
 //! The current along d is held at zero even where q gets a voltage alone: only then is the motor the DC motor of
 //! [`crate::motor`] at speed. Left to itself it is i_d = ω_e·L·i/R, and the motor has R + (ω_e·L)²/R for R. For the same

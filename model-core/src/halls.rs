@@ -25,8 +25,8 @@
 //! the middle of the sector, off by 30° at most. The speed is 0 until two edges have followed each other.
 //!
 //! Neglects: the acceleration over the sectors looked at: the speed told is that of half a turn ago, too low by the share
-//! π·(dω_e/dt)/ω_e² of it, up to some 30 % just after a start; the angle is off by up to a sector in the moment of a reversal. Fails
-//! when: the rotor passes a sector in less than a period (3,333 electrical turns a second at 20 kHz).
+//! π·(dω_e/dt)/ω_e² of it, up to some 30 % just after a start; the angle is off by up to a sector in the moment of a
+//! reversal. Fails when: the rotor passes a sector in less than a period (3,333 electrical turns a second at 20 kHz).
 //!
 //! How to measure the order of the codes and the places: turn the motor with another drive at constant speed and record
 //! codes and the back-EMF between two terminals; u_b − u_c has its crest in the middle of sector 0.
