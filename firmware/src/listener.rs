@@ -91,9 +91,7 @@ impl Listener {
         }
         Some(match Accepted::of(kept) {
             Ok(accepted) => Heard::Parameters(accepted, None),
-            Err(why) => {
-                Heard::BadBlock(Reply { to: Kind::Commit.code(), taken: false, reason: why.reason.code() })
-            }
+            Err(why) => Heard::BadBlock(Reply { to: Kind::Commit.code(), taken: false, reason: why.reason.code() }),
         })
     }
 }

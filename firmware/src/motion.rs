@@ -10,11 +10,11 @@
 //! voltages. It also watches what only shows over many periods: a silent command, a wheel that draws current and does not
 //! turn. After a fault is cleared the robot waits for a fresh command.
 
-use model_core::faults::{Fault, Faults};
 use model_core::command::Reply;
+use model_core::faults::{Fault, Faults};
 use model_core::frames::BodyTwist;
-use model_core::mover::{Moved, Mover};
 use model_core::hello::{Hello, OFFSET_PARTS};
+use model_core::mover::{Moved, Mover};
 use model_core::record::Stage;
 
 use crate::codes::{MOTORS, PERIODS_PER_SECOND, PERIODS_PER_TURN};

@@ -49,10 +49,7 @@ pub struct Post {
 /// Parts the queue into its two ends.
 pub fn split(room: &'static mut Room) -> (Sender, Post) {
     let (sender, post) = room.split();
-    (
-        Sender { queue: sender, sequence: 0, dropped: 0 },
-        Post { queue: post, frame: [0; MAX_FRAME], len: 0, sent: 0 },
-    )
+    (Sender { queue: sender, sequence: 0, dropped: 0 }, Post { queue: post, frame: [0; MAX_FRAME], len: 0, sent: 0 })
 }
 
 impl Sender {
@@ -85,7 +82,9 @@ impl Sender {
         if let Some(reply) = turn.reply {
             let _full = self.queue.enqueue(Message::Reply(reply));
         }
-        if let Some(hello) = turn.hello.filter(|_| turn.events & events::PARAMETERS != 0 || self.sequence.is_multiple_of(HELLO_TURNS)) {
+        if let Some(hello) =
+            turn.hello.filter(|_| turn.events & events::PARAMETERS != 0 || self.sequence.is_multiple_of(HELLO_TURNS))
+        {
             let _full = self.queue.enqueue(Message::Hello(hello));
         }
         self.sequence = self.sequence.wrapping_add(1);

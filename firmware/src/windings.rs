@@ -19,8 +19,8 @@ use model_core::halls::{HallCode, HallFault, Halls, angle_of_code};
 
 use crate::codes::{Codes, MOTORS, PERIODS_PER_TURN};
 use crate::guard::Guard;
-use crate::offsets::Offsets;
 use crate::motion::Turn;
+use crate::offsets::Offsets;
 use crate::setup::Setup;
 
 /// What the motion turn asks of the windings.

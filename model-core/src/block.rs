@@ -246,7 +246,9 @@ impl<const N: usize> Block<N> {
         block.feedforward = match feedforward {
             0 => false,
             1 => true,
-            _ => return Err(Refused { value: f32::from(feedforward), ..Refused::because(Reason::Mode, "feedforward") }),
+            _ => {
+                return Err(Refused { value: f32::from(feedforward), ..Refused::because(Reason::Mode, "feedforward") });
+            }
         };
         let unknown = Refused { value: f32::from(commutation), ..Refused::because(Reason::Mode, "commutation") };
         block.commutation = Commutation::from_code(commutation).ok_or(unknown)?;

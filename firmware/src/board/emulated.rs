@@ -4,8 +4,8 @@
 //! or pins that one could use. Here SysTick is the PWM period, its handler raises the converters' interrupt, and
 //! [`Bridges::read`] exchanges one frame with the host ([`crate::exchange`]), which has the motors.
 //!
-//! An instruction counts as one nanosecond (`-icount shift=0`) and SysTick runs at 168 MHz, so that 0.168 of its counts
-//! are one instruction. Semihosting calls cost one instruction each.
+//! An instruction takes one nanosecond there (`-icount shift=0`), six times as fast as the chip; [`cycles`] counts
+//! instructions, in steps of six. Semihosting calls cost one instruction each.
 
 use core::cell::UnsafeCell;
 
@@ -20,8 +20,11 @@ use stm32f4xx_hal::pac;
 use crate::codes::{Codes, MOTORS};
 use crate::exchange::{Bytes, DOWN_FILE, Down, LINK_BYTES, TOPS, UP_FILE, Up, compare};
 
-/// What [`cycles`] counts in one period: SysTick's 168 MHz.
+/// Processor cycles in one period of a chip that runs at 168 MHz.
 pub const CYCLES_PER_PERIOD: u32 = 8_400;
+
+/// What SysTick counts in one period.
+const SYSTICK_PER_PERIOD: u32 = 8_400;
 
 /// Periods without food after which the dog bites: 20 ms.
 const DOG_PERIODS: u32 = 400;
@@ -106,7 +109,7 @@ impl Bridges {
     /// Lets the periods begin; the bridges stay open until they are driven.
     pub fn start(&mut self) {
         self.syst.set_clock_source(SystClkSource::Core);
-        self.syst.set_reload(CYCLES_PER_PERIOD - 1);
+        self.syst.set_reload(SYSTICK_PER_PERIOD - 1);
         self.syst.clear_current();
         self.syst.enable_counter();
         self.syst.enable_interrupt();
@@ -140,8 +143,7 @@ impl Bridges {
         let mut got = [0_u8; Down::LEN];
         // SAFETY: semihosting reads and writes the lengths given, of buffers that live over the calls.
         let left = unsafe {
-            syscall!(WRITE, self.up, sent.as_ptr(), sent.len())
-                + syscall!(READ, self.down, got.as_mut_ptr(), got.len())
+            syscall!(WRITE, self.up, sent.as_ptr(), sent.len()) + syscall!(READ, self.down, got.as_mut_ptr(), got.len())
         };
         let down = Down::from_bytes(&got);
         if left != 0 || down.end {
@@ -174,7 +176,7 @@ impl Bridges {
 impl Bridges {
     /// Processor cycles since the codes of this period were there.
     pub fn spent(&self) -> u32 {
-        elapsed(self.began)
+        cycles().saturating_sub(self.began)
     }
 
     /// True if the next period has begun before this turn was over.
@@ -222,18 +224,17 @@ impl Store {
     }
 }
 
-/// Processor cycles since the beginning of the period.
+/// Processor cycles since the beginning of the period, an instruction counted as one.
 #[inline]
 pub fn cycles() -> u32 {
     // SysTick counts down
-    CYCLES_PER_PERIOD - 1 - SYST::get_current()
+    instructions(SYSTICK_PER_PERIOD - 1 - SYST::get_current())
 }
 
-/// Processor cycles since [`cycles`] said `then`, for anything that takes less than a period.
+/// An instruction takes a nanosecond here, in which SysTick counts 0.168.
 #[inline]
-pub fn elapsed(then: u32) -> u32 {
-    let now = cycles();
-    if now >= then { now - then } else { now + CYCLES_PER_PERIOD - then }
+fn instructions(counts: u32) -> u32 {
+    counts * 1000 / 168
 }
 
 /// Writes text on the host's standard output.

@@ -5,12 +5,12 @@
 //!
 //! | part | verbs |
 //! |---|---|
-//! | `Bridges` | `start`, `read` the codes of this period, `drive` the next one; `is_late` |
+//! | `Bridges` | `start`, `read` the codes of this period, `drive` the next one; `spent`, `is_late` |
 //! | `Wire` | `send` and `receive` bytes, as many as it has room for |
 //! | `Dog` | `feed` |
 //! | `Store` | `load` and `save` the parameter block |
 //!
-//! and a counter of processor cycles, [`cycles`] and [`elapsed`], with `CYCLES_PER_PERIOD`.
+//! and a counter of processor cycles, [`cycles`], with `CYCLES_PER_PERIOD`.
 #![allow(unsafe_code)]
 
 #[cfg(feature = "emulated")]

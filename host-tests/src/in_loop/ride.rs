@@ -161,7 +161,7 @@ mod tests {
     use model_core::paper::four_wheels;
     use model_core::record::Stage;
 
-    pub fn block() -> Block<4> {
+    fn block() -> Block<4> {
         Block {
             robot: four_wheels(),
             inductance: 0.6e-3,
@@ -192,12 +192,6 @@ mod tests {
         ride.send_block(&Parameters::Four(block()));
         ride.wait(0.15).expect("software does not fail");
         ride.follow(1.0, |_| BodyTwist { v: 0.5, vn: 0.0, w: 0.0 }).expect("software does not fail");
-        for k in (0..ride.taken.moments.len()).step_by(50) {
-            let m = &ride.taken.moments[k];
-            let r = ride.taken.records.get(k);
-            println!("{:.3} {:?} {:04b} {:?}", m.time, m.twist.to_array(), m.enabled, r.map(|r| (r.stage, r.faults, r.voltage, r.wanted)));
-        }
-        println!("{:?} {:?}", ride.taken.replies, ride.taken.hellos.first());
         let last = ride.taken.moments.last().expect("moments");
         assert!((last.twist.v - 0.5).abs() < 0.02, "{:?}", last.twist);
         assert_eq!(ride.taken.records.last().map(|record| record.stage), Some(Stage::Driving));

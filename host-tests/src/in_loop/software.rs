@@ -4,6 +4,9 @@
 //! are made in that order, so that a run without the emulator leaves the same bits: it is what the image is compared
 //! with, and what many seeds are tried on.
 
+use std::collections::VecDeque;
+use std::fmt;
+
 use firmware::codes::MOTORS;
 use firmware::exchange::{Bytes, Down, LINK_BYTES, TOPS, Up, compare};
 use firmware::inbox::Inbox;
@@ -11,7 +14,6 @@ use firmware::listener::Listener;
 use firmware::motion::Motion;
 use firmware::post::{self, Post, Room, Sender};
 use firmware::windings::Windings;
-use std::collections::VecDeque;
 
 use crate::emulator::{Brain, Trouble};
 
@@ -43,6 +45,15 @@ impl Default for Software {
             inward: VecDeque::new(),
             next: Up::default(),
         }
+    }
+}
+
+impl fmt::Debug for Software {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Software")
+            .field("windings", &self.windings)
+            .field("motion", &self.motion)
+            .finish_non_exhaustive()
     }
 }
 
