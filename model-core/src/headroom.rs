@@ -79,12 +79,7 @@ impl<T: Real> Room<T> {
     /// True if no current and no voltage is beyond its limit.
     #[inline(always)]
     pub fn holds<const N: usize>(&self, current: &[T; N], voltage: &[T; N]) -> bool {
-        let mut holds = true;
-        for j in 0..N {
-            holds &= current[j].abs() <= self.current;
-            holds &= voltage[j].abs() <= self.voltage;
-        }
-        holds
+        (0..N).all(|j| !current[j].exceeds(self.current) && !voltage[j].exceeds(self.voltage))
     }
 
     /// As much of a wish as there is room for.

@@ -68,7 +68,7 @@ impl<T: Real> Limiter<T> {
 /// A number held within ± a limit; most are.
 #[inline(always)]
 fn within<T: Real>(x: T, limit: T) -> T {
-    if x.abs() <= limit {
+    if !x.exceeds(limit) {
         x
     } else if x < T::zero() {
         -limit

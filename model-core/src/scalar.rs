@@ -4,6 +4,7 @@
 //! serves all three. The trait holds what the equations use and nothing else. No method calls `std`; transcendental
 //! functions come from [`trig`](mod@crate::trig) and from `libm`, so that every machine computes the same bits.
 
+use core::cmp::Ordering;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -40,6 +41,11 @@ pub trait Real:
     fn is_finite(self) -> bool;
     /// √x.
     fn sqrt(self) -> Self;
+    /// True if |x| is larger than a limit that is not negative, or no number.
+    #[inline]
+    fn exceeds(self, limit: Self) -> bool {
+        !matches!(self.abs().partial_cmp(&limit), Some(Ordering::Less | Ordering::Equal))
+    }
     /// 1/√x for x > 0.
     #[inline]
     fn inverse_sqrt(self) -> Self {
@@ -138,6 +144,11 @@ impl Real for f32 {
     #[inline]
     fn sqrt(self) -> Self {
         libm::sqrtf(self)
+    }
+    #[inline]
+    fn exceeds(self, limit: Self) -> bool {
+        // the bits of numbers without their sign are in the order of the numbers, NaN above all
+        self.to_bits() << 1 > limit.to_bits() << 1
     }
     #[inline]
     fn inverse_sqrt(self) -> Self {

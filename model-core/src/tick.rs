@@ -3,7 +3,7 @@
 //! ```text
 //! δ = limited(want − x),  a = δ/Δt                           reference
 //! ω_j = G_j·x/r_j                                            wanted wheel speeds
-//! F = M·a + B·x + C·sign(x)                                  (eq. 10–12, turned round)
+//! F = M·a + B·x + C·sign(x⁺)                                 (eq. 10–12, turned round)
 //! E = Σ_j G_j/r_j·(ω_j − ω̂_j)                               what the wheels miss, seen from the body
 //! F ← F + l·K_t·k_p·E + I,   I ← I + l·K_t·k_i·Δt·E          feedback
 //! i_j = r_j/(l·K_t)·((GᵀG)⁻¹·G_j)·F                          (eq. 16–17, 22)
@@ -28,8 +28,8 @@
 //! different radius would otherwise work against each other for ever, because no motion of the body ends their errors. So
 //! the integral has three numbers and not four, and it is a force, which survives the loss of a wheel.
 //!
-//! Coulomb friction follows the reference, at rest the direction in which it is to start: a friction that followed the
-//! measured speed would chatter. While not all of the steady part fits, the integral only shrinks, and the reference comes
+//! Coulomb friction follows the reference x⁺ at the end of the turn, so that at rest it is that of the direction in which
+//! the robot is to start: a friction that followed the measured speed would chatter. While not all of the steady part fits, the integral only shrinks, and the reference comes
 //! back, within its limits, to what does fit: it waits for a robot that is held.
 //!
 //! A robot of four wheels can lose one ([`Settings::working`]): the other three share the forces, and the largest
@@ -54,9 +54,6 @@ use crate::robot::Robot;
 use crate::scalar::Real;
 use crate::small::{add_scaled, dot, scaled};
 use undo::Undo;
-
-/// How far ahead a robot at rest looks for the direction in which it is to start [s]: less than any rounding of a speed.
-const AHEAD: f64 = 1e-9;
 
 /// What a controller is built from.
 #[derive(Clone, Copy, Debug)]
@@ -150,6 +147,8 @@ pub struct Controller<const N: usize, T = f32> {
     limiter: Limiter<T>,
     /// 1/Δt [1/s]
     rate: T,
+    /// Δt [s]
+    dt: T,
     /// (M, M, J), what turns with the wheels included [kg, kg, kg·m²]
     mass: [T; 3],
     /// (B_v, B_vn, B_ω) [N·s/m, N·s/m, N·m·s]
@@ -181,10 +180,13 @@ impl<const N: usize, T: Real> Controller<N, T> {
     /// feedback and no limit; `heading` [rad] matters to `floor_tilt` alone.
     #[inline]
     pub fn feedforward(&self, twist: BodyTwist<T>, acceleration: BodyTwist<T>, heading: T) -> Asked<N, T> {
+        let (x, a) = (twist.to_array(), acceleration.to_array());
+        // x⁺ = x + a·Δt
+        let next = add_scaled(x, self.dt, a);
         if self.flags == 0 {
-            self.ask::<false>(twist.to_array(), acceleration.to_array(), heading, None).0
+            self.ask::<false>(x, next, a, heading, None).0
         } else {
-            let (mut asked, _) = self.ask::<true>(twist.to_array(), acceleration.to_array(), heading, None);
+            let (mut asked, _) = self.ask::<true>(x, next, a, heading, None);
             self.undo_last(&mut asked.current, &mut asked.voltage);
             asked
         }
@@ -206,13 +208,15 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let change = self.limiter.change(x, want);
         // a = δ/Δt
         let a = BodyTwist { v: change.v * self.rate, vn: change.vn * self.rate, w: change.w * self.rate };
+        // x⁺ = x + δ
+        let next = BodyTwist { v: x.v + change.v, vn: x.vn + change.vn, w: x.w + change.w };
         let feedback = Some((seen, memory.integral));
-        let (mut asked, missing) = self.ask::<UNDO>(x.to_array(), a.to_array(), memory.heading, feedback);
+        let (mut asked, missing) =
+            self.ask::<UNDO>(x.to_array(), next.to_array(), a.to_array(), memory.heading, feedback);
         if !self.room::<UNDO>(seen).holds(&asked.current, &asked.voltage) {
             return self.squeeze::<UNDO>(memory, seen, want);
         }
-        // x ← x + δ
-        memory.reference = BodyTwist { v: x.v + change.v, vn: x.vn + change.vn, w: x.w + change.w };
+        memory.reference = next;
         for (sum, missing) in memory.integral.iter_mut().zip(missing) {
             // I ← I + l·K_t·k_i·Δt·E
             *sum += self.integral_gain * missing;
@@ -231,13 +235,14 @@ impl<const N: usize, T: Real> Controller<N, T> {
     fn ask<const UNDO: bool>(
         &self,
         x: [T; 3],
+        next: [T; 3],
         a: [T; 3],
         heading: T,
         feedback: Option<(&Seen<N, T>, [T; 3])>,
     ) -> (Asked<N, T>, [T; 3]) {
         let mut force: [T; 3] = array::from_fn(|k| {
-            // F = M·a + B·x + C·sign(x), at rest sign(a)
-            self.mass[k] * a[k] + self.viscous[k] * x[k] + toward(self.coulomb[k], x[k] + T::lit(AHEAD) * a[k])
+            // F = C·sign(x⁺) + M·a + B·x
+            toward(self.coulomb[k], next[k]) + self.mass[k] * a[k] + self.viscous[k] * x[k]
         });
         let lead = if UNDO { self.undo_forces(x, a, heading, &mut force) } else { [T::zero(); N] };
         let mut wheel_speed = [T::zero(); N];
@@ -257,8 +262,8 @@ impl<const N: usize, T: Real> Controller<N, T> {
         }
         if let Some((_, integral)) = feedback {
             for k in 0..3 {
-                // F ← F + l·K_t·k_p·E + I
-                force[k] += self.gain * missing[k] + integral[k];
+                // F ← F + I + l·K_t·k_p·E
+                force[k] = force[k] + integral[k] + self.gain * missing[k];
             }
         }
         let mut current: [T; N] = array::from_fn(|j| dot(self.drives[j].share, force));
@@ -297,8 +302,10 @@ impl<const N: usize, T: Real> Controller<N, T> {
     ) -> Decided<N, T> {
         let zero = T::zero();
         let x = memory.reference;
-        let a = scaled(self.rate, self.limiter.change(x, want).to_array());
-        let (asked, missing) = self.ask::<UNDO>(x.to_array(), a, memory.heading, Some((seen, memory.integral)));
+        let change = self.limiter.change(x, want).to_array();
+        let (a, next) = (scaled(self.rate, change), add_scaled(x.to_array(), T::one(), change));
+        let feedback = Some((seen, memory.integral));
+        let (asked, missing) = self.ask::<UNDO>(x.to_array(), next, a, memory.heading, feedback);
         let room = self.room::<UNDO>(seen);
         let wheel_speed = asked.wheel_speed;
         // q, what of the currents accelerates; p, the rest
@@ -323,7 +330,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
             self.limiter.change(x, BodyTwist { v: k * x.v, vn: k * x.vn, w: k * x.w })
         } else {
             // s·δ
-            BodyTwist::from_array(scaled(s / self.rate, a))
+            BodyTwist::from_array(scaled(s, change))
         };
         memory.reference = BodyTwist { v: x.v + change.v, vn: x.vn + change.vn, w: x.w + change.w };
         for (sum, missing) in memory.integral.iter_mut().zip(missing) {
