@@ -369,13 +369,8 @@ fn stay<const N: usize, T: Real>(memory: &mut Memory<T>) -> Decided<N, T> {
 /// The size with the sign of a direction; 0 where there is none.
 #[inline(always)]
 fn toward<T: Real>(size: T, direction: T) -> T {
-    if direction > T::zero() {
-        size
-    } else if direction < T::zero() {
-        -size
-    } else {
-        T::zero()
-    }
+    let signed = if direction < T::zero() { -size } else { size };
+    if direction == T::zero() { T::zero() } else { signed }
 }
 
 #[cfg(test)]
