@@ -36,7 +36,6 @@
 //! Source: Oliveira, Sousa, Moreira, Costa, ICINCO 2008, eq. 2–9, 13–15, 18–20.
 
 use core::array;
-use core::f64::consts::{FRAC_PI_2, PI};
 
 use crate::frames::BodyTwist;
 use crate::scalar::Real;
@@ -73,7 +72,7 @@ impl<T: Real> Wheel<T> {
     /// Multiples of 90° drive exactly along an axis.
     pub fn from_degrees(drive_angle_deg: f64, distance: T, radius: T) -> Self {
         // α = (α°/90°)·π/2, rounded once where α° is a multiple of 90°
-        let drive_angle = T::lit(drive_angle_deg / 90.0 * FRAC_PI_2);
+        let drive_angle = T::lit(drive_angle_deg / 90.0 * core::f64::consts::FRAC_PI_2);
         Self { drive_angle, distance, radius }
     }
 
@@ -81,18 +80,23 @@ impl<T: Real> Wheel<T> {
     ///
     /// Exactly 0 and ±1 where α is the rounded value of a multiple of a quarter turn, within one turn either way.
     pub fn direction(self) -> [T; 2] {
-        let (sin, cos) = self.drive_angle.sin_cos();
+        use core::f64::consts::FRAC_PI_2;
         let (zero, one) = (T::zero(), T::one());
-        let turn = T::lit(2.0 * PI);
-        // every literal by itself, so that it is rounded when this is compiled
-        let axes = [
-            (T::zero(), turn, [one, zero]),
-            (T::lit(FRAC_PI_2), T::lit(3.0 * FRAC_PI_2), [zero, one]),
-            (T::lit(PI), T::lit(PI), [-one, zero]),
-            (T::lit(3.0 * FRAC_PI_2), T::lit(FRAC_PI_2), [zero, -one]),
+        // one literal each, so that no f64 is left for the robot to convert
+        let quarters = [
+            (T::lit(-4.0 * FRAC_PI_2), [one, zero]),
+            (T::lit(-3.0 * FRAC_PI_2), [zero, one]),
+            (T::lit(-2.0 * FRAC_PI_2), [-one, zero]),
+            (T::lit(-FRAC_PI_2), [zero, -one]),
+            (zero, [one, zero]),
+            (T::lit(FRAC_PI_2), [zero, one]),
+            (T::lit(2.0 * FRAC_PI_2), [-one, zero]),
+            (T::lit(3.0 * FRAC_PI_2), [zero, -one]),
+            (T::lit(4.0 * FRAC_PI_2), [one, zero]),
         ];
-        for (angle, other_way, [x, y]) in axes {
-            if self.drive_angle == angle || self.drive_angle == -other_way || (x == one && self.drive_angle == turn) {
+        let (sin, cos) = self.drive_angle.sin_cos();
+        for (quarter, [x, y]) in quarters {
+            if self.drive_angle == quarter {
                 // the derivative of what was computed, the value of the axis
                 return [x + (cos - cos.value()), y + (sin - sin.value())];
             }
