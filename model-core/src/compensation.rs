@@ -126,16 +126,18 @@ impl<const N: usize, T: Real> Compensation<N, T> {
     /// Nothing is undone.
     pub fn none() -> Self {
         let (zero, one) = (T::zero(), T::one());
+        let shape = |card: &'static Card, k: usize| T::lit(card.params[k].absent);
         Self {
             coriolis: zero,
             tilt: zero,
             downhill: zero,
-            stribeck: [Excess { excess: zero, speed: one, exponent: one }; N],
+            stribeck: [Excess { excess: zero, speed: shape(&stribeck::CARD, 1), exponent: shape(&stribeck::CARD, 2) };
+                N],
             rotor_inertia: [zero; N],
             gear_efficiency: [one; N],
             torque_constant_ratio: [one; N],
             resistance_ratio: [one; N],
-            dead_time: [Loss { voltage: zero, smoothing: one }; N],
+            dead_time: [Loss { voltage: zero, smoothing: shape(&dead_time::CARD, 1) }; N],
             creep: [zero; N],
             current_offset: [zero; N],
         }

@@ -111,9 +111,9 @@ impl<T: Real> Room<T> {
 #[inline]
 fn most<T: Real>(p: T, q: T, limit: T) -> T {
     let push = q.abs();
-    // (L − sign(q)·p)/|q|, asked as a product first: q may be 0 and L infinite
+    // (L − sign(q)·p)/|q|, asked without the quotient first: L may be infinite
     let left = if q < T::zero() { limit + p } else { limit - p };
-    if left < push { left / push } else { T::one() }
+    if push > T::zero() && left < push { left / push } else { T::one() }
 }
 
 /// The factor that brings the largest of these within the limit; 1 where it is.

@@ -55,6 +55,9 @@ use crate::scalar::Real;
 use crate::small::{add_scaled, dot, scaled};
 use undo::Undo;
 
+/// How far feedforward alone looks ahead for the direction of friction [s]: less than any rounding of a speed.
+const AHEAD: f64 = 1e-9;
+
 /// What a controller is built from.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings<const N: usize, T = f32> {
@@ -147,8 +150,6 @@ pub struct Controller<const N: usize, T = f32> {
     limiter: Limiter<T>,
     /// 1/Δt [1/s]
     rate: T,
-    /// Δt [s]
-    dt: T,
     /// (M, M, J), what turns with the wheels included [kg, kg, kg·m²]
     mass: [T; 3],
     /// (B_v, B_vn, B_ω) [N·s/m, N·s/m, N·m·s]
@@ -181,8 +182,8 @@ impl<const N: usize, T: Real> Controller<N, T> {
     #[inline]
     pub fn feedforward(&self, twist: BodyTwist<T>, acceleration: BodyTwist<T>, heading: T) -> Asked<N, T> {
         let (x, a) = (twist.to_array(), acceleration.to_array());
-        // x⁺ = x + a·Δt
-        let next = add_scaled(x, self.dt, a);
+        // what follows next, so little later that it is x unless x is zero
+        let next = add_scaled(x, T::lit(AHEAD), a);
         if self.flags == 0 {
             self.ask::<false>(x, next, a, heading, None).0
         } else {

@@ -108,7 +108,6 @@ impl<const N: usize, T: Real> Controller<N, T> {
             flags: flags(settings, moves, coupled),
             limiter: Limiter::new([acceleration[0] * plane, acceleration[1] * plane, acceleration[2] * turn], dt),
             rate: one / dt,
-            dt,
             mass: [
                 on * (robot.mass + turning[0][0]),
                 on * (robot.mass + turning[1][1]),
