@@ -42,7 +42,8 @@ fn shares<const N: usize, T: Real>(wheels: &Wheels<N, T>, working: &[bool; N]) -
         accumulate_outer(&mut gram, one, *row);
     }
     // as for all wheels: det(GᵀG) against the most that columns so long can span
-    if !(determinant3(&gram) > T::lit(1.0e-9) * gram[0][0] * gram[1][1] * gram[2][2]) {
+    let regular = determinant3(&gram) > T::lit(1.0e-9) * gram[0][0] * gram[1][1] * gram[2][2];
+    if !regular {
         return None;
     }
     let inverse = inverse3(&gram);
@@ -193,6 +194,7 @@ fn fold<const N: usize, T: Real>(
         kept: undo.dead_time.iter().fold(T::zero(), |most, d| most.max(d.voltage)),
         creep: undo.creep,
         push: of.push,
+        spin: array::from_fn(|j| wheels.wheels()[j].rim().force(undo.rotor_inertia[j])),
         offset: undo.current_offset,
     }
 }

@@ -2,6 +2,8 @@
 //!
 //! One word of flags says which of them there are; a controller without any takes a turn that holds none of this.
 
+use core::array;
+
 use super::{Controller, Memory};
 use crate::compensation::{Excess, Loss};
 use crate::effects::body::{coriolis, floor_tilt};
@@ -75,6 +77,8 @@ pub(super) struct Undo<const N: usize, T> {
     pub creep: [T; N],
     /// Force on the floor over current, l·K_t/r [N/A]
     pub push: [T; N],
+    /// What of it turns the wheel, over the wheel's acceleration, J_w/r [N/(rad/s²)]
+    pub spin: [T; N],
     /// Offset of each current sensor [A]
     pub offset: [T; N],
 }
@@ -113,16 +117,19 @@ impl<const N: usize, T: Real> Controller<N, T> {
                 }
             }
         }
+        if self.flags & COUPLING != 0 {
+            self.undo_coupling(a, force);
+        }
         if self.flags & CREEP != 0 {
-            let floor = self.on_the_floor(a, *force);
-            lead = core::array::from_fn(|j| {
-                let traction = u.push[j] * dot(self.drives[j].share, floor);
+            let speed = array::from_fn(|j| dot(self.drives[j].row, x));
+            let mut current = array::from_fn(|j| dot(self.drives[j].share, *force));
+            self.undo_losses(&speed, &mut current);
+            lead = array::from_fn(|j| {
+                // f = (l·K_t·i − J_w·dω/dt)/r
+                let traction = u.push[j] * current[j] - u.spin[j] * dot(self.drives[j].row, a);
                 // r·ω = G_j·x + c·f
                 creep::slip(u.creep[j], traction) * u.per_radius[j]
             });
-        }
-        if self.flags & COUPLING != 0 {
-            self.undo_coupling(a, force);
         }
         lead
     }
@@ -138,20 +145,11 @@ impl<const N: usize, T: Real> Controller<N, T> {
         }
     }
 
-    /// What of the body force goes through the floor: not what turns the wheels.
-    #[inline(always)]
-    fn on_the_floor(&self, a: [T; 3], force: [T; 3]) -> [T; 3] {
-        let m = &self.undo.turning;
-        [force[0] - m[0][0] * a[0], force[1] - m[1][1] * a[1], force[2] - m[2][2] * a[2]]
-    }
-
     /// Losses of the gears: current to give.
     #[inline(always)]
     pub(super) fn undo_losses(&self, speed: &[T; N], current: &mut [T; N]) {
         if self.flags & GEAR != 0 {
-            for j in 0..N {
-                current[j] = current[j] * self.over_efficiency(j, current[j], speed[j]);
-            }
+            *current = array::from_fn(|j| current[j] * self.over_efficiency(j, current[j], speed[j]));
         }
     }
 
@@ -159,9 +157,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
     #[inline(always)]
     pub(super) fn undo_losses_as(&self, speed: &[T; N], whole: &[T; N], part: &mut [T; N]) {
         if self.flags & GEAR != 0 {
-            for j in 0..N {
-                part[j] = part[j] * self.over_efficiency(j, whole[j], speed[j]);
-            }
+            *part = array::from_fn(|j| part[j] * self.over_efficiency(j, whole[j], speed[j]));
         }
     }
 
@@ -182,9 +178,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
             }
         }
         if self.flags & OFFSET != 0 {
-            for j in 0..N {
-                current[j] = current_sensor_offset::reading(self.undo.offset[j], current[j]);
-            }
+            *current = array::from_fn(|j| current_sensor_offset::reading(self.undo.offset[j], current[j]));
         }
     }
 

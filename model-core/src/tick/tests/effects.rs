@@ -28,7 +28,9 @@ const CASES: [Case; 11] = [
 ];
 
 /// The worst error of the body's acceleration over random motions, undone and not [m/s², with rad/s² a tenth].
-fn errors<const N: usize>(robot: Robot<N, f64>, cases: &[&Case], by_current: bool) -> [f64; 2] {
+///
+/// Motions with a rim slower than `slowest` [m/s] are left out.
+fn errors<const N: usize>(robot: Robot<N, f64>, cases: &[&Case], by_current: bool, slowest: f64) -> [f64; 2] {
     let mut effects = Effects::default();
     let mut undo = Compensation::none();
     for case in cases {
@@ -45,6 +47,9 @@ fn errors<const N: usize>(robot: Robot<N, f64>, cases: &[&Case], by_current: boo
         for _ in 0..100 {
             let (x, a) = (draw.twist([0.8, 0.8, 4.0]), draw.twist([3.0, 3.0, 20.0]));
             let theta = 3.0 * draw.next();
+            if robot.wheels.rim_speeds(x).iter().any(|v| v.abs() < slowest) {
+                continue;
+            }
             let asked = controller.feedforward(x, a, theta);
             let mut state = plant.start(0.0, Pose { theta, ..Pose::default() }, x);
             // a wheel that creeps is ahead already
@@ -66,7 +71,7 @@ fn each_effect_is_undone<const N: usize>(robot: Robot<N, f64>) {
             if by_current && !case.by_current {
                 continue;
             }
-            let [undone, left] = errors(robot, &[case], by_current);
+            let [undone, left] = errors(robot, &[case], by_current, 0.0);
             // over a microsecond the speeds change by 2e-5: with the motor's damping some 1e-4 m/s²
             assert!(undone < 1e-3, "{} {:?}: {undone} of {left}", case.id, case.wheel);
             assert!(left > 0.03, "{} {:?}: {left}", case.id, case.wheel);
@@ -83,15 +88,22 @@ fn with_an_effect_undone_the_body_accelerates_as_asked() {
 }
 
 #[test]
-fn effects_are_undone_together() {
+fn any_two_effects_are_undone_together_and_so_are_eight() {
+    let robot = odd(paper::four_wheels());
+    // a wheel that leads a slow floor turns one way while the floor passes the other way, and the plant's gear then loses
+    // on the floor's side: 0.1 m/s is more than any lead here
+    let slowest = 0.1;
+    for one in &CASES {
+        for other in CASES.iter().filter(|other| other.id != one.id) {
+            let [undone, left] = errors(robot, &[one, other], false, slowest);
+            assert!(undone < 1e-3 && left > 0.03, "{} {}: {undone} of {left}", one.id, other.id);
+        }
+    }
     let some: [&Case; 8] = [0, 1, 3, 5, 6, 8, 9, 10].map(|k| &CASES[k]);
-    // a wheel that creeps and has inertia takes its own time: without creep here, creep with the massless ones below
-    let [undone, left] = errors(odd(paper::four_wheels()), &some[..7], false);
-    // in the crossed terms of gear and friction the order of the plant matters to second order
-    assert!(undone < 2e-3 && left > 1.0, "{undone} of {left}");
-    let massless: [&Case; 7] = [0, 1, 3, 6, 8, 9, 10].map(|k| &CASES[k]);
-    let [undone, left] = errors(odd(paper::three_wheels()), &massless, false);
-    assert!(undone < 2e-3 && left > 1.0, "{undone} of {left}");
+    let [undone, left] = errors(robot, &some, false, slowest);
+    assert!(undone < 1e-3 && left > 1.0, "{undone} of {left}");
+    let [undone, left] = errors(odd(paper::three_wheels()), &some, false, slowest);
+    assert!(undone < 1e-3 && left > 1.0, "{undone} of {left}");
 }
 
 #[test]
