@@ -36,5 +36,9 @@ pub mod post;
 
 pub mod parity;
 
+pub mod registers;
+
+pub mod drivers;
+
 #[cfg(target_os = "none")]
 pub mod board;

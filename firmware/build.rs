@@ -1,0 +1,8 @@
+//! The tests on a board need a section of their own, in which their runner finds them.
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    if std::env::var("CARGO_CFG_TARGET_OS").is_ok_and(|system| system == "none") {
+        println!("cargo::rustc-link-arg-tests=-Tembedded-test.x");
+    }
+}

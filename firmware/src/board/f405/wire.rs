@@ -1,0 +1,99 @@
+//! # Wire: USART3 and its two DMA streams
+//!
+//! What comes in goes round a circle, read up to where the DMA is. What goes out is copied into a buffer and sent at
+//! one go; while that is on its way there is no room for more.
+
+use core::cell::UnsafeCell;
+use core::sync::atomic::{Ordering, compiler_fence};
+
+use cortex_m::asm;
+use stm32f4xx_hal::pac;
+
+use crate::registers::link;
+
+/// Bytes that wait unread: 5 ms of the link.
+const IN: usize = 1024;
+/// Bytes that go out at one go: 2.5 ms of the link.
+const OUT: usize = 512;
+
+static INWARD: Buffer<IN> = Buffer(UnsafeCell::new([0; IN]));
+static OUTWARD: Buffer<OUT> = Buffer(UnsafeCell::new([0; OUT]));
+
+/// Memory that the DMA reads or writes, in the RAM that it reaches (not the core-coupled one).
+struct Buffer<const N: usize>(UnsafeCell<[u8; N]>);
+
+// SAFETY: only `Wire` touches it, and there is one `Wire`: `new` takes the one USART3.
+unsafe impl<const N: usize> Sync for Buffer<N> {}
+
+impl<const N: usize> Buffer<N> {
+    fn start(&self) -> *mut u8 {
+        self.0.get().cast()
+    }
+}
+
+/// The link to the host.
+pub struct Wire {
+    dma: pac::DMA1,
+    /// Where reading goes on
+    read: usize,
+}
+
+impl Wire {
+    /// The link, listening.
+    pub(super) fn new(usart: pac::USART3, dma: pac::DMA1) -> Self {
+        let data = usart.dr().as_ptr() as u32;
+        let (inward, outward) = (dma.st(link::IN_STREAM), dma.st(link::OUT_STREAM));
+        // SAFETY: the values are those of `registers`, whose test reads them back. The streams stand; their addresses
+        // are USART3's data register and buffers that live for ever and are as long as the counts say.
+        unsafe {
+            usart.brr().write(|w| w.bits(link::BRR));
+            usart.cr3().write(|w| w.bits(link::CR3));
+            usart.cr1().write(|w| w.bits(link::CR1));
+            outward.par().write(|w| w.bits(data));
+            outward.m0ar().write(|w| w.bits(OUTWARD.start() as u32));
+            inward.par().write(|w| w.bits(data));
+            inward.m0ar().write(|w| w.bits(INWARD.start() as u32));
+            inward.ndtr().write(|w| w.bits(IN as u32));
+            inward.cr().write(|w| w.bits(link::IN_CR | link::EN));
+        }
+        Self { dma, read: 0 }
+    }
+
+    /// Hands bytes to the link; how many it had room for.
+    pub fn send(&mut self, bytes: &[u8]) -> usize {
+        let stream = self.dma.st(link::OUT_STREAM);
+        let count = bytes.len().min(OUT);
+        // the stream clears its own enable when the last byte has been handed over
+        if count == 0 || stream.cr().read().bits() & link::EN != 0 {
+            return 0;
+        }
+        // SAFETY: the stream stands, so that nobody else reads the buffer, which is at least `count` long; `bytes` is
+        // not in it.
+        unsafe { core::ptr::copy_nonoverlapping(bytes.as_ptr(), OUTWARD.start(), count) };
+        // the bytes are in memory before the stream runs
+        compiler_fence(Ordering::SeqCst);
+        asm::dsb();
+        // SAFETY: the stream's flags are cleared before it runs again, as the manual asks; count and addresses fit the
+        // buffer.
+        unsafe {
+            self.dma.lifcr().write(|w| w.bits(link::OUT_CLEAR));
+            stream.ndtr().write(|w| w.bits(count as u32));
+            stream.cr().write(|w| w.bits(link::OUT_CR | link::EN));
+        }
+        count
+    }
+
+    /// Takes the bytes that have come; how many.
+    pub fn receive(&mut self, into: &mut [u8]) -> usize {
+        let left = self.dma.st(link::IN_STREAM).ndtr().read().bits() as usize;
+        let count = link::waiting(IN, self.read, left).min(into.len());
+        for place in into.iter_mut().take(count) {
+            // SAFETY: `read` stays below the buffer's length. The DMA may write other bytes of it meanwhile, not this
+            // one, unless the reader is a whole circle late, and then it is only a wrong byte, which the frame's CRC
+            // finds; volatile, so no value is assumed.
+            *place = unsafe { INWARD.start().add(self.read).read_volatile() };
+            self.read = (self.read + 1) % IN;
+        }
+        count
+    }
+}

@@ -1,0 +1,17 @@
+//! # Drivers: the parts around the chip, over the traits of `embedded-hal`
+//!
+//! Nothing here knows a pin or a register, so all of it runs on the host too (`firmware/tests/drivers.rs`).
+//!
+//! | part | is |
+//! |---|---|
+//! | [`gate`] | a gate driver: three PWM inputs and an enable |
+//! | [`halls`] | three hall lines |
+//! | [`fault`] | the fault line that all gate drivers share |
+//! | [`store`] | the parameter block in two flash slots |
+//! | [`roll`] | who has to be alive before the watchdog is fed |
+
+pub mod fault;
+pub mod gate;
+pub mod halls;
+pub mod roll;
+pub mod store;

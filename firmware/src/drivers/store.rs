@@ -1,0 +1,157 @@
+//! # Store: the parameter block in two flash slots, so that a power loss never loses the old one
+//!
+//! A slot is a flash region that is erased at once. It begins with 16 bytes, the block follows:
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 0..4 | `SLOT` |
+//! | 4..8 | sequence number: of two good slots the later counts |
+//! | 8..12 | length of the block |
+//! | 12..16 | CRC-32 of sequence, length and block |
+//!
+//! Keeping a block erases the slot that is not in force, writes the block, and the head last. Until the head's last
+//! byte is written the CRC is wrong and the old slot stays in force; from then on the new one is. Bytes that do not
+//! read back as written are refused, and the old slot stays in force then too.
+
+use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};
+
+/// Bytes before the block.
+pub const HEAD: usize = 16;
+/// The longest block [bytes].
+pub const LONGEST: usize = 1024;
+
+const MAGIC: [u8; 4] = *b"SLOT";
+
+/// A region of the flash that is erased at once, as offsets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Slot {
+    /// First byte
+    pub from: u32,
+    /// Byte after the last
+    pub to: u32,
+}
+
+/// A block that was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kept {
+    /// Which of the two slots
+    pub slot: usize,
+    /// Offset of the block in the flash
+    pub at: u32,
+    /// Its length [bytes]
+    pub len: usize,
+    /// Its sequence number
+    pub sequence: u32,
+}
+
+/// Why a block was not kept; the old one still is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotKept {
+    /// Longer than [`LONGEST`] or than the slot
+    TooLong,
+    /// The flash refused
+    Flash,
+    /// What was written does not read back
+    Unread,
+}
+
+/// The block in force, if there is one.
+pub fn find<F: ReadNorFlash>(flash: &mut F, slots: &[Slot; 2]) -> Option<Kept> {
+    let [first, second] = [look(flash, slots, 0), look(flash, slots, 1)];
+    match (first, second) {
+        // the sequence wraps: of two neighbours the one ahead
+        (Some(a), Some(b)) => Some(if (b.sequence.wrapping_sub(a.sequence) as i32) > 0 { b } else { a }),
+        (a, b) => a.or(b),
+    }
+}
+
+/// Keeps a block, which is in force when this returns `Ok`. Takes as long as erasing takes.
+pub fn keep<F: NorFlash>(flash: &mut F, slots: &[Slot; 2], block: &[u8]) -> Result<Kept, NotKept> {
+    const { assert!(HEAD.is_multiple_of(F::WRITE_SIZE), "the head is written in whole words of the flash") }
+    let old = find(flash, slots);
+    let (index, sequence) = old.map_or((0, 0), |old| (1 - old.slot, old.sequence.wrapping_add(1)));
+    let slot = slots.get(index).copied().ok_or(NotKept::Flash)?;
+    if block.len() > LONGEST || (HEAD + LONGEST) as u32 > slot.to - slot.from {
+        return Err(NotKept::TooLong);
+    }
+    flash.erase(slot.from, slot.to).map_err(|_| NotKept::Flash)?;
+
+    let body = slot.from + HEAD as u32;
+    let whole = block.len() - block.len() % F::WRITE_SIZE;
+    let (words, rest) = block.split_at(whole);
+    flash.write(body, words).map_err(|_| NotKept::Flash)?;
+    if !rest.is_empty() {
+        // the last word is filled up with what erased flash holds
+        let mut word = [0xFF_u8; HEAD];
+        word.iter_mut().zip(rest).for_each(|(to, from)| *to = *from);
+        let word = word.get(..F::WRITE_SIZE).ok_or(NotKept::Flash)?;
+        flash.write(body + whole as u32, word).map_err(|_| NotKept::Flash)?;
+    }
+
+    let mut head = [0; HEAD];
+    let crc = Crc::new().with(&sequence.to_le_bytes()).with(&(block.len() as u32).to_le_bytes()).with(block).value();
+    let fields = [MAGIC, sequence.to_le_bytes(), (block.len() as u32).to_le_bytes(), crc.to_le_bytes()];
+    head.iter_mut().zip(fields.as_flattened()).for_each(|(to, from)| *to = *from);
+    flash.write(slot.from, &head).map_err(|_| NotKept::Flash)?;
+
+    match look(flash, slots, index) {
+        Some(kept) if kept.sequence == sequence && kept.len == block.len() => Ok(kept),
+        _ => Err(NotKept::Unread),
+    }
+}
+
+/// What a slot holds, if it is good.
+fn look<F: ReadNorFlash>(flash: &mut F, slots: &[Slot; 2], index: usize) -> Option<Kept> {
+    let slot = slots.get(index)?;
+    let mut head = [0; HEAD];
+    flash.read(slot.from, &mut head).ok()?;
+    let [magic, sequence, len, crc] = words(&head);
+    let len = len as usize;
+    if magic != u32::from_le_bytes(MAGIC) || len > LONGEST || (HEAD + len) as u32 > slot.to - slot.from {
+        return None;
+    }
+    let at = slot.from + HEAD as u32;
+    let mut sum = Crc::new().with(&sequence.to_le_bytes()).with(&(len as u32).to_le_bytes());
+    let mut chunk = [0; HEAD];
+    let mut done = 0;
+    while done < len {
+        let part = chunk.get_mut(..(len - done).min(HEAD))?;
+        flash.read(at + done as u32, part).ok()?;
+        sum = sum.with(part);
+        done += part.len();
+    }
+    (sum.value() == crc).then_some(Kept { slot: index, at, len, sequence })
+}
+
+/// The four words of a head.
+fn words(head: &[u8; HEAD]) -> [u32; 4] {
+    let mut words = [0; 4];
+    for (word, bytes) in words.iter_mut().zip(head.as_chunks::<4>().0) {
+        *word = u32::from_le_bytes(*bytes);
+    }
+    words
+}
+
+/// CRC-32 (IEEE 802.3: reflected, 0xEDB88320), bit by bit: it runs twice a start, not in the loop.
+struct Crc(u32);
+
+impl Crc {
+    fn new() -> Self {
+        Self(!0)
+    }
+
+    fn with(self, bytes: &[u8]) -> Self {
+        let mut crc = self.0;
+        for byte in bytes {
+            crc ^= u32::from(*byte);
+            for _ in 0..8 {
+                crc = if crc & 1 == 1 { (crc >> 1) ^ 0xEDB8_8320 } else { crc >> 1 };
+            }
+        }
+        Self(crc)
+    }
+
+    fn value(self) -> u32 {
+        !self.0
+    }
+}

@@ -1,0 +1,349 @@
+//! What the board writes into its registers: read back with field positions that stand here on their own, from RM0090, and
+//! kept as a table that a person can judge (`golden/registers.md`; `BLESS=1` writes it anew).
+
+mod fields;
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::path::Path;
+
+use fields::*;
+use firmware::codes::MOTORS;
+use firmware::registers::pins::{Job, PINS, Pin, RANKS};
+use firmware::registers::{adc, dog, link, timers, timing};
+
+/// Every register that the board sets, with its fields.
+fn settings() -> Vec<(String, u32, &'static [Field])> {
+    let mut all: Vec<(String, u32, &'static [Field])> = vec![("ADC common CCR".into(), adc::CCR, ADC_CCR)];
+    for (converter, (cr1, jsqr)) in adc::CR1.into_iter().zip(adc::JSQR).enumerate() {
+        let name = |register: &str| format!("ADC{} {register}", converter + 1);
+        all.push((name("CR1"), cr1, ADC_CR1));
+        all.push((name("CR2, asleep"), adc::CR2_ASLEEP, ADC_CR2));
+        all.push((name("JSQR"), jsqr, ADC_JSQR));
+        all.push((name("SMPR1"), adc::SMPR1, ADC_SMPR1));
+        all.push((name("SMPR2"), adc::SMPR2, ADC_SMPR2));
+    }
+    let rest: [(&str, u32, &[Field]); 38] = [
+        ("ADC1 SQR1", adc::SQR1, ADC_SQR1),
+        ("ADC1 SQR3", adc::SQR3, ADC_SQR3),
+        ("ADC1 CR2, started", adc::CR2_TRIGGERED, ADC_CR2),
+        ("ADC1 CR2, the supply", adc::CR2_TRIGGERED | adc::SWSTART, ADC_CR2),
+        ("ADC1 SR, the group is over", adc::JEOC, ADC_SR),
+        ("ADC1 SR, the supply is there", adc::EOC, ADC_SR),
+        ("ADC1 SR, ones that leave", adc::SR_SEEN, ADC_SR),
+        ("TIM1 TIM8 TIM3 TIM4 CR1", timers::CR1, TIM_CR1),
+        ("TIM1 CR1, started", timers::CR1 | timers::CEN, TIM_CR1),
+        ("TIM1 CR2", timers::CR2_TIM1, TIM_CR2),
+        ("TIM8 TIM3 TIM4 SMCR", timers::SMCR_WAITS, TIM_SMCR),
+        ("TIM1 TIM8 TIM3 TIM4 CCMR1", timers::CCMR1, TIM_CCMR1),
+        ("TIM1 CCMR2", timers::CCMR2_TIM1, TIM_CCMR2),
+        ("TIM8 TIM3 TIM4 CCMR2", timers::CCMR2, TIM_CCMR2),
+        ("TIM1 TIM8 TIM3 TIM4 CCER", timers::CCER, TIM_CCER),
+        ("TIM1 TIM8 BDTR, asleep", timers::BDTR_ASLEEP, TIM_BDTR),
+        ("TIM1 TIM8 BDTR, started", timers::BDTR_STARTED, TIM_BDTR),
+        ("TIM8 DIER", timers::DIER_TIM8, TIM_DIER),
+        ("TIM1 CCR4, the trigger", timers::CCR4_TIM1, COUNT),
+        ("TIM8 CCR4, the latch", timers::CCR4_TIM8, COUNT),
+        ("TIM1 ARR", u32::from(timing::TOPS[0]), COUNT),
+        ("TIM8 ARR", u32::from(timing::TOPS[1]), COUNT),
+        ("TIM3 ARR", u32::from(timing::TOPS[2]), COUNT),
+        ("TIM4 ARR", u32::from(timing::TOPS[3]), COUNT),
+        ("TIM1 CNT, at the start", u32::from(timing::START[0]), COUNT),
+        ("TIM8 CNT, at the start", u32::from(timing::START[1]), COUNT),
+        ("TIM3 CNT, at the start", u32::from(timing::START[2]), COUNT),
+        ("TIM4 CNT, at the start", u32::from(timing::START[3]), COUNT),
+        ("USART3 BRR", u32::from(link::BRR), USART_BRR),
+        ("USART3 CR1", u32::from(link::CR1), USART_CR1),
+        ("USART3 CR3", u32::from(link::CR3), USART_CR3),
+        ("DMA1 stream 1 CR, in", link::IN_CR, DMA_CR),
+        ("DMA1 stream 3 CR, out", link::OUT_CR, DMA_CR),
+        ("DMA1 LIFCR", link::OUT_CLEAR, DMA_LIFCR),
+        ("IWDG PR", u32::from(dog::PR), IWDG_PR),
+        ("IWDG RLR", u32::from(dog::RLR), IWDG_RLR),
+        ("IWDG PR, while erasing", u32::from(dog::PR_LONG), IWDG_PR),
+        ("IWDG RLR, while erasing", u32::from(dog::RLR_LONG), IWDG_RLR),
+    ];
+    all.extend(rest.into_iter().map(|(name, value, fields)| (name.to_string(), value, fields)));
+    all
+}
+
+/// The value of a field.
+fn field(value: u32, fields: &[Field], name: &str) -> u32 {
+    let (_, lowest, bits, _) = fields.iter().find(|field| field.0 == name).expect("a field of this name");
+    (value >> lowest) & ((1 << bits) - 1)
+}
+
+/// The fields that a value sets, and those whose zero has a name.
+fn words(value: u32, fields: &[Field]) -> String {
+    let mut words = Vec::new();
+    for &(name, lowest, bits, names) in fields {
+        let is = (value >> lowest) & ((1 << bits) - 1);
+        match names.iter().find(|(code, _)| *code == is) {
+            Some((_, called)) => words.push(format!("{name} = {is} ({called})")),
+            None if is != 0 => words.push(format!("{name} = {is}")),
+            None => {}
+        }
+    }
+    words.join(", ")
+}
+
+fn us(core_cycles: u32) -> f64 {
+    f64::from(core_cycles) / f64::from(timing::CORE_HZ) * 1e6
+}
+
+fn page() -> String {
+    let mut page = String::from(
+        "# Registers of the STM32F405 as the board sets them\n\nWritten by `BLESS=1 cargo test -p firmware --test registers`. \
+         The words come from field positions that the test states on its own,\nfrom RM0090; fields that are zero and have no \
+         name for it are left out.\n\n| register | value | says |\n|---|---|---|\n",
+    );
+    for (name, value, fields) in settings() {
+        writeln!(page, "| {name} | `0x{value:08X}` | {} |", words(value, fields)).unwrap();
+    }
+    page += "\n## Ranks\n\nEach row is one instant: three pins, three converters.\n\n| rank | ADC1 | ADC2 | ADC3 | held after TIM1's \
+             top |\n|---|---|---|---|---|\n";
+    for (motor, pins) in RANKS.iter().enumerate() {
+        let [a, b, c] = pins.map(|pin| format!("P{}{}", pin.port, pin.number));
+        writeln!(page, "| motor {motor} | {a} | {b} | {c} | {:.3} µs |", us(motor as u32 * timing::RANK)).unwrap();
+    }
+    page += "\n## Times of one period\n\nCounted from TIM1's top.\n\n| what | core cycles | µs |\n|---|---|---|\n";
+    let end = timing::TRIGGER_TO_END - timing::TRIGGER_TO_HOLD;
+    for (what, cycles) in [
+        ("converters' interrupt", end),
+        ("TIM1's bottom", timing::PERIOD / 2),
+        ("TIM4's bottom", timing::PERIOD / 2 + 3 * timing::RANK),
+        ("latch of the compare counts", timing::PERIOD - timing::LATCH_BEFORE_TOP),
+        ("next trigger", timing::PERIOD - timing::TRIGGER_TO_HOLD),
+        ("next top", timing::PERIOD),
+    ] {
+        writeln!(page, "| {what} | {cycles} | {:.2} |", us(cycles)).unwrap();
+    }
+    writeln!(page, "\nA turn of the currents may take {} cycles ({:.1} µs).", timing::TURN, us(timing::TURN)).unwrap();
+    writeln!(page, "The largest duty is {:.4}.", timing::MAX_DUTY).unwrap();
+    page
+}
+
+#[test]
+fn registers_are_as_recorded() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/registers.md");
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(&path, page()).unwrap();
+    }
+    let golden = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(page(), golden, "the registers have changed: judge them, then BLESS=1");
+}
+
+#[test]
+fn no_register_sets_a_bit_without_a_field() {
+    for (name, value, fields) in settings() {
+        let known = fields.iter().fold(0_u32, |mask, (_, lowest, bits, _)| mask | (((1 << bits) - 1) << lowest));
+        assert_eq!(value & !known, 0, "{name}");
+    }
+}
+
+#[test]
+fn only_the_master_converter_has_a_trigger_and_an_interrupt() {
+    assert_eq!(field(adc::CR2_TRIGGERED, ADC_CR2, "JEXTEN"), 1);
+    assert_eq!(field(adc::CR2_TRIGGERED, ADC_CR2, "JEXTSEL"), 1, "TIM1_TRGO");
+    assert_eq!(field(adc::CR2_ASLEEP, ADC_CR2, "JEXTEN"), 0, "which the slaves keep");
+    assert_eq!(adc::CR1.map(|cr1| field(cr1, ADC_CR1, "JEOCIE")), [1, 0, 0]);
+    assert_eq!(field(adc::CCR, ADC_CCR, "MULTI"), 0b10101);
+}
+
+#[test]
+fn every_rank_reads_three_pins_that_its_converters_reach() {
+    // RM0090 / DS8626: PA0-3 and PC0-3 reach all converters; PA4-7, PB0-1, PC4-5 the first two
+    let reaches = |converter: usize, pin: Pin| match (pin.port, pin.number) {
+        ('A' | 'C', 0..=3) => true,
+        ('A', 4..=7) | ('B', 0..=1) | ('C', 4..=5) => converter < 2,
+        _ => false,
+    };
+    let channels = |pin: Pin| match pin.port {
+        'A' => u32::from(pin.number),
+        'B' => 8 + u32::from(pin.number),
+        _ => 10 + u32::from(pin.number),
+    };
+    let mut seen = BTreeSet::new();
+    for (rank, pins) in RANKS.iter().enumerate() {
+        let at_once: BTreeSet<_> = pins.iter().map(|pin| (pin.port, pin.number)).collect();
+        assert_eq!(at_once.len(), 3, "rank {rank} samples a pin twice at the same time");
+        for (converter, pin) in pins.iter().enumerate() {
+            assert!(reaches(converter, *pin), "ADC{} cannot reach P{}{}", converter + 1, pin.port, pin.number);
+            assert!(seen.insert((pin.port, pin.number)), "P{}{} is sampled twice", pin.port, pin.number);
+            let rank_field = ["JSQ1", "JSQ2", "JSQ3", "JSQ4"][rank];
+            assert_eq!(field(adc::JSQR[converter], ADC_JSQR, rank_field), channels(*pin));
+            let expected = format!("ADC{}_IN{}", converter + 1, channels(*pin));
+            assert_eq!(pin.inside, expected, "what the list of pins says");
+        }
+    }
+    assert_eq!(seen.len(), 12);
+    assert!(adc::JSQR.iter().all(|jsqr| field(*jsqr, ADC_JSQR, "JL") == 3));
+}
+
+#[test]
+fn every_pin_is_used_once_and_every_job_is_done() {
+    let places: BTreeSet<_> = PINS.iter().map(|pin| (pin.port, pin.number)).collect();
+    let leads: BTreeSet<_> = PINS.iter().map(|pin| pin.lead).collect();
+    assert_eq!((places.len(), leads.len()), (PINS.len(), PINS.len()));
+    let count = |of: fn(&Job) -> bool| PINS.iter().filter(|pin| of(&pin.job)).count();
+    assert_eq!(count(|job| matches!(job, Job::Phase { .. })), 3 * MOTORS);
+    assert_eq!(count(|job| matches!(job, Job::Current { .. })), 3 * MOTORS);
+    assert_eq!(count(|job| matches!(job, Job::Hall { .. })), 3 * MOTORS);
+    assert_eq!(count(|job| matches!(job, Job::Enable { .. })), MOTORS);
+    let jobs: BTreeSet<_> = PINS.iter().map(|pin| format!("{:?}", pin.job)).collect();
+    assert_eq!(jobs.len(), PINS.len(), "no job is done twice");
+}
+
+#[test]
+fn the_board_takes_every_pin_of_the_list_and_no_other() {
+    let source =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/board/f405/parts.rs")).unwrap();
+    let mut taken = BTreeSet::new();
+    for (port, letter) in [("gpioa.", 'A'), ("gpiob.", 'B'), ("gpioc.", 'C'), ("gpiod.", 'D')] {
+        for (at, _) in source.match_indices(port) {
+            let name = &source[at + port.len()..];
+            if let Some(number) = name.strip_prefix(&format!("p{}", letter.to_ascii_lowercase())) {
+                let digits: String = number.chars().take_while(char::is_ascii_digit).collect();
+                assert!(taken.insert((letter, digits.parse::<u8>().unwrap())), "P{letter}{digits} is taken twice");
+            }
+        }
+    }
+    // the probe's pins stay as the reset leaves them
+    let probe = |pin: &&Pin| matches!(pin.job, Job::ProbeData | Job::ProbeClock);
+    let listed: BTreeSet<_> = PINS.iter().filter(|pin| !probe(pin)).map(|pin| (pin.port, pin.number)).collect();
+    assert_eq!(taken, listed);
+}
+
+#[test]
+fn the_page_for_the_soldering_iron_has_the_same_pins() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("HARDWARE.md");
+    let page = std::fs::read_to_string(&path).unwrap();
+    let (begin, end) = ("<!-- pins -->\n", "<!-- end of pins -->");
+    let (before, rest) = page.split_once(begin).expect("the table's begin");
+    let (table, after) = rest.split_once(end).expect("the table's end");
+    let mut sorted = PINS;
+    sorted.sort_by_key(|pin| pin.lead);
+    let mut should = String::from("| lead | pin | inside | does |\n|---|---|---|---|\n");
+    for pin in sorted {
+        writeln!(should, "| {} | P{}{} | {} | {} |", pin.lead, pin.port, pin.number, pin.inside, does(pin.job))
+            .unwrap();
+    }
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(&path, format!("{before}{begin}{should}{end}{after}")).unwrap();
+    } else {
+        assert_eq!(table, should, "the pins have changed: judge them, then BLESS=1");
+    }
+    let duty = format!("{:.3}", timing::MAX_DUTY);
+    assert!(page.contains(&duty), "HARDWARE.md should state the largest duty, {duty}");
+}
+
+fn does(job: Job) -> String {
+    let letter = |index: usize| ["a", "b", "c"][index];
+    match job {
+        Job::Phase { motor, phase } => format!("motor {motor}: PWM of phase {}", letter(phase)),
+        Job::Current { motor, phase } => format!("motor {motor}: current of phase {}", letter(phase)),
+        Job::Hall { motor, line } => format!("motor {motor}: hall line {}", letter(line)),
+        Job::Enable { motor } => format!("motor {motor}: enable of the gate driver"),
+        Job::Fault => "fault line of all gate drivers, low is a fault".into(),
+        Job::Bus => "supply, divided".into(),
+        Job::LinkOut => "link, robot to host".into(),
+        Job::LinkIn => "link, host to robot".into(),
+        Job::ProbeData => "probe, data".into(),
+        Job::ProbeClock => "probe, clock".into(),
+    }
+}
+
+/// Where a timer's count is, core cycles after the slaves' start, and whether it goes up.
+fn count(motor: usize, after: u32) -> (u32, bool) {
+    let top = u32::from(timing::TOPS[motor]);
+    let begin = if motor == 0 { u32::from(timing::TRIGGER) } else { u32::from(timing::START[motor]) };
+    let at = (begin + after / (timing::CORE_HZ / timing::TIMER_HZ[motor])) % (2 * top);
+    if at <= top { (at, true) } else { (2 * top - at, false) }
+}
+
+#[test]
+fn every_motor_is_at_its_top_when_its_rank_holds_its_sample() {
+    for motor in 0..MOTORS {
+        // 3 cycles to wake, 27 for each rank before, 15 of sampling, at 21 MHz
+        let hold = (3 + 27 * motor as u32 + 15) * 8;
+        for period in 0..3 {
+            let (at, _) = count(motor, hold + period * 8400);
+            assert_eq!(at, u32::from(timing::TOPS[motor]), "motor {motor}");
+        }
+    }
+}
+
+#[test]
+fn every_timer_is_on_its_way_up_when_the_compare_counts_are_latched() {
+    // so that the next update event is the top, for all of them
+    let latch = timing::PERIOD - timing::LATCH_BEFORE_TOP + timing::TRIGGER_TO_HOLD;
+    // and half a microsecond later, when the last one is written
+    for after in [latch, latch + 84] {
+        for motor in 0..MOTORS {
+            assert!(count(motor, after).1, "motor {motor}");
+        }
+    }
+    assert_eq!(count(1, latch).0, u32::from(timing::LATCH));
+    assert_eq!(latch + 420, 8400 + 144, "2.5 µs before TIM1's top");
+}
+
+#[test]
+fn at_the_largest_duty_a_low_side_conducts_long_enough_before_its_sample() {
+    for top in timing::TOPS {
+        let compare = timing::compare(timing::MAX_DUTY, top);
+        let low = f64::from(top - compare) / f64::from(top) * 25.0e-6;
+        // 1.43 µs to settle and 15 cycles of sampling; one count of rounding
+        assert!((low - (240.0 / 168e6 + 15.0 / 21e6)).abs() < 1.0 / 84e6, "{low}");
+    }
+}
+
+#[test]
+fn the_supply_is_converted_long_before_the_next_group() {
+    let regular = (adc::BUS_SAMPLE_CYCLES + timing::CONVERT_CYCLES) * 8;
+    assert!(timing::TRIGGER_TO_END + regular < timing::PERIOD / 2);
+}
+
+#[test]
+fn duties_become_counts() {
+    let cases =
+        [(0.0, 0), (1.0, 4200), (0.5, 2100), (-0.1, 0), (1.1, 4200), (f32::NAN, 0), (f32::INFINITY, 4200), (1e-4, 0)];
+    for (duty, count) in cases {
+        assert_eq!(timing::compare(duty, 4200), count, "{duty}");
+    }
+}
+
+#[test]
+fn the_emulated_board_has_the_same_tops() {
+    assert_eq!(timing::TOPS, firmware::exchange::TOPS);
+}
+
+#[test]
+fn the_baud_rate_is_exact() {
+    assert_eq!(timing::APB1_HZ % link::BAUD, 0);
+    assert_eq!(timing::APB1_HZ / u32::from(link::BRR), link::BAUD);
+    // RM0090, USART: USARTDIV = mantissa + fraction / 16; baud = clock / (16 · USARTDIV)
+    assert_eq!(
+        (field(link::BRR.into(), USART_BRR, "DIV_Mantissa"), field(link::BRR.into(), USART_BRR, "DIV_Fraction")),
+        (1, 5)
+    );
+}
+
+#[test]
+fn the_dog_bites_after_ten_to_thirty_milliseconds() {
+    // DS8626, LSI oscillator: 17 to 47 kHz
+    let [fast, typical, slow] = [47_000, 32_000, 17_000].map(|hz| dog::bites_after(dog::PR, dog::RLR, hz));
+    assert!(fast > 10_000 && slow < 31_000, "{fast} {slow}");
+    assert_eq!(typical, 16_000);
+    // DS8626, flash programming: a sector of 128 KiB takes 4 s at most, byte by byte
+    assert!(dog::bites_after(dog::PR_LONG, dog::RLR_LONG, 47_000) > 8_000_000);
+}
+
+#[test]
+fn what_waits_in_the_circle_is_counted() {
+    // the stream counts down from its size and begins anew
+    assert_eq!(link::waiting(8, 0, 8), 0);
+    assert_eq!(link::waiting(8, 0, 5), 3);
+    assert_eq!(link::waiting(8, 6, 7), 3);
+    assert_eq!(link::waiting(8, 7, 8), 1);
+    assert_eq!(link::waiting(8, 3, 5), 0);
+}
