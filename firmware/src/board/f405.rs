@@ -31,6 +31,9 @@ mod wire;
 use cortex_m::peripheral::DWT;
 use defmt_rtt as _;
 use panic_probe as _;
+use stm32f4xx_hal::pac;
+
+use crate::registers::timing;
 
 pub use bridges::Bridges;
 pub use check::{Reading, counters, pending, readings};
@@ -39,18 +42,28 @@ pub use parts::{HSE_HZ, Parts, take};
 pub use wire::Wire;
 
 /// What [`cycles`] counts in one period.
-pub const CYCLES_PER_PERIOD: u32 = crate::registers::timing::PERIOD;
+pub const CYCLES_PER_PERIOD: u32 = timing::PERIOD;
 
-/// Processor cycles, free-running.
+/// Processor cycles since the beginning of the period, which is TIM1's top.
 #[inline]
 pub fn cycles() -> u32 {
-    DWT::cycle_count()
+    // SAFETY: both registers are only read. Between the two readings the count may turn, which is an error of a few
+    // cycles.
+    let (cr1, count) = unsafe { ((*pac::TIM1::PTR).cr1().read(), (*pac::TIM1::PTR).cnt().read().bits()) };
+    timing::since_top(count, cr1.dir().is_down())
 }
 
-/// Processor cycles since [`cycles`] said `then`.
+/// Processor cycles since [`cycles`] said `then`, for anything that takes less than a period.
 #[inline]
 pub fn elapsed(then: u32) -> u32 {
-    cycles().wrapping_sub(then)
+    let now = cycles();
+    if now >= then { now - then } else { now + CYCLES_PER_PERIOD - then }
+}
+
+/// Processor cycles, free-running: the core's own counter.
+#[inline]
+pub fn ticks() -> u32 {
+    DWT::cycle_count()
 }
 
 /// Idle instructions that a test asked for: none on a board.

@@ -22,7 +22,8 @@
 //! drives from any sense amplifier through its filter resistor, so it is 15.
 //!
 //! A low side must have conducted for [`SETTLE`] before sampling begins: dead time and propagation of the driver, and
-//! the sense amplifier's settling. What that leaves is [`MAX_DUTY`] = 0.914; without the timers' offsets the last
+//! the sense amplifier's settling. What that leaves is [`MAX_DUTY`] = 0.914, or 0.829 of the
+//! supply ([`MAX_SHARE`]); without the timers' offsets the last
 //! motor's share would be 0.76.
 //!
 //! Neglects: that another motor switches while this one is sampled. For motors n ranks apart that happens at a duty of
@@ -31,6 +32,7 @@
 //! The tops are those of the timers, the latch is the moment at which the compare registers are written (`board/f405`).
 
 use crate::codes::{MOTORS, PERIODS_PER_SECOND};
+pub use crate::exchange::compare;
 
 /// Clock of the core, of TIM1 and of TIM8 [Hz].
 pub const CORE_HZ: u32 = 168_000_000;
@@ -94,6 +96,18 @@ pub const SETTLE: u32 = 240;
 pub const LOW_BEFORE_TOP: u32 = SETTLE + SAMPLE_CYCLES * ADC_CYCLE;
 /// The largest duty that leaves room to measure [1].
 pub const MAX_DUTY: f32 = (TOPS[0] as u32 - LOW_BEFORE_TOP) as f32 / TOPS[0] as f32;
+/// The same as a share of the supply [1], for duties that swing by half of it to either side of ½.
+pub const MAX_SHARE: f32 = 2.0 * MAX_DUTY - 1.0;
+
+/// Core cycles from the top to the converters' interrupt.
+pub const TOP_TO_END: u32 = TRIGGER_TO_END - TRIGGER_TO_HOLD;
+
+/// Core cycles since TIM1's top, from its count and whether it goes down.
+#[inline]
+pub const fn since_top(count: u32, down: bool) -> u32 {
+    let top = TOPS[0] as u32;
+    (if down { top.saturating_sub(count) } else { top + count }) % PERIOD
+}
 
 /// Core cycles before TIM1's top at which the new compare counts are latched. Every timer has then passed its bottom
 /// and takes them at its top, where its next period begins.
@@ -101,16 +115,9 @@ pub const LATCH_BEFORE_TOP: u32 = 420;
 /// TIM8's count, going up, at which they are latched.
 pub const LATCH: u16 = TOPS[1] - (LATCH_BEFORE_TOP + RANK) as u16;
 /// Core cycles from the converters' interrupt to the latch: what a turn of the currents may take.
-pub const TURN: u32 = PERIOD - LATCH_BEFORE_TOP - (TRIGGER_TO_END - TRIGGER_TO_HOLD);
+pub const TURN: u32 = PERIOD - LATCH_BEFORE_TOP - TOP_TO_END;
 
 // The last timer is past its bottom when the latch comes, and the latch comes after the interrupt.
 const _: () = assert!(PERIOD / 2 + (MOTORS as u32 - 1) * RANK < PERIOD - LATCH_BEFORE_TOP);
 // The timers' ranks are whole counts.
 const _: () = assert!(RANK.is_multiple_of(CORE_HZ / TIMER_HZ[2]) && (TRIGGER as u32).is_multiple_of(2));
-
-/// Compare count of a duty [1]: rounded to the nearest count, held to the timer's range; not a number counts as zero.
-#[inline]
-pub fn compare(duty: f32, top: u16) -> u16 {
-    // the conversion saturates
-    ((duty * f32::from(top) + 0.5) as u16).min(top)
-}

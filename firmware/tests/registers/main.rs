@@ -313,6 +313,21 @@ fn duties_become_counts() {
 }
 
 #[test]
+fn the_place_in_the_period_follows_from_the_count_and_its_direction() {
+    let cases = [
+        ((4200, true), 0),
+        ((4200, false), 0),
+        ((3456, true), 744),
+        ((0, true), 4200),
+        ((0, false), 4200),
+        ((4199, false), 8399),
+    ];
+    for ((count, down), cycles) in cases {
+        assert_eq!(timing::since_top(count, down), cycles, "{count} {down}");
+    }
+}
+
+#[test]
 fn the_emulated_board_has_the_same_tops() {
     assert_eq!(timing::TOPS, firmware::exchange::TOPS);
 }

@@ -167,6 +167,12 @@ impl Bridges {
         WHOLE.store(true, Ordering::Relaxed);
     }
 
+    /// Processor cycles since the codes of this period were there.
+    #[inline]
+    pub fn spent(&self) -> u32 {
+        super::elapsed(timing::TOP_TO_END)
+    }
+
     /// True if the next period has begun before this turn was over.
     #[inline]
     pub fn is_late(&self) -> bool {

@@ -1,7 +1,7 @@
 //! # Wire: USART3 and its two DMA streams
 //!
-//! What comes in goes round a circle, read up to where the DMA is. What goes out is copied into a buffer and sent at
-//! one go; while that is on its way there is no room for more.
+//! What comes in goes round a circle, read up to where the DMA is. What goes out has two buffers: one is on its way
+//! while the other is filled, and they change places whenever the link is asked for something and the first is through.
 
 use core::cell::UnsafeCell;
 use core::sync::atomic::{Ordering, compiler_fence};
@@ -17,7 +17,7 @@ const IN: usize = 1024;
 const OUT: usize = 512;
 
 static INWARD: Buffer<IN> = Buffer(UnsafeCell::new([0; IN]));
-static OUTWARD: Buffer<OUT> = Buffer(UnsafeCell::new([0; OUT]));
+static OUTWARD: [Buffer<OUT>; 2] = [const { Buffer(UnsafeCell::new([0; OUT])) }; 2];
 
 /// Memory that the DMA reads or writes, in the RAM that it reaches (not the core-coupled one).
 struct Buffer<const N: usize>(UnsafeCell<[u8; N]>);
@@ -36,6 +36,11 @@ pub struct Wire {
     dma: pac::DMA1,
     /// Where reading goes on
     read: usize,
+    /// The outward buffer that is filled; the other one may be on its way
+    filling: &'static Buffer<OUT>,
+    other: &'static Buffer<OUT>,
+    /// Bytes in it
+    filled: usize,
 }
 
 impl Wire {
@@ -44,47 +49,57 @@ impl Wire {
         let data = usart.dr().as_ptr() as u32;
         let (inward, outward) = (dma.st(link::IN_STREAM), dma.st(link::OUT_STREAM));
         // SAFETY: the values are those of `registers`, whose test reads them back. The streams stand; their addresses
-        // are USART3's data register and buffers that live for ever and are as long as the counts say.
+        // are USART3's data register and a buffer that lives for ever and is as long as the count says.
         unsafe {
             usart.brr().write(|w| w.bits(link::BRR));
             usart.cr3().write(|w| w.bits(link::CR3));
             usart.cr1().write(|w| w.bits(link::CR1));
             outward.par().write(|w| w.bits(data));
-            outward.m0ar().write(|w| w.bits(OUTWARD.start() as u32));
             inward.par().write(|w| w.bits(data));
             inward.m0ar().write(|w| w.bits(INWARD.start() as u32));
             inward.ndtr().write(|w| w.bits(IN as u32));
             inward.cr().write(|w| w.bits(link::IN_CR | link::EN));
         }
-        Self { dma, read: 0 }
+        let [filling, other] = &OUTWARD;
+        Self { dma, read: 0, filling, other, filled: 0 }
     }
 
     /// Hands bytes to the link; how many it had room for.
     pub fn send(&mut self, bytes: &[u8]) -> usize {
+        let count = bytes.len().min(OUT - self.filled);
+        // SAFETY: only the other buffer can be on its way, so that nobody else reads this one, which has room for
+        // `count` more bytes; `bytes` is not in it.
+        unsafe { core::ptr::copy_nonoverlapping(bytes.as_ptr(), self.filling.start().add(self.filled), count) };
+        self.filled += count;
+        self.go_on();
+        count
+    }
+
+    /// Sends what has been filled, if the buffer before it is through.
+    fn go_on(&mut self) {
         let stream = self.dma.st(link::OUT_STREAM);
-        let count = bytes.len().min(OUT);
         // the stream clears its own enable when the last byte has been handed over
-        if count == 0 || stream.cr().read().bits() & link::EN != 0 {
-            return 0;
+        if self.filled == 0 || stream.cr().read().bits() & link::EN != 0 {
+            return;
         }
-        // SAFETY: the stream stands, so that nobody else reads the buffer, which is at least `count` long; `bytes` is
-        // not in it.
-        unsafe { core::ptr::copy_nonoverlapping(bytes.as_ptr(), OUTWARD.start(), count) };
         // the bytes are in memory before the stream runs
         compiler_fence(Ordering::SeqCst);
         asm::dsb();
-        // SAFETY: the stream's flags are cleared before it runs again, as the manual asks; count and addresses fit the
-        // buffer.
+        // SAFETY: the stream stands, and its flags are cleared before it runs again, as the manual asks; address and
+        // count are those of the filled buffer, which is not touched until the stream stands again.
         unsafe {
             self.dma.lifcr().write(|w| w.bits(link::OUT_CLEAR));
-            stream.ndtr().write(|w| w.bits(count as u32));
+            stream.m0ar().write(|w| w.bits(self.filling.start() as u32));
+            stream.ndtr().write(|w| w.bits(self.filled as u32));
             stream.cr().write(|w| w.bits(link::OUT_CR | link::EN));
         }
-        count
+        core::mem::swap(&mut self.filling, &mut self.other);
+        self.filled = 0;
     }
 
     /// Takes the bytes that have come; how many.
     pub fn receive(&mut self, into: &mut [u8]) -> usize {
+        self.go_on();
         let left = self.dma.st(link::IN_STREAM).ndtr().read().bits() as usize;
         let count = link::waiting(IN, self.read, left).min(into.len());
         for place in into.iter_mut().take(count) {
