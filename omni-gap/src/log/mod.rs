@@ -8,6 +8,7 @@
 
 mod catalogue;
 pub mod columns;
+pub mod controller;
 mod correct;
 mod csv;
 mod edges;
@@ -22,6 +23,7 @@ mod write;
 
 pub use catalogue::{Catalogue, KnownEffect, KnownParam, nearest};
 pub use columns::Columns;
+pub use controller::ControllerFile;
 pub use correct::{Change, corrected};
 pub(crate) use edges::retimed;
 pub use robot_file::*;

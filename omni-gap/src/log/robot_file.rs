@@ -6,6 +6,7 @@
 //! [`Catalogue`]: super::Catalogue
 
 use super::catalogue::Catalogue;
+use super::controller::ControllerFile;
 use super::robot_read;
 use super::toml_walk::read_text;
 use crate::error::Result;
@@ -164,6 +165,9 @@ pub struct RobotFile {
     pub supply: Option<SupplyFile>,
     /// Limits for experiments.
     pub limits: Option<LimitsFile>,
+    /// What only the robot's controller needs to know.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub controller: Option<ControllerFile>,
     /// Effects, in the file's order.
     pub effects: Vec<EffectEntry>,
 }

@@ -1,6 +1,7 @@
 //! # From the text of a robot file to a sound [`RobotFile`]
 
 use super::catalogue::{Catalogue, nearest};
+use super::controller::controller;
 use super::robot_file::*;
 use super::toml_walk::{Section, Source};
 use crate::error::{Error, Result};
@@ -11,8 +12,20 @@ use toml_edit::{Item, TableLike};
 /// The newest form of the robot file that this program knows.
 const NEWEST_SCHEMA: usize = 1;
 
-const TOP: [&str; 11] =
-    ["schema", "name", "wheel", "motor", "body", "friction", "sensors", "uncertainty", "supply", "limits", "effects"];
+const TOP: [&str; 12] = [
+    "schema",
+    "name",
+    "wheel",
+    "motor",
+    "body",
+    "friction",
+    "sensors",
+    "uncertainty",
+    "supply",
+    "limits",
+    "controller",
+    "effects",
+];
 
 pub(super) fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
     let source = Source { path, text };
@@ -41,6 +54,7 @@ pub(super) fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<Ro
         uncertainty: section("uncertainty", "[uncertainty]")?.map_or(Ok(BTreeMap::new()), |s| uncertainty(&s))?,
         supply: section("supply", "[supply]")?.map(|s| supply(&s)).transpose()?,
         limits: section("limits", "[limits]")?.map(|s| limits(&s)).transpose()?,
+        controller: section("controller", "[controller]")?.map(|s| controller(&s)).transpose()?,
         effects: section("effects", "[effects]")?.map_or(Ok(Vec::new()), |s| effects(&s, catalogue, count))?,
     })
 }

@@ -1,3 +1,4 @@
+use super::super::ControllerFile;
 use super::super::KnownEffect;
 use super::super::KnownParam;
 use super::*;
@@ -55,6 +56,13 @@ fn the_shortest_robot_file_takes_the_defaults() {
 }
 
 #[test]
+fn the_controllers_table_takes_the_defaults_where_it_is_silent() {
+    let text = format!("{GOOD}[controller]\ncommutation = \"six_step\"\npole_pairs = 4\n");
+    let expected = ControllerFile { six_step: true, pole_pairs: 4, ..ControllerFile::default() };
+    assert_eq!((read(&text).unwrap().controller, read(GOOD).unwrap().controller), (Some(expected), None));
+}
+
+#[test]
 fn effects_are_read_in_order_as_tables_and_as_lists() {
     let text = format!(
         "{GOOD}[[effects.motor_mismatch]]\nwheel = 2\ntorque_constant_ratio = 0.88\n\
@@ -105,6 +113,16 @@ fn each_mistake_has_its_line_and_its_mend() {
         ),
         (format!("{GOOD}[effects]\ncoriolis = 1\n"), "found integer, expected a table of parameters"),
         (format!("{GOOD}[motor\n"), "robot.toml:22: this is not valid TOML"),
+        (format!("{GOOD}[controller]\nmode = \"fast\"\n"), "found `fast`, expected \"voltage\" or \"current\""),
+        (
+            format!("{GOOD}[controller]\npole_pairs = 0\n"),
+            "robot.toml:23: column `pole_pairs`: found 0, expected 1 to 50",
+        ),
+        (
+            format!("{GOOD}[controller]\ninductance_h = 1\n"),
+            "unknown key in [controller]. Did you mean `inductance_H`?",
+        ),
+        (format!("{GOOD}[controller]\nunder_voltage_V = 0\n"), "found 0, expected a number above zero"),
         (String::new(), "no [[wheel]] found"),
     ];
     for (text, expected) in mistakes {
