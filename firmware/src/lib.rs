@@ -22,6 +22,8 @@ pub mod guard;
 
 pub mod setup;
 
+pub mod motor;
+
 pub mod windings;
 
 // The motion, 1 kHz

@@ -15,6 +15,9 @@
 
 mod tasks;
 
+// a panic, which the control path cannot reach, ends in the watchdog's bite: the bridges open at the reset
+use panic_halt as _;
+
 #[rtic::app(device = firmware::board::pac, peripherals = true)]
 mod app {
     use firmware::board::{Bridges, Dog, Store, Wire};

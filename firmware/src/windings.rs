@@ -13,13 +13,13 @@
 //! A voltage decided in one period holds over the next (compare registers are loaded at the update), so the mean that a
 //! record tells covers exactly the periods from its predecessor's codes to its own.
 
-use model_core::current_loop::{CurrentMemory, CurrentSeen, CurrentWant};
+use model_core::current_loop::CurrentWant;
 use model_core::faults::{Fault, Faults};
-use model_core::halls::{HallCode, HallFault, Halls, angle_of_code};
 
 use crate::codes::{Codes, MOTORS, PERIODS_PER_TURN};
 use crate::guard::Guard;
 use crate::motion::Turn;
+use crate::motor::{Motor, Sensed};
 use crate::offsets::Offsets;
 use crate::setup::Setup;
 
@@ -78,20 +78,6 @@ pub struct Drive {
     pub duties: [[f32; 3]; MOTORS],
     /// One bit a motor: its gate driver is enabled
     pub enabled: u8,
-}
-
-/// One motor's memory.
-#[derive(Clone, Copy, Debug, Default)]
-struct Motor {
-    halls: Option<Halls>,
-    memory: CurrentMemory<f32>,
-    /// Electrical angle of this period [2⁻¹⁶ turn]
-    angle: u16,
-    current: f32,
-    /// The voltage decided last, which is on the motor now [V]
-    applied: f32,
-    /// Its sum since the last motion turn [V]
-    sum: f32,
 }
 
 /// All windings.
@@ -172,7 +158,7 @@ impl Windings {
         let per_bus = 1.0 / bus;
         for j in 0..MOTORS {
             let motor = &mut self.motors[j];
-            motor.sum += motor.applied;
+            motor.hold();
             if j >= usize::from(self.setup.wheels) {
                 continue;
             }
@@ -188,28 +174,14 @@ impl Windings {
             if self.guard.over_current(&self.setup.limits, &codes.phases[j], &offsets) {
                 self.guard.latch(Fault::OverCurrent);
             }
-            let sector = motor.sector(self.setup.six_step);
-            let angle = angle_of_code(motor.angle);
-            let ahead = motor.halls.as_ref().map_or(0.0, Halls::ahead);
-            let seen = CurrentSeen { codes: codes.phases[j], offsets, angle, ahead, bus, per_bus };
             let want = CurrentWant { current: ask.current[j], voltage: ask.voltage[j], closed: ask.closed };
-            let decided = match sector {
-                Some(sector) => self.setup.current_loop.six_step(&mut motor.memory, &seen, sector, &want),
-                None => self.setup.current_loop.field_oriented(&mut motor.memory, &seen, &want),
-            };
-            motor.current = decided.current;
-            if may & bit != 0 {
-                drive.duties[j] = decided.duties;
-                motor.applied = decided.voltage;
-            } else {
-                motor.memory = CurrentMemory::default();
-                motor.applied = 0.0;
-            }
+            let sensed = Sensed { codes: codes.phases[j], offsets, bus, per_bus };
+            drive.duties[j] = motor.decide(&self.setup, &sensed, &want, may & bit != 0);
         }
         if self.guard.faults().is_empty() {
             drive.enabled = may & !self.guard.lost();
         } else {
-            self.motors.iter_mut().for_each(|motor| motor.applied = 0.0);
+            self.motors.iter_mut().for_each(Motor::opened);
         }
         self.driven = drive.enabled;
         if self.begins_motion() {
@@ -233,11 +205,10 @@ impl Windings {
             ..Told::default()
         };
         for (j, motor) in self.motors.iter_mut().enumerate().take(usize::from(self.setup.wheels)) {
-            told.angle[j] = motor.angle;
-            told.current[j] = motor.current;
-            told.voltage[j] = motor.sum * (1.0 / PERIODS_PER_TURN as f32);
-            motor.sum = 0.0;
-            if let Some(halls) = &motor.halls {
+            told.angle[j] = motor.angle();
+            told.current[j] = motor.current();
+            told.voltage[j] = motor.mean_voltage();
+            if let Some(halls) = motor.halls() {
                 told.edges[j] = halls.edges();
                 told.since_edge[j] = halls.since_edge();
                 told.interval[j] = halls.interval();
@@ -247,31 +218,3 @@ impl Windings {
         told
     }
 }
-
-impl Motor {
-    /// Follows the halls.
-    #[inline]
-    fn follow(&mut self, code: HallCode) -> Result<(), HallFault> {
-        match &mut self.halls {
-            Some(halls) => halls.turn(code)?,
-            None => self.halls = Some(Halls::new(code)?),
-        }
-        Ok(())
-    }
-
-    /// The sector to commutate by, where the angle between two edges is not known or not wanted; sets the angle.
-    #[inline]
-    fn sector(&mut self, six_step: bool) -> Option<u8> {
-        let Some(halls) = &self.halls else { return Some(NO_SECTOR) };
-        if halls.interval() > 0 && !six_step {
-            self.angle = halls.angle_code();
-            return None;
-        }
-        // the middle of the sector
-        self.angle = (u32::from(halls.sector()) * 65_536 / 6) as u16;
-        Some(halls.sector())
-    }
-}
-
-/// A sector that no rotor is in: the current loop then applies no voltage.
-const NO_SECTOR: u8 = 6;

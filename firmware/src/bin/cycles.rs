@@ -1,11 +1,207 @@
 //! Prints what one call of each part of the control path costs, in instructions of the emulated core.
+//!
+//! What is called is not inlined and its arguments are hidden from the compiler; the loop around it is taken off. The
+//! robot turns and drives, all its wheels at different speeds.
 #![no_std]
 #![no_main]
 
+use core::hint::black_box;
+
 use cortex_m_rt::entry;
-use firmware::board;
+use firmware::board::{self, Stopwatch};
+use firmware::codes::Codes;
+use firmware::motion::Turn;
+use firmware::offsets;
+use firmware::setup::{MAX_DUTY, Setup};
+use firmware::windings::{Ask, Drive, Windings};
+use model_core::block::{Block, Limits, Parameters};
+use model_core::calibration::AdcCode;
+use model_core::compensation::Compensation;
+use model_core::current_loop::{CurrentDecided, CurrentLoop, CurrentMemory, CurrentSeen, CurrentWant};
+use model_core::frames::BodyTwist;
+use model_core::halls::{HallCode, Halls};
+use model_core::paper;
+use model_core::robot::Robot;
+use model_core::tick::{Asked, Controller, Decided, Memory, Seen, Settings};
+use panic_halt as _;
 
 #[entry]
 fn main() -> ! {
+    let mut watch = Stopwatch::take();
+    motion(&mut watch);
+    undone(&mut watch);
+    currents(&mut watch);
+    halls(&mut watch);
+    whole(&mut watch);
     board::end()
+}
+
+/// Prints a cost and its name.
+fn say(name: &str, detail: &str, instructions: u32) {
+    board::say(format_args!("{instructions}\t{name}{detail}\n"));
+}
+
+// The motion turn
+
+#[inline(never)]
+fn tick<const N: usize>(c: &Controller<N>, memory: &mut Memory, seen: &Seen<N>, want: &BodyTwist) -> Decided<N> {
+    c.tick(memory, seen, *want)
+}
+
+#[inline(never)]
+fn feedforward(c: &Controller<4>, twist: &BodyTwist, acceleration: &BodyTwist) -> Asked<4> {
+    c.feedforward(*twist, *acceleration, 0.3)
+}
+
+const MOVING: BodyTwist = BodyTwist { v: 0.4, vn: -0.3, w: 1.5 };
+const NEAR: BodyTwist = BodyTwist { v: 0.401, vn: -0.301, w: 1.505 };
+const FAR: BodyTwist = BodyTwist { v: 1.4, vn: 0.6, w: -1.5 };
+
+fn settings<const N: usize>(robot: Robot<N>, undo: Compensation<N>) -> Settings<N> {
+    Settings {
+        robot,
+        undo,
+        acceleration: [3.0, 3.0, 20.0],
+        current_limit: 2.5,
+        max_duty: MAX_DUTY,
+        feedback: 0.05,
+        feedback_integral: 0.2,
+        feedforward: true,
+        working: [true; N],
+        dt: 1.0e-3,
+    }
+}
+
+fn tick_costs<const N: usize>(watch: &mut Stopwatch, settings: &Settings<N>, want: BodyTwist, bus: f32) -> u32 {
+    let controller = Controller::new(settings);
+    let start = Memory { reference: MOVING, heading: 0.3, integral: [0.1, -0.1, 0.01] };
+    let seen = Seen { wheel_speed: core::array::from_fn(|j| 8.0 - 5.0 * j as f32), bus };
+    let (controller, seen, want) = (black_box(controller), black_box(seen), black_box(want));
+    watch.cost(|| start, |memory| tick(&controller, memory, &seen, &want))
+}
+
+fn motion(watch: &mut Stopwatch) {
+    let four = settings(paper::four_wheels(), Compensation::none());
+    let three = settings(paper::three_wheels(), Compensation::none());
+    say("motion tick, 4 wheels", "", tick_costs(watch, &four, NEAR, 12.0));
+    say("motion tick, 4 wheels", ", acceleration at its limit", tick_costs(watch, &four, FAR, 12.0));
+    say("motion tick, 4 wheels", ", no voltage for what is wanted", tick_costs(watch, &four, FAR, 3.0));
+    say("motion tick, 3 wheels", "", tick_costs(watch, &three, NEAR, 12.0));
+    let controller = black_box(Controller::new(&four));
+    let cost = watch.cost(|| (MOVING, FAR), |(twist, change)| feedforward(&controller, twist, change));
+    say("feedforward alone, 4 wheels", "", cost);
+}
+
+fn undone(watch: &mut Stopwatch) {
+    let effects: [(&str, Option<usize>, &[f32]); 9] = [
+        ("coriolis", None, &[1.0]),
+        ("floor_tilt", None, &[0.0175, 0.5]),
+        ("stribeck", None, &[0.5, 0.05, 2.0]),
+        ("rotor_inertia", None, &[7.5e-5]),
+        ("gear_efficiency", None, &[0.85]),
+        ("motor_mismatch", Some(1), &[0.88, 1.1]),
+        ("dead_time", None, &[0.3, 0.05]),
+        ("creep", None, &[0.02]),
+        ("current_sensor_offset", None, &[0.05]),
+    ];
+    for (id, wheel, params) in effects {
+        let mut undo = Compensation::none();
+        if undo.add(black_box(id), black_box(wheel), black_box(params)).is_err() {
+            board::fail(format_args!("{id} cannot be undone"));
+        }
+        let settings = settings(paper::four_wheels(), undo);
+        say("motion tick, 4 wheels, undoing ", id, tick_costs(watch, &settings, NEAR, 12.0));
+    }
+}
+
+// The current turn
+
+#[inline(never)]
+fn field_oriented(l: &CurrentLoop, m: &mut CurrentMemory, s: &CurrentSeen, w: &CurrentWant) -> CurrentDecided {
+    l.field_oriented(m, s, w)
+}
+
+#[inline(never)]
+fn six_step(l: &CurrentLoop, m: &mut CurrentMemory, s: &CurrentSeen, w: &CurrentWant) -> CurrentDecided {
+    // the sector is hidden by standing in for the angle, which six steps do not look at
+    l.six_step(m, s, s.angle as u8, w)
+}
+
+fn currents(watch: &mut Stopwatch) {
+    let current_loop = CurrentLoop::new(4.3, 0.6e-3, 0.0049, 2000.0, 50.0e-6, MAX_DUTY);
+    let codes = [AdcCode(2100), AdcCode(2000), AdcCode(2044)];
+    let offsets = [2048.0, 2047.5, 2049.1];
+    let seen = CurrentSeen { codes, offsets, angle: 2.0, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 };
+    let wants = [
+        ("", CurrentWant { current: 0.3, voltage: 3.0, closed: true }),
+        (", voltage at its limit", CurrentWant { current: 2.0, voltage: 20.0, closed: true }),
+        (", voltage alone", CurrentWant { current: 0.0, voltage: 3.0, closed: false }),
+    ];
+    type Part = fn(&CurrentLoop, &mut CurrentMemory, &CurrentSeen, &CurrentWant) -> CurrentDecided;
+    let parts: [(&str, Part); 2] = [("field-oriented current tick", field_oriented), ("six-step current tick", six_step)];
+    for (name, part) in parts {
+        for (detail, want) in wants {
+            let (current_loop, seen, want) = (black_box(current_loop), black_box(seen), black_box(want));
+            // integrals as they are found, so that the case stays what it is
+            let found = || CurrentMemory { d: 0.02, q: 0.5 };
+            let cost = watch.cost(found, |memory| part(&current_loop, memory, &seen, &want));
+            say(name, detail, cost);
+        }
+    }
+}
+
+#[inline(never)]
+fn hall_turn(halls: &mut Halls, code: HallCode) -> bool {
+    halls.turn(code).is_ok()
+}
+
+fn halls(watch: &mut Stopwatch) {
+    let Ok(mut halls) = Halls::new(HallCode::of_sector(0)) else { board::fail(format_args!("sector 0 is legal")) };
+    let cost = watch.cost(|| HallCode::of_sector(0), |code| hall_turn(&mut halls, *code));
+    say("halls, no edge", "", cost);
+    let mut sector = 0;
+    let edge = || {
+        sector = if sector == 5 { 0 } else { sector + 1 };
+        HallCode::of_sector(black_box(sector))
+    };
+    say("halls, an edge", "", watch.cost(edge, |code| hall_turn(&mut halls, *code)));
+}
+
+#[inline(never)]
+fn current_turn(windings: &mut Windings, codes: &Codes) -> Drive {
+    windings.turn(codes)
+}
+
+/// The whole current interrupt but for the board: four motors that turn and are driven, an edge of every motor each eighth
+/// period (2,600 rad/s electrical).
+fn whole(watch: &mut Stopwatch) {
+    let block = Block {
+        robot: paper::four_wheels(),
+        inductance: 0.6e-3,
+        pole_pairs: 8,
+        limits: Limits { current: 4.0, speed: 2.0, acceleration: [3.0, 3.0, 20.0], under_voltage: 8.0, over_voltage: 16.0 },
+        bandwidth: 2000.0,
+        amps_per_count: 0.0049,
+        bus_volts_per_count: 0.00886,
+        ..Block::default()
+    };
+    let ask = Ask { current: [0.3; 4], voltage: [3.0; 4], closed: true, enabled: 0b1111 };
+    let mut windings = Windings::default();
+    windings.take(&Turn { setup: Some(Setup::of(&Parameters::Four(block))), ask, ..Turn::default() });
+    let mut period = 0_u32;
+    let mut codes = || {
+        period = period.wrapping_add(1);
+        let sector = (period / 8 % 6) as u8;
+        let halls = [HallCode::of_sector(sector); 4];
+        black_box(Codes { phases: [[AdcCode(2048); 3]; 4], bus: AdcCode(1354), halls, driver_fault: false })
+    };
+    for _ in 0..offsets::PERIODS + 100 {
+        current_turn(&mut windings, &codes());
+    }
+    let driven = current_turn(&mut windings, &codes()).enabled;
+    if driven != 0b1111 {
+        board::fail(format_args!("the windings are not driven: {driven:04b}"));
+    }
+    let cost = watch.cost(&mut codes, |codes| current_turn(&mut windings, codes));
+    say("current turn, four motors, field-oriented", "", cost);
 }

@@ -8,13 +8,13 @@
 //! instructions, in steps of six. Semihosting calls cost one instruction each.
 
 use core::cell::UnsafeCell;
+use core::hint::black_box;
 
 use cortex_m::peripheral::{NVIC, SYST, syst::SystClkSource};
 use cortex_m_rt::exception;
 use cortex_m_semihosting::{debug, nr::open, syscall};
 use defmt_semihosting as _;
 use heapless::spsc::Queue;
-use panic_halt as _;
 use stm32f4xx_hal::pac;
 
 use crate::codes::{Codes, MOTORS};
@@ -246,6 +246,60 @@ pub fn say(text: core::fmt::Arguments<'_>) {
 pub fn end() -> ! {
     loop {
         debug::exit(debug::EXIT_SUCCESS);
+    }
+}
+
+/// Says why and ends the emulator as a failure.
+pub fn fail(why: core::fmt::Arguments<'_>) -> ! {
+    say(why);
+    loop {
+        debug::exit(debug::EXIT_FAILURE);
+    }
+}
+
+/// Counts instructions by SysTick, 0.168 of whose counts are one: many calls are counted and divided.
+pub struct Stopwatch(());
+
+impl Stopwatch {
+    /// Calls of what is counted: the counter's 24 bits are enough for 9,000 instructions each.
+    const CALLS: u32 = 10_000;
+
+    /// Takes SysTick for it; the periods do not begin then.
+    pub fn take() -> Self {
+        if let Some(core) = cortex_m::Peripherals::take() {
+            let mut syst = core.SYST;
+            syst.set_clock_source(SystClkSource::Core);
+            syst.set_reload(0x00ff_ffff);
+            syst.clear_current();
+            syst.enable_counter();
+        }
+        Self(())
+    }
+
+    /// Instructions of one call, those of making what it works on and of the loop taken off.
+    pub fn cost<A, R>(&mut self, mut make: impl FnMut() -> A, mut call: impl FnMut(&mut A) -> R) -> u32 {
+        let made = Self::counts(|| {
+            let mut given = make();
+            black_box(&mut given);
+        });
+        let called = Self::counts(|| {
+            let mut given = make();
+            black_box(&mut given);
+            let result = call(&mut given);
+            black_box(&result);
+        });
+        let counts = u64::from(called.saturating_sub(made));
+        // rounded to the nearest instruction
+        ((counts * 1000 / 168 + u64::from(Self::CALLS) / 2) / u64::from(Self::CALLS)) as u32
+    }
+
+    fn counts(mut call: impl FnMut()) -> u32 {
+        let began = SYST::get_current();
+        for k in 0..Self::CALLS {
+            black_box(k);
+            call();
+        }
+        began.wrapping_sub(SYST::get_current()) & 0x00ff_ffff
     }
 }
 

@@ -30,7 +30,6 @@ mod wire;
 
 use cortex_m::peripheral::DWT;
 use defmt_rtt as _;
-use panic_probe as _;
 use stm32f4xx_hal::pac;
 
 use crate::registers::timing;

@@ -1,0 +1,133 @@
+//! # Motor: one motor's turn, once a period
+//!
+//! The halls are followed whether the bridge is closed or not. While the speed is not known the motor commutates in six
+//! steps, by the middle of its sector; once the halls tell where the rotor is between two edges, field-oriented.
+
+use model_core::calibration::AdcCode;
+use model_core::current_loop::{CurrentMemory, CurrentSeen, CurrentWant};
+use model_core::halls::{HallCode, HallFault, Halls, angle_of_code};
+
+use crate::codes::PERIODS_PER_TURN;
+use crate::setup::Setup;
+
+/// A sector that no rotor is in: the current loop then applies no voltage.
+const NO_SECTOR: u8 = 6;
+
+/// What is measured at a motor.
+#[derive(Clone, Copy, Debug)]
+pub struct Sensed {
+    /// The three phases
+    pub codes: [AdcCode; 3],
+    /// What they say without current [counts]
+    pub offsets: [f32; 3],
+    /// Supply [V]
+    pub bus: f32,
+    /// One over it [1/V]
+    pub per_bus: f32,
+}
+
+/// One motor's memory.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Motor {
+    halls: Option<Halls>,
+    memory: CurrentMemory<f32>,
+    /// Electrical angle of this period [2⁻¹⁶ turn]
+    angle: u16,
+    current: f32,
+    /// The voltage decided last, which is on the motor now [V]
+    applied: f32,
+    /// Its sum since the last motion turn [V]
+    sum: f32,
+}
+
+impl Motor {
+    /// Follows the halls.
+    ///
+    /// # Errors
+    /// [`HallFault`] says what is wrong with the code; the rotor is then taken to be where it was.
+    // By itself, as below.
+    #[inline(never)]
+    pub fn follow(&mut self, code: HallCode) -> Result<(), HallFault> {
+        match &mut self.halls {
+            Some(halls) => halls.turn(code)?,
+            None => self.halls = Some(Halls::new(code)?),
+        }
+        Ok(())
+    }
+
+    /// Counts the voltage that was on the motor over this period.
+    #[inline]
+    pub fn hold(&mut self) {
+        self.sum += self.applied;
+    }
+
+    /// The bridge is open in the next period.
+    #[inline]
+    pub fn opened(&mut self) {
+        self.memory = CurrentMemory::default();
+        self.applied = 0.0;
+    }
+
+    /// Duties of the next period [1]; those of no voltage where the bridge is to be open.
+    // By itself, so that four motors are not four times the code.
+    #[inline(never)]
+    pub fn decide(&mut self, setup: &Setup, sensed: &Sensed, want: &CurrentWant, closed: bool) -> [f32; 3] {
+        let sector = self.sector(setup.six_step);
+        let seen = CurrentSeen {
+            codes: sensed.codes,
+            offsets: sensed.offsets,
+            angle: angle_of_code(self.angle),
+            ahead: self.halls.as_ref().map_or(0.0, Halls::ahead),
+            bus: sensed.bus,
+            per_bus: sensed.per_bus,
+        };
+        let decided = match sector {
+            Some(sector) => setup.current_loop.six_step(&mut self.memory, &seen, sector, want),
+            None => setup.current_loop.field_oriented(&mut self.memory, &seen, want),
+        };
+        self.current = decided.current;
+        if closed {
+            self.applied = decided.voltage;
+            return decided.duties;
+        }
+        self.opened();
+        [0.5; 3]
+    }
+
+    /// The sector to commutate by, where the angle between two edges is not known or not wanted; sets the angle.
+    #[inline]
+    fn sector(&mut self, six_step: bool) -> Option<u8> {
+        let Some(halls) = &self.halls else { return Some(NO_SECTOR) };
+        if halls.interval() > 0 && !six_step {
+            self.angle = halls.angle_code();
+            return None;
+        }
+        // the middle of the sector
+        self.angle = (u32::from(halls.sector()) * 65_536 / 6) as u16;
+        Some(halls.sector())
+    }
+
+    /// The rotor, once a legal code was seen.
+    #[inline]
+    pub fn halls(&self) -> Option<&Halls> {
+        self.halls.as_ref()
+    }
+
+    /// Electrical angle that the currents were turned by [2⁻¹⁶ turn].
+    #[inline]
+    pub fn angle(&self) -> u16 {
+        self.angle
+    }
+
+    /// DC-equivalent current measured last [A].
+    #[inline]
+    pub fn current(&self) -> f32 {
+        self.current
+    }
+
+    /// Mean DC-equivalent voltage since this was last asked, a motion turn ago [V].
+    #[inline]
+    pub fn mean_voltage(&mut self) -> f32 {
+        core::mem::take(&mut self.sum) * (1.0 / PERIODS_PER_TURN as f32)
+    }
+}
