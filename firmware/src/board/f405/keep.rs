@@ -1,4 +1,4 @@
-//! # Keep: the watchdog, and the parameter block in flash sectors 4 and 5
+//! # Keep: the watchdog, and the parameter block in flash sectors 5 and 6
 //!
 //! The chip has one flash bank: while a sector is erased (up to 4 s) the core stands still at its next fetch, and
 //! neither controls nor feeds. So a block is only kept while all bridges are open, and the dog gets a long meal first.
@@ -17,8 +17,8 @@ use crate::registers::dog;
 const FLASH_AT: usize = 0x0800_0000;
 /// Its length [bytes].
 const FLASH_LEN: usize = 1 << 20;
-/// Sectors 4 (64 KiB) and 5 (128 KiB); the image is in front of them (`memory.x`).
-const SLOTS: [Slot; 2] = [Slot { from: 0x1_0000, to: 0x2_0000 }, Slot { from: 0x2_0000, to: 0x4_0000 }];
+/// Sectors 5 and 6, 128 KiB each; the image is in front of them (`memory.x`).
+const SLOTS: [Slot; 2] = [Slot { from: 0x2_0000, to: 0x4_0000 }, Slot { from: 0x4_0000, to: 0x6_0000 }];
 
 /// The dog is out, and only a reset calls it back.
 static OUT: AtomicBool = AtomicBool::new(false);
