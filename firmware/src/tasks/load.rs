@@ -22,8 +22,8 @@ impl Load {
     pub fn current(&mut self, entered: u32, spent: u32, begins_motion: bool) -> bool {
         self.spent = self.spent.max(spent);
         let first = *self.first.get_or_insert(entered);
-        // a whole number of periods lies between two turns that come evenly
-        let apart = entered.wrapping_sub(first) % CYCLES_PER_PERIOD;
+        // both are counted from the beginning of a period; a turn may come before the place of the first one too
+        let apart = (entered + CYCLES_PER_PERIOD - first) % CYCLES_PER_PERIOD;
         self.jitter = self.jitter.max(apart.min(CYCLES_PER_PERIOD - apart));
         let overrun = begins_motion && self.motion_runs;
         self.motion_runs |= begins_motion;
