@@ -188,7 +188,10 @@ impl<const WRITE: usize> NorFlash for Flash<WRITE> {
     }
 
     fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Dead> {
-        assert!(offset as usize % WRITE == 0 && bytes.len() % WRITE == 0, "only whole words are written");
+        assert!(
+            (offset as usize).is_multiple_of(WRITE) && bytes.len().is_multiple_of(WRITE),
+            "only whole words are written"
+        );
         for (at, byte) in bytes.iter().enumerate() {
             self.step()?;
             // flash only clears bits

@@ -52,13 +52,6 @@ pub fn cycles() -> u32 {
     timing::since_top(count, cr1.dir().is_down())
 }
 
-/// Processor cycles since [`cycles`] said `then`, for anything that takes less than a period.
-#[inline]
-pub fn elapsed(then: u32) -> u32 {
-    let now = cycles();
-    if now >= then { now - then } else { now + CYCLES_PER_PERIOD - then }
-}
-
 /// Processor cycles, free-running: the core's own counter.
 #[inline]
 pub fn ticks() -> u32 {

@@ -7,12 +7,13 @@
 //! | 0..4 | `SLOT` |
 //! | 4..8 | sequence number: of two good slots the later counts |
 //! | 8..12 | length of the block |
-//! | 12..16 | CRC-32 of sequence, length and block |
+//! | 12..16 | CRC-32 (ISO HDLC) of sequence, length and block |
 //!
 //! Keeping a block erases the slot that is not in force, writes the block, and the head last. Until the head's last
 //! byte is written the CRC is wrong and the old slot stays in force; from then on the new one is. Bytes that do not
 //! read back as written are refused, and the old slot stays in force then too.
 
+use crc::{CRC_32_ISO_HDLC, Crc, Digest, NoTable};
 use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};
 
 /// Bytes before the block.
@@ -21,6 +22,9 @@ pub const HEAD: usize = 16;
 pub const LONGEST: usize = 1024;
 
 const MAGIC: [u8; 4] = *b"SLOT";
+
+/// Without a table: it runs twice a start, not in the loop.
+static CHECK: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 
 /// A region of the flash that is erased at once, as offsets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,8 +93,10 @@ pub fn keep<F: NorFlash>(flash: &mut F, slots: &[Slot; 2], block: &[u8]) -> Resu
     }
 
     let mut head = [0; HEAD];
-    let crc = Crc::new().with(&sequence.to_le_bytes()).with(&(block.len() as u32).to_le_bytes()).with(block).value();
-    let fields = [MAGIC, sequence.to_le_bytes(), (block.len() as u32).to_le_bytes(), crc.to_le_bytes()];
+    let mut check = begin_check(sequence, block.len());
+    check.update(block);
+    let check = check.finalize().to_le_bytes();
+    let fields = [MAGIC, sequence.to_le_bytes(), (block.len() as u32).to_le_bytes(), check];
     head.iter_mut().zip(fields.as_flattened()).for_each(|(to, from)| *to = *from);
     flash.write(slot.from, &head).map_err(|_| NotKept::Flash)?;
 
@@ -105,22 +111,30 @@ fn look<F: ReadNorFlash>(flash: &mut F, slots: &[Slot; 2], index: usize) -> Opti
     let slot = slots.get(index)?;
     let mut head = [0; HEAD];
     flash.read(slot.from, &mut head).ok()?;
-    let [magic, sequence, len, crc] = words(&head);
+    let [magic, sequence, len, stated] = words(&head);
     let len = len as usize;
     if magic != u32::from_le_bytes(MAGIC) || len > LONGEST || (HEAD + len) as u32 > slot.to - slot.from {
         return None;
     }
     let at = slot.from + HEAD as u32;
-    let mut sum = Crc::new().with(&sequence.to_le_bytes()).with(&(len as u32).to_le_bytes());
+    let mut check = begin_check(sequence, len);
     let mut chunk = [0; HEAD];
     let mut done = 0;
     while done < len {
         let part = chunk.get_mut(..(len - done).min(HEAD))?;
         flash.read(at + done as u32, part).ok()?;
-        sum = sum.with(part);
+        check.update(part);
         done += part.len();
     }
-    (sum.value() == crc).then_some(Kept { slot: index, at, len, sequence })
+    (check.finalize() == stated).then_some(Kept { slot: index, at, len, sequence })
+}
+
+/// The check of a slot, before its block.
+fn begin_check(sequence: u32, len: usize) -> Digest<'static, u32, NoTable> {
+    let mut check = CHECK.digest();
+    check.update(&sequence.to_le_bytes());
+    check.update(&(len as u32).to_le_bytes());
+    check
 }
 
 /// The four words of a head.
@@ -130,28 +144,4 @@ fn words(head: &[u8; HEAD]) -> [u32; 4] {
         *word = u32::from_le_bytes(*bytes);
     }
     words
-}
-
-/// CRC-32 (IEEE 802.3: reflected, 0xEDB88320), bit by bit: it runs twice a start, not in the loop.
-struct Crc(u32);
-
-impl Crc {
-    fn new() -> Self {
-        Self(!0)
-    }
-
-    fn with(self, bytes: &[u8]) -> Self {
-        let mut crc = self.0;
-        for byte in bytes {
-            crc ^= u32::from(*byte);
-            for _ in 0..8 {
-                crc = if crc & 1 == 1 { (crc >> 1) ^ 0xEDB8_8320 } else { crc >> 1 };
-            }
-        }
-        Self(crc)
-    }
-
-    fn value(self) -> u32 {
-        !self.0
-    }
 }

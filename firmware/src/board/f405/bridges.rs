@@ -170,13 +170,13 @@ impl Bridges {
     /// Processor cycles since the codes of this period were there.
     #[inline]
     pub fn spent(&self) -> u32 {
-        super::elapsed(timing::TOP_TO_END)
+        (super::cycles() + timing::PERIOD - timing::TOP_TO_END) % timing::PERIOD
     }
 
-    /// True if the next period has begun before this turn was over.
+    /// True if this turn was not over when the latch came: its duties are a period late.
     #[inline]
     pub fn is_late(&self) -> bool {
-        NVIC::is_pending(Interrupt::ADC)
+        self.spent() > timing::TURN || NVIC::is_pending(Interrupt::ADC)
     }
 }
 
