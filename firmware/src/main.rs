@@ -21,6 +21,7 @@ use panic_halt as _;
 #[rtic::app(device = firmware::board::pac, peripherals = true)]
 mod app {
     use firmware::board::{Bridges, Dog, Store, Wire};
+    use firmware::drivers::roll::RollCall;
     use firmware::inbox::Inbox;
     use firmware::listener::Listener;
     use firmware::motion::Motion;
@@ -36,7 +37,7 @@ mod app {
         pub inbox: Inbox,
         pub load: Load,
         pub wire: Wire,
-        pub alive: u8,
+        pub roll: RollCall,
     }
 
     #[local]
@@ -54,19 +55,19 @@ mod app {
         #[init(local = [room: Room = Room::new()])]
         fn init(_: init::Context) -> (Shared, Local);
 
-        #[task(binds = ADC, priority = 4, local = [bridges], shared = [windings, load, alive])]
+        #[task(binds = ADC, priority = 4, local = [bridges], shared = [windings, load, &roll])]
         fn current(_: current::Context);
 
-        #[task(binds = EXTI0, priority = 3, local = [motion_turn, sender], shared = [windings, inbox, load, alive])]
+        #[task(binds = EXTI0, priority = 3, local = [motion_turn, sender], shared = [windings, inbox, load, &roll])]
         fn motion(_: motion::Context);
 
-        #[task(binds = EXTI1, priority = 2, local = [listener, store], shared = [inbox, wire])]
+        #[task(binds = EXTI1, priority = 2, local = [listener, store], shared = [inbox, wire, &roll])]
         fn listen(_: listen::Context);
 
-        #[task(binds = EXTI2, priority = 1, local = [post], shared = [wire])]
+        #[task(binds = EXTI2, priority = 1, local = [post], shared = [wire, &roll])]
         fn record(_: record::Context);
 
-        #[idle(local = [dog], shared = [alive])]
+        #[idle(local = [dog], shared = [&roll])]
         fn idle(_: idle::Context) -> !;
     }
 }

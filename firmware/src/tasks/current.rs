@@ -1,11 +1,11 @@
 //! The turn of the windings: read, decide, drive.
 
 use firmware::board::{self, pac::Interrupt};
+use firmware::drivers::roll::Task;
 use model_core::faults::Fault;
 use rtic::Mutex;
 
 use crate::app;
-use crate::tasks::idle::CURRENT;
 
 /// One period, 50 µs.
 pub fn current(mut cx: app::current::Context<'_>) {
@@ -27,5 +27,5 @@ pub fn current(mut cx: app::current::Context<'_>) {
     if begins_motion {
         rtic::pend(Interrupt::EXTI0);
     }
-    cx.shared.alive.lock(|alive| *alive |= CURRENT);
+    cx.shared.roll.here(Task::Current);
 }

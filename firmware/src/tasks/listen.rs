@@ -1,5 +1,6 @@
 //! The link's bytes, made commands and parameters.
 
+use firmware::drivers::roll::Task;
 use rtic::Mutex;
 
 use crate::app;
@@ -18,4 +19,5 @@ pub fn listen(mut cx: app::listen::Context<'_>) {
             break;
         }
     }
+    cx.shared.roll.here(Task::Listen);
 }

@@ -1,10 +1,10 @@
 //! The turn of the motion: what was told, what to do, one record.
 
 use firmware::board;
+use firmware::drivers::roll::Task;
 use rtic::Mutex;
 
 use crate::app;
-use crate::tasks::idle::MOTION;
 
 /// One turn, 1 ms.
 pub fn motion(mut cx: app::motion::Context<'_>) {
@@ -15,7 +15,7 @@ pub fn motion(mut cx: app::motion::Context<'_>) {
 
     let load = cx.shared.load.lock(|load| load.motion());
     cx.local.sender.turn(&told, &turn, load);
-    cx.shared.alive.lock(|alive| *alive |= MOTION);
+    cx.shared.roll.here(Task::Motion);
     rtic::pend(board::pac::Interrupt::EXTI1);
     rtic::pend(board::pac::Interrupt::EXTI2);
 }

@@ -1,5 +1,6 @@
 //! The records' way out.
 
+use firmware::drivers::roll::Task;
 use rtic::Mutex;
 
 use crate::app;
@@ -13,4 +14,5 @@ pub fn record(mut cx: app::record::Context<'_>) {
             break;
         }
     }
+    cx.shared.roll.here(Task::Record);
 }

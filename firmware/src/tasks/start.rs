@@ -1,6 +1,7 @@
 //! Everything asleep, then the first period.
 
 use firmware::board;
+use firmware::drivers::roll::RollCall;
 use firmware::inbox::Inbox;
 use firmware::listener::Listener;
 use firmware::motion::Motion;
@@ -22,7 +23,7 @@ pub fn init(cx: app::init::Context<'_>) -> (app::Shared, app::Local) {
     defmt::info!("asleep; bridges open, {} bytes of parameters kept", store.load().len());
     bridges.start();
     (
-        app::Shared { windings: Windings::default(), inbox, load: Load::default(), wire, alive: 0 },
+        app::Shared { windings: Windings::default(), inbox, load: Load::default(), wire, roll: RollCall::new() },
         app::Local { bridges, motion_turn: Motion::default(), listener, store, sender, post, dog },
     )
 }
