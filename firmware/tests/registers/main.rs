@@ -195,23 +195,53 @@ fn every_pin_is_used_once_and_every_job_is_done() {
 }
 
 #[test]
-fn the_board_takes_every_pin_of_the_list_and_no_other() {
+fn the_board_takes_every_pin_of_the_list_for_its_job_and_no_other() {
     let source =
         std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/board/f405/parts.rs")).unwrap();
-    let mut taken = BTreeSet::new();
-    for (port, letter) in [("gpioa.", 'A'), ("gpiob.", 'B'), ("gpioc.", 'C'), ("gpiod.", 'D')] {
-        for (at, _) in source.match_indices(port) {
-            let name = &source[at + port.len()..];
-            if let Some(number) = name.strip_prefix(&format!("p{}", letter.to_ascii_lowercase())) {
-                let digits: String = number.chars().take_while(char::is_ascii_digit).collect();
-                assert!(taken.insert((letter, digits.parse::<u8>().unwrap())), "P{letter}{digits} is taken twice");
-            }
+    // all pins in the order in which the source takes them: `gpioa.pa8`
+    let mut taken = Vec::new();
+    for (at, _) in source.match_indices("gpio") {
+        let name = source[at + 4..].as_bytes();
+        let [port, b'.', b'p', again, digit, ..] = name else { continue };
+        if port == again && digit.is_ascii_digit() {
+            let digits = name[4..].iter().take_while(|digit| digit.is_ascii_digit());
+            taken.push((port.to_ascii_uppercase() as char, digits.fold(0, |sum, digit| sum * 10 + digit - b'0')));
         }
     }
-    // the probe's pins stay as the reset leaves them
-    let probe = |pin: &&Pin| matches!(pin.job, Job::ProbeData | Job::ProbeClock);
-    let listed: BTreeSet<_> = PINS.iter().filter(|pin| !probe(pin)).map(|pin| (pin.port, pin.number)).collect();
-    assert_eq!(taken, listed);
+    // the source takes enables, PWM, currents converter by converter, supply, halls, fault line, link, each motor by motor
+    let place = |job: Job| match job {
+        Job::Enable { motor } => Some((0, 0, motor)),
+        Job::Phase { motor, phase } => Some((1, motor, phase)),
+        Job::Current { motor, phase } => Some((2, phase, motor)),
+        Job::Bus => Some((3, 0, 0)),
+        Job::Hall { motor, line } => Some((4, motor, line)),
+        Job::Fault => Some((5, 0, 0)),
+        Job::LinkOut => Some((6, 0, 0)),
+        Job::LinkIn => Some((6, 1, 0)),
+        // the probe's pins stay as the reset leaves them
+        Job::ProbeData | Job::ProbeClock => None,
+    };
+    let mut listed: Vec<_> = PINS.iter().filter_map(|pin| Some((place(pin.job)?, pin))).collect();
+    listed.sort_by_key(|(place, _)| *place);
+    assert_eq!(taken, listed.iter().map(|(_, pin)| (pin.port, pin.number)).collect::<Vec<_>>());
+
+    // and each goes through the check of the peripheral that the list names
+    for pin in PINS {
+        let port = pin.port.to_ascii_lowercase();
+        let name = format!("gpio{port}.p{port}{}", pin.number);
+        let check = match pin.job {
+            Job::Phase { phase, .. } => {
+                let (timer, rest) = pin.inside.split_once("_CH").unwrap();
+                assert!(rest.starts_with(&(phase + 1).to_string()), "{}", pin.inside);
+                format!("pwm::<pac::{timer}, {phase}>({name})")
+            }
+            Job::Current { .. } | Job::Bus => format!("reaches::<pac::{}, _>({name}.", &pin.inside[..4]),
+            Job::LinkOut => format!("sends::<pac::USART3>({name})"),
+            Job::LinkIn => format!("receives::<pac::USART3>({name})"),
+            _ => continue,
+        };
+        assert!(source.contains(&check), "{check}");
+    }
 }
 
 #[test]

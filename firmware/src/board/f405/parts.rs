@@ -7,7 +7,7 @@
 use cortex_m::asm;
 use model_core::calibration::AdcCode;
 use stm32f4xx_hal::gpio::alt::{SerialAsync, TimCPin};
-use stm32f4xx_hal::gpio::{PinState, PushPull};
+use stm32f4xx_hal::gpio::{PinPull, PinSpeed, PinState, Pull, PushPull, Speed};
 use stm32f4xx_hal::hal_02::adc::Channel;
 use stm32f4xx_hal::pac::{self, Interrupt};
 use stm32f4xx_hal::prelude::*;
@@ -171,14 +171,22 @@ fn reaches<ADC, PIN: Channel<ADC, ID = u8>>(_pin: PIN) -> u8 {
     PIN::channel()
 }
 
-/// Gives a pin to a serial port's transmitter; compiles only where it comes out.
-fn sends<USART: SerialAsync>(pin: impl Into<USART::Tx<PushPull>>) {
-    let _pin: USART::Tx<PushPull> = pin.into();
+/// Gives a pin to a serial port's transmitter, its edges fast enough for 2 Mbaud; compiles only where it comes out.
+fn sends<USART: SerialAsync>(pin: impl Into<USART::Tx<PushPull>>)
+where
+    USART::Tx<PushPull>: PinSpeed,
+{
+    let mut pin: USART::Tx<PushPull> = pin.into();
+    pin.set_speed(Speed::Medium);
 }
 
-/// Gives a pin to a serial port's receiver; compiles only where it comes in.
-fn receives<USART: SerialAsync>(pin: impl Into<USART::Rx<PushPull>>) {
-    let _pin: USART::Rx<PushPull> = pin.into();
+/// Gives a pin to a serial port's receiver, idle while nothing is plugged in; compiles only where it comes in.
+fn receives<USART: SerialAsync>(pin: impl Into<USART::Rx<PushPull>>)
+where
+    USART::Rx<PushPull>: PinPull,
+{
+    let mut pin: USART::Rx<PushPull> = pin.into();
+    pin.set_internal_resistor(Pull::Up);
 }
 
 /// What all four timers have in common; they are of two types.
