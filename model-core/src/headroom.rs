@@ -122,3 +122,66 @@ fn share<const N: usize, T: Real>(x: &[T; N], limit: T) -> T {
     let largest = x.iter().fold(T::zero(), |most, x| most.max(x.abs()));
     if largest > limit { limit / largest } else { T::one() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROOM: Room<f64> = Room { current: 3.0, voltage: 10.0 };
+
+    fn wish(steady: [f64; 2], accelerating: [f64; 2], emf: [f64; 2]) -> Wish<2, f64> {
+        Wish { steady, accelerating, emf, resistance: [2.0, 2.0] }
+    }
+
+    #[test]
+    fn a_wish_that_fits_is_granted() {
+        let fitted = ROOM.fit(&wish([1.0, -1.0], [0.5, 0.5], [4.0, -4.0]));
+        assert_eq!(fitted.share, Share { acceleration: 1.0, steady: 1.0 });
+        assert_eq!((fitted.current, fitted.voltage), ([1.5, -0.5], [7.0, -5.0]));
+    }
+
+    #[test]
+    fn the_shortest_wheel_scales_the_acceleration_of_all() {
+        // wheel 0 has 2 V left of 8 V wanted; wheel 1 has enough
+        let fitted = ROOM.fit(&wish([1.0, 0.0], [4.0, -1.0], [6.0, 0.0]));
+        assert_eq!(fitted.share, Share { acceleration: 0.25, steady: 1.0 });
+        assert_eq!((fitted.current, fitted.voltage), ([2.0, -0.25], [10.0, -0.5]));
+        // and the current may be the shorter one
+        let fitted = ROOM.fit(&wish([1.0, 0.0], [4.0, -1.0], [0.0, 0.0]));
+        assert_eq!(fitted.share, Share { acceleration: 0.5, steady: 1.0 });
+    }
+
+    #[test]
+    fn braking_brings_a_wish_back_within_the_room() {
+        // holding would take 12 V, braking takes 4 V off it
+        let fitted = ROOM.fit(&wish([1.0, 0.0], [-2.0, 0.0], [10.0, 0.0]));
+        assert_eq!(fitted.share, Share { acceleration: 1.0, steady: 1.0 });
+        assert_eq!(fitted.voltage, [8.0, 0.0]);
+    }
+
+    #[test]
+    fn where_holding_is_too_much_nothing_accelerates_and_all_voltages_shrink() {
+        let fitted = ROOM.fit(&wish([1.0, 1.0], [1.0, 0.0], [18.0, 3.0]));
+        assert_eq!(fitted.share, Share { acceleration: 0.0, steady: 0.5 });
+        assert_eq!(fitted.voltage, [10.0, 2.5]);
+    }
+
+    #[test]
+    fn the_share_is_continuous_where_one_law_takes_over_from_the_other() {
+        let at = |emf: f64| ROOM.fit(&wish([1.0, 0.5], [1.0, 0.3], [emf, 2.0]));
+        let (below, above) = (at(8.0 - 1e-9), at(8.0 + 1e-9));
+        // one part in 10⁹ of some volts
+        assert!(
+            (below.voltage[0] - above.voltage[0]).abs() < 1e-8 && (below.voltage[1] - above.voltage[1]).abs() < 1e-8
+        );
+    }
+
+    #[test]
+    fn an_infinite_room_grants_everything_and_none_grants_nothing() {
+        let much = wish([1e9, -1e9], [1e9, 1.0], [1e9, 0.0]);
+        let infinite = Room { current: f64::INFINITY, voltage: f64::INFINITY };
+        assert_eq!(infinite.fit(&much).share, Share { acceleration: 1.0, steady: 1.0 });
+        let none = Room { voltage: 0.0, ..ROOM }.fit(&much);
+        assert_eq!(none.voltage, [0.0, 0.0]);
+    }
+}

@@ -76,3 +76,44 @@ fn within<T: Real>(x: T, limit: T) -> T {
         limit
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_that_is_too_large_keeps_its_direction_and_has_the_largest_length() {
+        let limiter = Limiter::new([3.0_f64, 3.0, 20.0], 1e-3);
+        let now = BodyTwist { v: 0.2, vn: -0.1, w: 1.0 };
+        let change = limiter.change(now, BodyTwist { v: 1.0, vn: 0.5, w: -4.0 });
+        // a product of a few roundings
+        assert!((change.v * 0.6 - change.vn * 0.8).abs() < 1e-17);
+        assert!((change.v * change.v + change.vn * change.vn - 9e-6).abs() < 1e-20);
+        assert_eq!(change.w, -0.02);
+    }
+
+    #[test]
+    fn two_limits_make_an_ellipse() {
+        let limiter = Limiter::new([4.0_f64, 2.0, 20.0], 1e-3);
+        let change = limiter.change(BodyTwist::default(), BodyTwist { v: 9.0, vn: 9.0, w: 0.0 });
+        let (p, q) = (change.v / 4e-3, change.vn / 2e-3);
+        assert!((p * p + q * q - 1.0).abs() < 1e-14 && change.v == change.vn, "{change:?}");
+    }
+
+    #[test]
+    fn what_is_near_is_reached_at_once_and_exactly() {
+        let limiter = Limiter::new([3.0_f32, 3.0, 20.0], 1e-3);
+        let now = BodyTwist { v: 0.001, vn: -0.002, w: 0.015 };
+        let change = limiter.change(now, BodyTwist::default());
+        assert_eq!([now.v + change.v, now.vn + change.vn, now.w + change.w], [0.0; 3]);
+    }
+
+    #[test]
+    fn an_axis_without_acceleration_stands_still() {
+        for none in [0.0, -1.0, f64::NAN] {
+            let limiter = Limiter::new([none, 3.0, none], 1e-3);
+            let change = limiter.change(BodyTwist::default(), BodyTwist { v: 1.0, vn: 0.0, w: 1.0 });
+            assert!(change.v.abs() < 2e-12 && change.w.abs() < 2e-12, "{change:?}");
+        }
+    }
+}

@@ -37,7 +37,7 @@
 //! all currents and voltages zero.
 //!
 //! Neglects: the change of speed within a turn (½·a·Δt in the back-EMF and in viscous friction), the inductance. Fails when:
-//! a wheel slips. How to choose k_p: a tenth of M·r²/(l·K_t·N·Δt) is far from ringing.
+//! a wheel slips. How to choose k_p: a tenth of M·r²/(l·K_t·N·Δt) at the most, and less where the speed is measured late.
 //!
 //! Source: Oliveira, Sousa, Moreira, Costa, ICINCO 2008, eq. 10–22, turned round; conditional integration is a classic.
 
