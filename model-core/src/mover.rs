@@ -7,7 +7,6 @@ use crate::block::{Block, Mode, Parameters};
 use crate::compensation::Compensation;
 use crate::frames::BodyTwist;
 use crate::record::MOTORS;
-use crate::scalar::Real;
 use crate::tick::{Controller, Memory, Seen, Settings};
 
 /// What a turn decided, for all motors of the board.
@@ -170,8 +169,9 @@ impl<const N: usize> Wheeled<N> {
     fn turn(&mut self, wheel_speed: &[f32; MOTORS], bus: f32, want: BodyTwist) -> Moved {
         let seen = Seen { wheel_speed: core::array::from_fn(|j| wheel_speed[j]), bus };
         let want = self.within_speed(want);
+        let reference = self.memory.reference;
         let decided = self.controller.tick(&mut self.memory, &seen, want);
-        let mut moved = Moved { reference: decided.reference, headroom: decided.headroom, ..Moved::default() };
+        let mut moved = Moved { reference, headroom: decided.headroom, ..Moved::default() };
         for j in 0..N {
             moved.current[j] = decided.current[j];
             // the current loop finds R·i by itself, and would overshoot if it were given

@@ -14,8 +14,8 @@
 //! | symbol | code | unit | meaning |
 //! |---|---|---|---|
 //! | x | [`Memory::reference`] | m/s, rad/s | reference at the beginning of the turn |
-//! | a | [`Decided::acceleration`] | m/s², rad/s² | of the reference during the turn |
-//! | ω_j, ω̂_j | [`Decided::wheel_speed`], [`Seen::wheel_speed`] | rad/s | of each wheel's shaft, wanted and measured |
+//! | a | `a` | m/s², rad/s² | of the reference during the turn |
+//! | ω_j, ω̂_j | [`Asked::wheel_speed`], [`Seen::wheel_speed`] | rad/s | of each wheel's shaft, wanted and measured |
 //! | I | [`Memory::integral`] | N, N, N·m | force on the body that the model does not know |
 //! | k_p | [`Settings::feedback`] | A/(rad/s) | current per error of a wheel's speed |
 //! | k_i | [`Settings::feedback_integral`] | A/rad | current per error of a wheel's angle |
@@ -114,15 +114,9 @@ pub struct Asked<const N: usize, T = f32> {
     pub voltage: [T; N],
 }
 
-/// What a turn decides.
+/// What a turn decides; the reference that it led to is in the [`Memory`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decided<const N: usize, T = f32> {
-    /// Reference at the beginning of this turn.
-    pub reference: BodyTwist<T>,
-    /// Its acceleration during this turn [m/s², m/s², rad/s²]
-    pub acceleration: BodyTwist<T>,
-    /// Wanted speed of each wheel's shaft; zero for a lost wheel [rad/s]
-    pub wheel_speed: [T; N],
     /// Wanted currents, as the current sensors are to show them [A]
     pub current: [T; N],
     /// Motor voltages [V]
@@ -152,6 +146,8 @@ pub struct Controller<const N: usize, T = f32> {
     rate: T,
     /// (M, M, J), what turns with the wheels included [kg, kg, kg·m²]
     mass: [T; 3],
+    /// The same over Δt: force over change of the reference in a turn [N·s/m, N·s/m, N·m·s]
+    push: [T; 3],
     /// (B_v, B_vn, B_ω) [N·s/m, N·s/m, N·m·s]
     viscous: [T; 3],
     /// (C_v, C_vn, C_ω) [N, N, N·m]
@@ -185,9 +181,9 @@ impl<const N: usize, T: Real> Controller<N, T> {
         // what follows next, so little later that it is x unless x is zero
         let next = add_scaled(x, T::lit(AHEAD), a);
         if self.flags == 0 {
-            self.ask::<false>(x, next, a, heading, None).0
+            self.ask::<false>(x, next, self.inertial(a), a, heading, None).0
         } else {
-            let (mut asked, _) = self.ask::<true>(x, next, a, heading, None);
+            let (mut asked, _) = self.ask::<true>(x, next, self.inertial(a), a, heading, None);
             self.undo_last(&mut asked.current, &mut asked.voltage);
             asked
         }
@@ -207,13 +203,15 @@ impl<const N: usize, T: Real> Controller<N, T> {
             return stay(memory);
         }
         let change = self.limiter.change(x, want);
-        // a = δ/Δt
-        let a = BodyTwist { v: change.v * self.rate, vn: change.vn * self.rate, w: change.w * self.rate };
         // x⁺ = x + δ
         let next = BodyTwist { v: x.v + change.v, vn: x.vn + change.vn, w: x.w + change.w };
+        let change = change.to_array();
+        // M·a = (M/Δt)·δ
+        let inertial = array::from_fn(|k| self.push[k] * change[k]);
+        let a = if UNDO { scaled(self.rate, change) } else { change };
         let feedback = Some((seen, memory.integral));
         let (mut asked, missing) =
-            self.ask::<UNDO>(x.to_array(), next.to_array(), a.to_array(), memory.heading, feedback);
+            self.ask::<UNDO>(x.to_array(), next.to_array(), inertial, a, memory.heading, feedback);
         if !self.room::<UNDO>(seen).holds(&asked.current, &asked.voltage) {
             return self.squeeze::<UNDO>(memory, seen, want);
         }
@@ -226,24 +224,30 @@ impl<const N: usize, T: Real> Controller<N, T> {
             self.turn_heading(memory, x.w);
             self.undo_last(&mut asked.current, &mut asked.voltage);
         }
-        let Asked { wheel_speed, current, voltage } = asked;
-        let one = T::one();
-        Decided { reference: x, acceleration: a, wheel_speed, current, voltage, headroom: one, steady: one }
+        let Asked { current, voltage, .. } = asked;
+        Decided { current, voltage, headroom: T::one(), steady: T::one() }
     }
 
-    /// What the motors have to do, and what the wheels miss.
+    /// M·a [N, N, N·m].
+    #[inline(always)]
+    fn inertial(&self, a: [T; 3]) -> [T; 3] {
+        array::from_fn(|k| self.mass[k] * a[k])
+    }
+
+    /// What the motors have to do, and what the wheels miss; `a` is looked at where effects are undone alone.
     #[inline(always)]
     fn ask<const UNDO: bool>(
         &self,
         x: [T; 3],
         next: [T; 3],
+        inertial: [T; 3],
         a: [T; 3],
         heading: T,
         feedback: Option<(&Seen<N, T>, [T; 3])>,
     ) -> (Asked<N, T>, [T; 3]) {
         let mut force: [T; 3] = array::from_fn(|k| {
             // F = C·sign(x⁺) + M·a + B·x
-            toward(self.coulomb[k], next[k]) + self.mass[k] * a[k] + self.viscous[k] * x[k]
+            toward(self.coulomb[k], next[k]) + inertial[k] + self.viscous[k] * x[k]
         });
         let lead = if UNDO { self.undo_forces(x, a, heading, &mut force) } else { [T::zero(); N] };
         let mut wheel_speed = [T::zero(); N];
@@ -306,11 +310,11 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let change = self.limiter.change(x, want).to_array();
         let (a, next) = (scaled(self.rate, change), add_scaled(x.to_array(), T::one(), change));
         let feedback = Some((seen, memory.integral));
-        let (asked, missing) = self.ask::<UNDO>(x.to_array(), next, a, memory.heading, feedback);
+        let (asked, missing) = self.ask::<UNDO>(x.to_array(), next, self.inertial(a), a, memory.heading, feedback);
         let room = self.room::<UNDO>(seen);
         let wheel_speed = asked.wheel_speed;
         // q, what of the currents accelerates; p, the rest
-        let mut force: [T; 3] = array::from_fn(|k| self.mass[k] * a[k]);
+        let mut force = self.inertial(a);
         if UNDO {
             self.undo_coupling(a, &mut force);
         }
@@ -344,8 +348,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
             self.turn_heading(memory, x.w);
             self.undo_last(&mut current, &mut voltage);
         }
-        let acceleration = BodyTwist::from_array(scaled(self.rate, change.to_array()));
-        Decided { reference: x, acceleration, wheel_speed, current, voltage, headroom: s, steady: k }
+        Decided { current, voltage, headroom: s, steady: k }
     }
 }
 
@@ -356,15 +359,7 @@ fn stay<const N: usize, T: Real>(memory: &mut Memory<T>) -> Decided<N, T> {
     let zero = T::zero();
     memory.reference = BodyTwist::default();
     memory.integral = [zero; 3];
-    Decided {
-        reference: BodyTwist::default(),
-        acceleration: BodyTwist::default(),
-        wheel_speed: [zero; N],
-        current: [zero; N],
-        voltage: [zero; N],
-        headroom: zero,
-        steady: zero,
-    }
+    Decided { current: [zero; N], voltage: [zero; N], headroom: zero, steady: zero }
 }
 
 /// The size with the sign of a direction; 0 where there is none.

@@ -62,7 +62,7 @@ fn settings<const N: usize>(robot: Robot<N>, undo: Compensation<N>) -> Settings<
         robot,
         undo,
         acceleration: [3.0, 3.0, 20.0],
-        current_limit: 2.5,
+        current_limit: 4.0,
         max_duty: MAX_DUTY,
         feedback: 0.05,
         feedback_integral: 0.2,
@@ -122,31 +122,29 @@ fn field_oriented(l: &CurrentLoop, m: &mut CurrentMemory, s: &CurrentSeen, w: &C
 }
 
 #[inline(never)]
-fn six_step(l: &CurrentLoop, m: &mut CurrentMemory, s: &CurrentSeen, w: &CurrentWant) -> CurrentDecided {
-    // the sector is hidden by standing in for the angle, which six steps do not look at
-    l.six_step(m, s, s.angle as u8, w)
+fn six_step(l: &CurrentLoop, m: &mut CurrentMemory, s: &CurrentSeen, sector: u8, w: &CurrentWant) -> CurrentDecided {
+    l.six_step(m, s, sector, w)
 }
 
 fn currents(watch: &mut Stopwatch) {
-    let current_loop = CurrentLoop::new(4.3, 0.6e-3, 0.0049, 2000.0, 50.0e-6, MAX_DUTY);
+    let current_loop = black_box(CurrentLoop::new(4.3, 0.6e-3, 0.0049, 2000.0, 50.0e-6, MAX_DUTY));
     let codes = [AdcCode(2100), AdcCode(2000), AdcCode(2044)];
     let offsets = [2048.0, 2047.5, 2049.1];
-    let seen = CurrentSeen { codes, offsets, angle: 2.0, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 };
+    let seen = black_box(CurrentSeen { codes, offsets, angle: 2.0, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 });
     let wants = [
         ("", CurrentWant { current: 0.3, voltage: 3.0, closed: true }),
         (", voltage at its limit", CurrentWant { current: 2.0, voltage: 20.0, closed: true }),
         (", voltage alone", CurrentWant { current: 0.0, voltage: 3.0, closed: false }),
     ];
-    type Part = fn(&CurrentLoop, &mut CurrentMemory, &CurrentSeen, &CurrentWant) -> CurrentDecided;
-    let parts: [(&str, Part); 2] = [("field-oriented current tick", field_oriented), ("six-step current tick", six_step)];
-    for (name, part) in parts {
-        for (detail, want) in wants {
-            let (current_loop, seen, want) = (black_box(current_loop), black_box(seen), black_box(want));
-            // integrals as they are found, so that the case stays what it is
-            let found = || CurrentMemory { d: 0.02, q: 0.5 };
-            let cost = watch.cost(found, |memory| part(&current_loop, memory, &seen, &want));
-            say(name, detail, cost);
-        }
+    // integrals as they are found, so that the case stays what it is
+    let found = || (CurrentMemory { d: 0.02, q: 0.5 }, 1_u8);
+    for (detail, want) in wants {
+        let cost = watch.cost(found, |(memory, _)| field_oriented(&current_loop, memory, &seen, &want));
+        say("field-oriented current tick", detail, cost);
+    }
+    for (detail, want) in wants {
+        let cost = watch.cost(found, |(memory, sector)| six_step(&current_loop, memory, &seen, *sector, &want));
+        say("six-step current tick", detail, cost);
     }
 }
 
@@ -179,7 +177,13 @@ fn whole(watch: &mut Stopwatch) {
         robot: paper::four_wheels(),
         inductance: 0.6e-3,
         pole_pairs: 8,
-        limits: Limits { current: 4.0, speed: 2.0, acceleration: [3.0, 3.0, 20.0], under_voltage: 8.0, over_voltage: 16.0 },
+        limits: Limits {
+            current: 4.0,
+            speed: 2.0,
+            acceleration: [3.0, 3.0, 20.0],
+            under_voltage: 8.0,
+            over_voltage: 16.0,
+        },
         bandwidth: 2000.0,
         amps_per_count: 0.0049,
         bus_volts_per_count: 0.00886,

@@ -3,8 +3,8 @@
 #![no_main]
 
 use cortex_m_rt::entry;
-use panic_halt as _;
 use firmware::{board, parity};
+use panic_halt as _;
 
 #[entry]
 fn main() -> ! {

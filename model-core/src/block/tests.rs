@@ -12,6 +12,7 @@ fn with<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
     effects.push(BlockEffect::new("motor_mismatch", Some(2), &[0.88, 1.1]).unwrap()).unwrap();
     effects.push(BlockEffect::new("coriolis", None, &[1.0]).unwrap()).unwrap();
     Block {
+        feedforward: true,
         robot,
         inductance: 0.5e-3,
         mode: Mode::Current,
@@ -54,7 +55,7 @@ fn refusal(bytes: &[u8]) -> Refused {
 fn a_block_comes_back_as_it_was_written() {
     let (bytes, length) = encoded(&four());
     // header, four wheels, scalars, three effects with six parameters, checksum
-    assert_eq!(length, 12 + 48 + 104 + 1 + 3 * 2 + 6 * 4 + 4);
+    assert_eq!(length, HEADER + 48 + 104 + 1 + 3 * 2 + 6 * 4 + 4);
     let Ok(Parameters::Four(block)) = Parameters::decode(&bytes[..length]) else { panic!("four wheels") };
     assert_eq!(encoded(&block), (bytes, length));
     assert_eq!(block.robot.wheels, paper::four_wheels().wheels);
@@ -102,7 +103,7 @@ fn every_shorter_block_is_refused() {
     for said in (0..=MAX_BYTES).filter(|said| *said != length) {
         let mut changed = bytes;
         changed[6..8].copy_from_slice(&(said as u16).to_le_bytes());
-        let changed = if said >= 12 { resealed(changed, said) } else { changed };
+        let changed = if said >= HEADER { resealed(changed, said) } else { changed };
         assert_eq!(refusal(&changed).reason, Reason::Length, "{said} bytes");
     }
 }
@@ -128,9 +129,13 @@ fn another_version_is_refused_as_newer_or_older() {
 #[test]
 fn ways_of_driving_and_numbers_of_wheels_that_do_not_exist_are_refused() {
     let (bytes, length) = encoded(&four());
-    for (at, value, reason) in
-        [(8, 2, Reason::Wheels), (8, 5, Reason::Wheels), (9, 2, Reason::Mode), (10, 2, Reason::Mode)]
-    {
+    for (at, value, reason) in [
+        (8, 2, Reason::Wheels),
+        (8, 5, Reason::Wheels),
+        (9, 2, Reason::Mode),
+        (10, 2, Reason::Mode),
+        (11, 2, Reason::Mode),
+    ] {
         let mut changed = bytes;
         changed[at] = value;
         assert_eq!(refusal(&resealed(changed, length)).reason, reason, "byte {at} = {value}");
@@ -162,7 +167,7 @@ fn every_number_is_held_to_its_bounds_on_both_sides() {
     }
     for pole_pairs in [0, 51, 255] {
         let mut changed = bytes;
-        changed[11] = pole_pairs;
+        changed[12] = pole_pairs;
         let told = refusal(&resealed(changed, length));
         assert_eq!((told.reason, told.field), (Reason::OutOfBounds, "pole_pairs"));
     }

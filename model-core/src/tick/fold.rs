@@ -105,15 +105,17 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let coupled = couples(0, 1) || couples(0, 2) || couples(1, 2);
         let excess = array::from_fn(|j| undo.stribeck[j].excess * robot.coulomb_shares()[j]);
         let acceleration = settings.acceleration;
+        let mass = [
+            on * (robot.mass + turning[0][0]),
+            on * (robot.mass + turning[1][1]),
+            on * (robot.inertia + turning[2][2]),
+        ];
         Self {
             flags: flags(settings, moves, coupled),
             limiter: Limiter::new([acceleration[0] * plane, acceleration[1] * plane, acceleration[2] * turn], dt),
             rate: one / dt,
-            mass: [
-                on * (robot.mass + turning[0][0]),
-                on * (robot.mass + turning[1][1]),
-                on * (robot.inertia + turning[2][2]),
-            ],
+            mass,
+            push: mass.map(|m| m / dt),
             viscous: robot.friction.viscous.map(|b| on * b),
             coulomb: robot.friction.coulomb.map(|c| on * c),
             gain: kt * settings.feedback,
