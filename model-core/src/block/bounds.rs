@@ -54,8 +54,9 @@ pub const SCALARS: [Field; 26] = [
 /// Of the motor.
 pub const POLE_PAIRS: Field = field("pole_pairs", 1.0, 50.0);
 
-/// Counts from the middle of the converter's range that a limit of current may take; the rest is for ripple and zeros.
-pub const USABLE_COUNTS: f32 = 2000.0;
+/// Counts from the middle of the converter's range that a limit of current may take. A DC-equivalent current is √3/2 of
+/// the phases' crest, which so stays below 1733; from there to 1887 the bridges can be opened, and the rest is for zeros.
+pub const USABLE_COUNTS: f32 = 1500.0;
 
 /// The highest code of the converter.
 const HIGHEST_CODE: f32 = 4095.0;

@@ -198,8 +198,8 @@ fn numbers_that_contradict_each_other_are_refused() {
     assert_eq!(change(|b| b.limits.over_voltage = 11.5).field, "over_voltage_V");
     // 4095 · 8.86 mV = 36.3 V is the most that the converter can tell
     assert_eq!(change(|b| b.limits.over_voltage = 37.0).field, "over_voltage_V");
-    // 2000 · 4.9 mA = 9.8 A likewise
-    assert_eq!(change(|b| b.limits.current = 9.9).field, "current_A");
+    // 1500 · 4.9 mA = 7.35 A likewise
+    assert_eq!(change(|b| b.limits.current = 7.4).field, "current_A");
     let along_one_line = |b: &mut Block<4>| {
         b.robot.wheels = Wheels::new(b.robot.wheels.wheels().map(|wheel| Wheel { drive_angle: 0.0, ..wheel }));
     };
