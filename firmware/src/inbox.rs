@@ -12,6 +12,8 @@ pub struct Inbox {
     pub twist: BodyTwist,
     /// How many commands have come; wraps
     pub commands: u32,
+    /// The number of the last one
+    pub sequence: Option<u16>,
     /// True: open the bridges
     pub open: bool,
     /// True: forget latched faults
@@ -30,7 +32,10 @@ impl Inbox {
     /// Something was heard.
     pub fn put(&mut self, heard: Heard) {
         match heard {
-            Heard::Drive(twist) => {
+            // the same command once more, from a relay that has lost its host, keeps no robot going
+            Heard::Drive { sequence, .. } if self.sequence == Some(sequence) => {}
+            Heard::Drive { sequence, twist } => {
+                self.sequence = Some(sequence);
                 self.twist = twist;
                 self.open = false;
                 self.commands = self.commands.wrapping_add(1);

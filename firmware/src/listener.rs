@@ -12,7 +12,12 @@ use model_core::link::{Decoder, Frame, Kind};
 #[derive(Clone, Copy, Debug)]
 pub enum Heard {
     /// Move so
-    Drive(BodyTwist),
+    Drive {
+        /// One more than in the command before
+        sequence: u16,
+        /// How
+        twist: BodyTwist,
+    },
     /// Open the bridges
     Open,
     /// Forget latched faults
@@ -64,7 +69,7 @@ impl Listener {
             Err(why) => return Some(Heard::BadCommand(answer(false, why.code()))),
         };
         match command {
-            Command::Drive { twist, .. } => Some(Heard::Drive(twist)),
+            Command::Drive { sequence, twist } => Some(Heard::Drive { sequence, twist }),
             Command::Open => Some(Heard::Open),
             Command::Clear => Some(Heard::Clear(answer(true, 0))),
             Command::Chunk { offset, bytes } => {
@@ -76,10 +81,13 @@ impl Listener {
             }
             Command::Commit { length } => {
                 let block = self.block.get(..usize::from(length)).unwrap_or(&self.block);
-                Some(match Accepted::of(block) {
+                let heard = match Accepted::of(block) {
                     Ok(accepted) => Heard::Parameters(accepted, Some(answer(true, 0))),
                     Err(why) => Heard::BadBlock(answer(false, why.reason.code())),
-                })
+                };
+                // the next one is to be made of its own chunks alone
+                self.block = [0; MAX_BYTES];
+                Some(heard)
             }
         }
     }
