@@ -7,7 +7,8 @@
 //! | hall code | a code that no rotor makes, or a sector left out | 2 in a row |
 //! | driver line | a gate driver pulls the line | 1 |
 //!
-//! Several periods in a row where one sample may be noise; a short is never waited for. What is seen is latched.
+//! Several periods in a row where one sample may be noise; a short is never waited for. What is seen is latched, whether
+//! it opens all bridges or costs one wheel of four: what cost a wheel is kept apart, because the robot drives on.
 
 use model_core::calibration::AdcCode;
 use model_core::faults::{Fault, Faults};
@@ -35,6 +36,7 @@ const HALL_PERIODS: u8 = 2;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Guard {
     faults: Faults,
+    costs: Faults,
     lost: u8,
     over: u8,
     under: u8,
@@ -46,6 +48,12 @@ impl Guard {
     #[inline]
     pub fn faults(&self) -> Faults {
         self.faults
+    }
+
+    /// Faults that cost a wheel; the others may go on.
+    #[inline]
+    pub fn costs(&self) -> Faults {
+        self.costs
     }
 
     /// One bit a motor that is out of use while the others go on.
@@ -106,12 +114,21 @@ impl Guard {
     }
 
     /// Takes a motor out of use; a robot that cannot go on without it, or has lost another, stops.
+    #[cold]
     pub fn lose(&mut self, fault: Fault, motor: usize, wheels: u8) {
         let bit = 1_u8 << (motor & 7);
-        if wheels < 4 || self.lost & !bit != 0 {
+        if wheels < 4 || self.lost & !bit != 0 || !fault.one_motor() {
             self.latch(fault);
         }
+        self.costs.add(fault);
         self.lost |= bit;
+    }
+
+    /// Other parameters say that the robot has so many wheels: what four can lose three cannot.
+    pub fn recount(&mut self, wheels: u8) {
+        if wheels < 4 && self.lost != 0 {
+            self.latch_all(self.costs);
+        }
     }
 }
 
@@ -152,6 +169,7 @@ mod tests {
         let mut guard = Guard::default();
         guard.lose(Fault::HallCode, 2, 4);
         assert!(guard.faults().is_empty() && guard.lost() == 0b0100);
+        assert!(guard.costs().iter().eq([Fault::HallCode]), "it is named all the same");
         guard.lose(Fault::HallCode, 2, 4);
         assert!(guard.faults().is_empty(), "the same wheel once more is not another");
         guard.lose(Fault::Stall, 0, 4);
@@ -163,6 +181,24 @@ mod tests {
         let mut guard = Guard::default();
         guard.lose(Fault::Stall, 1, 3);
         assert!(guard.faults().has(Fault::Stall));
+    }
+
+    #[test]
+    fn a_wheel_lost_of_four_stops_a_robot_that_is_told_it_has_three() {
+        let mut guard = Guard::default();
+        guard.recount(3);
+        guard.lose(Fault::HallCode, 2, 4);
+        guard.recount(4);
+        assert!(guard.faults().is_empty());
+        guard.recount(3);
+        assert!(guard.faults().has(Fault::HallCode));
+    }
+
+    #[test]
+    fn what_is_not_one_motors_alone_stops_four_wheels_too() {
+        let mut guard = Guard::default();
+        guard.lose(Fault::OverCurrent, 0, 4);
+        assert!(guard.faults().has(Fault::OverCurrent));
     }
 
     #[test]

@@ -27,6 +27,8 @@ pub mod motor;
 pub mod windings;
 
 // The motion, 1 kHz
+pub mod stall;
+
 pub mod motion;
 
 // The link

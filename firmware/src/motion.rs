@@ -7,33 +7,33 @@
 //! ```
 //!
 //! A turn takes what the windings tell, has `model-core`'s controller decide, and asks the windings for currents and
-//! voltages. It also watches what only shows over many periods: a silent command, a wheel that draws current and does not
-//! turn. After a fault is cleared the robot waits for a fresh command.
+//! voltages. It also watches what only shows over many periods: a silent command, a wheel that stands where it should
+//! turn ([`crate::stall`]).
+//!
+//! Nothing but a fresh command closes the bridges. They open, and wait for one, when a fault is cleared, when a wheel that
+//! was lost comes back, and when other parameters are of another machine; parameters that only retune the same one are
+//! taken on the way.
 
+use model_core::calibration::Calibration;
 use model_core::command::Reply;
 use model_core::faults::{Fault, Faults};
 use model_core::frames::BodyTwist;
-use model_core::hello::{Hello, OFFSET_PARTS};
-use model_core::mover::{Moved, Mover};
+use model_core::hello::{Commutation, Hello, OFFSET_PARTS};
+use model_core::mover::Mover;
 use model_core::record::Stage;
 
-use crate::codes::{MOTORS, PERIODS_PER_SECOND, PERIODS_PER_TURN};
+use crate::codes::{PERIODS_PER_SECOND, PERIODS_PER_TURN};
 use crate::inbox::Inbox;
 use crate::listener::Accepted;
 use crate::setup::{MAX_DUTY, Setup};
+use crate::stall::Stalls;
 use crate::windings::{Ask, Told};
 
 /// Turns without a command after which the robot stops: 200 ms.
 pub const SILENT_TURNS: u16 = 200;
 
-/// Turns for which a wheel may draw nearly its limit without a hall edge: 300 ms.
-pub const STALL_TURNS: u16 = 300;
-
 /// Length of a turn [s].
-const TURN: f32 = PERIODS_PER_TURN as f32 / PERIODS_PER_SECOND as f32;
-
-/// Share of the current limit from which a wheel that does not turn is stalled [1].
-const STALL_SHARE: f32 = 0.5;
+pub(crate) const TURN: f32 = PERIODS_PER_TURN as f32 / PERIODS_PER_SECOND as f32;
 
 /// What a turn decided.
 #[derive(Clone, Copy, Debug, Default)]
@@ -74,13 +74,6 @@ pub mod events {
     pub const CLEARED: u8 = 8;
 }
 
-/// One wheel's patience.
-#[derive(Clone, Copy, Debug, Default)]
-struct Stall {
-    edges: i32,
-    turns: u16,
-}
-
 /// The motion turn and its memory.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Motion {
@@ -89,14 +82,14 @@ pub struct Motion {
     stage: Stage,
     commands: u32,
     silent: u16,
-    stalls: [Stall; MOTORS],
+    stalls: Stalls,
     lost: u8,
 }
 
 impl Motion {
-    /// Takes other parameters; a motion that is being followed goes on.
+    /// Takes other parameters; true if they are of another machine than those before.
     #[inline(never)]
-    fn swap(&mut self, accepted: &Accepted) -> Setup {
+    fn swap(&mut self, accepted: &Accepted, turn: &mut Turn) -> bool {
         let parameters = &accepted.parameters;
         let setup = Setup::of(parameters);
         let mut mover = Mover::of(parameters, MAX_DUTY, TURN);
@@ -105,16 +98,20 @@ impl Motion {
         }
         mover.lose(self.lost);
         self.mover = Some(mover);
-        self.hello = Some(setup.hello(parameters, accepted.check));
-        setup
+        let hello = setup.hello(parameters, accepted.check);
+        let same = self.hello.is_some_and(|before| machine(&before) == machine(&hello));
+        self.hello = Some(hello);
+        turn.setup = Some(setup);
+        turn.events |= events::PARAMETERS;
+        !same
     }
 
     /// One turn.
     pub fn turn(&mut self, told: &Told, inbox: &mut Inbox) -> Turn {
         let mut turn = Turn { reply: inbox.reply.take(), headroom: 1.0, ..Turn::default() };
+        let mut opens = inbox.open;
         if let Some(accepted) = inbox.parameters.take() {
-            turn.setup = Some(self.swap(&accepted));
-            turn.events |= events::PARAMETERS;
+            opens |= self.swap(&accepted, &mut turn);
         }
         if core::mem::take(&mut inbox.bad_command) {
             turn.faults.add(Fault::BadCommand);
@@ -125,6 +122,7 @@ impl Motion {
         if core::mem::take(&mut inbox.clear) {
             turn.clear = true;
             turn.events |= events::CLEARED;
+            opens |= self.lost != 0;
         }
         let fresh = inbox.commands != self.commands;
         self.commands = inbox.commands;
@@ -142,8 +140,8 @@ impl Motion {
             _ if self.mover.is_none() => Stage::Asleep,
             _ if !told.ready => Stage::Calibrating,
             Stage::Asleep | Stage::Calibrating | Stage::Faulted => Stage::Open,
-            Stage::Open if fresh && !inbox.open => Stage::Driving,
-            Stage::Driving if inbox.open => Stage::Open,
+            Stage::Open if fresh && !opens => Stage::Driving,
+            Stage::Driving if opens => Stage::Open,
             stage => stage,
         };
         turn.stage = self.stage;
@@ -157,7 +155,7 @@ impl Motion {
         }
         if self.stage != Stage::Driving {
             mover.rest();
-            self.stalls = [Stall::default(); MOTORS];
+            self.stalls = Stalls::default();
             return turn;
         }
         let moved = mover.turn(&told.wheel_speed, told.bus, inbox.twist);
@@ -172,25 +170,15 @@ impl Motion {
             closed: mover.controls_current(),
             enabled: mover.motors() & !self.lost,
         };
-        let much = STALL_SHARE * mover.current_limit();
-        turn.stalled = self.stalled(told, &moved, much);
+        let edge = self.hello.map_or(0.0, |hello| hello.calibration.edge_angle(hello.gear_ratio));
+        turn.stalled = self.stalls.turn(told, &moved, mover.current_limit(), edge);
         turn
     }
+}
 
-    /// One bit a motor that has drawn much current for long without turning.
-    fn stalled(&mut self, told: &Told, moved: &Moved, much: f32) -> u8 {
-        let mut stalled = 0;
-        for (j, stall) in self.stalls.iter_mut().enumerate() {
-            let turns = told.edges[j] != stall.edges;
-            stall.edges = told.edges[j];
-            let strains = told.current[j].abs().max(moved.current[j].abs()) > much;
-            stall.turns = if turns || !strains { 0 } else { stall.turns.saturating_add(1) };
-            if stall.turns >= STALL_TURNS {
-                stalled |= 1 << j;
-            }
-        }
-        stalled
-    }
+/// What must not change under a bridge that is closed.
+fn machine(hello: &Hello) -> (u8, Commutation, Calibration, f32) {
+    (hello.wheels, hello.commutation, hello.calibration, hello.gear_ratio)
 }
 
 /// The same with the converters' zeros as they are known now, in 1/16 counts.

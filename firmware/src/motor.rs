@@ -13,6 +13,9 @@ use crate::setup::Setup;
 /// A sector that no rotor is in: the current loop then applies no voltage.
 const NO_SECTOR: u8 = 6;
 
+/// Duties that put no voltage on a motor [1].
+pub const NO_VOLTAGE: [f32; 3] = [0.5; 3];
+
 /// What is measured at a motor.
 #[derive(Clone, Copy, Debug)]
 pub struct Sensed {
@@ -91,7 +94,7 @@ impl Motor {
             return decided.duties;
         }
         self.opened();
-        [0.5; 3]
+        NO_VOLTAGE
     }
 
     /// The sector to commutate by, where the angle between two edges is not known or not wanted; sets the angle.

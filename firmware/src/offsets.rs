@@ -22,12 +22,12 @@ pub struct Offsets {
     sums: [[u32; 3]; MOTORS],
     zero: [[f32; 3]; MOTORS],
     periods: u32,
-    bad: bool,
+    bad: u8,
 }
 
 impl Default for Offsets {
     fn default() -> Self {
-        Self { sums: [[0; 3]; MOTORS], zero: [[MIDDLE; 3]; MOTORS], periods: 0, bad: false }
+        Self { sums: [[0; 3]; MOTORS], zero: [[MIDDLE; 3]; MOTORS], periods: 0, bad: 0 }
     }
 }
 
@@ -42,22 +42,24 @@ impl Offsets {
         }
         self.periods += 1;
         if self.periods == PERIODS {
-            for (zero, sum) in self.zero.as_flattened_mut().iter_mut().zip(self.sums.as_flattened()) {
-                *zero = *sum as f32 / PERIODS as f32;
-                self.bad |= (*zero - MIDDLE).abs() > REACH;
+            for (j, (zeros, sums)) in self.zero.iter_mut().zip(&self.sums).enumerate() {
+                for (zero, sum) in zeros.iter_mut().zip(sums) {
+                    *zero = *sum as f32 / PERIODS as f32;
+                    self.bad |= u8::from((*zero - MIDDLE).abs() > REACH) << j;
+                }
             }
         }
     }
 
-    /// True once they are learned and sound.
+    /// True once they are learned.
     #[inline]
     pub fn are_known(&self) -> bool {
-        self.periods >= PERIODS && !self.bad
+        self.periods >= PERIODS
     }
 
-    /// True if one of them is too far from the middle.
+    /// One bit a motor with a zero too far from the middle. A motor that is not connected may read anything.
     #[inline]
-    pub fn are_bad(&self) -> bool {
+    pub fn bad(&self) -> u8 {
         self.bad
     }
 
@@ -98,8 +100,19 @@ mod tests {
     fn an_amplifier_at_its_rail_is_refused() {
         for rail in [0, 4095, 2048 + 151, 2048 - 151] {
             let offsets = learned(|_| rail);
-            assert!(offsets.are_bad() && !offsets.are_known(), "{rail}");
+            assert_eq!(offsets.bad(), 0b1111, "{rail}");
         }
-        assert!(learned(|_| 2048 + 150).are_known());
+        assert_eq!(learned(|_| 2048 + 150).bad(), 0);
+    }
+
+    #[test]
+    fn a_broken_amplifier_is_its_own_motors_alone() {
+        let mut offsets = Offsets::default();
+        let mut phases = [[AdcCode(2050); 3]; MOTORS];
+        phases[2][1] = AdcCode(4095);
+        for _ in 0..PERIODS {
+            offsets.learn(&phases);
+        }
+        assert_eq!(offsets.bad(), 0b0100);
     }
 }

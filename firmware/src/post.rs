@@ -61,7 +61,7 @@ impl Sender {
             stage: turn.stage,
             enabled: turn.ask.enabled,
             events: turn.events,
-            faults: Faults::from_bits(told.faults.bits() | turn.faults.bits()),
+            faults: Faults::from_bits(told.faults.bits() | told.costs.bits() | turn.faults.bits()),
             bus: told.codes.bus,
             phases: told.codes.phases,
             angle: told.angle,

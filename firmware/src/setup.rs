@@ -1,13 +1,14 @@
 //! # Setup: what the windings' turn needs of the parameters
 
 use model_core::block::{Block, Parameters, VERSION};
-use model_core::calibration::Calibration;
+use model_core::calibration::{Calibration, FULL_SCALE};
 use model_core::current_loop::CurrentLoop;
 use model_core::hello::{Commutation, Hello};
 use model_core::record::MOTORS;
 
 use crate::codes::PERIODS_PER_SECOND;
 use crate::guard::Limits;
+use crate::offsets::{MIDDLE, REACH};
 
 /// Version of this firmware, as a hello tells it.
 pub const FIRMWARE: u16 = 1;
@@ -17,6 +18,12 @@ pub const MAX_DUTY: f32 = 0.9;
 
 /// Phase current over the current limit at which the bridges open [1]: regulation overshoots less.
 const TRIP_OVER_LIMIT: f32 = 1.6;
+
+/// The largest phase current that every converter can tell from its end, whatever its zero [counts].
+pub const MOST_TRIP: f32 = FULL_SCALE as f32 - MIDDLE - REACH - NOISE;
+
+/// What a converter at its end may read below it [counts].
+const NOISE: f32 = 10.0;
 
 /// What the windings' turn needs to know of the robot.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +58,12 @@ impl Default for Setup {
 }
 
 impl Setup {
+    /// One bit a motor in use.
+    #[inline]
+    pub fn motors(&self) -> u8 {
+        (1 << (self.wheels & 7)) - 1
+    }
+
     /// The windings' share of these parameters.
     pub fn of(parameters: &Parameters) -> Self {
         match parameters {
@@ -80,7 +93,7 @@ impl Setup {
             ),
             six_step: block.commutation == Commutation::SixStep,
             limits: Limits {
-                trip_counts: TRIP_OVER_LIMIT * block.limits.current / calibration.amps_per_count,
+                trip_counts: (TRIP_OVER_LIMIT * block.limits.current / calibration.amps_per_count).min(MOST_TRIP),
                 least_supply: block.limits.under_voltage,
                 most_supply: block.limits.over_voltage,
             },

@@ -19,7 +19,7 @@ use model_core::faults::{Fault, Faults};
 use crate::codes::{Codes, MOTORS, PERIODS_PER_TURN};
 use crate::guard::Guard;
 use crate::motion::Turn;
-use crate::motor::{Motor, Sensed};
+use crate::motor::{Motor, NO_VOLTAGE, Sensed};
 use crate::offsets::Offsets;
 use crate::setup::Setup;
 
@@ -61,8 +61,10 @@ pub struct Told {
     pub voltage: [f32; MOTORS],
     /// Supply [V]
     pub bus: f32,
-    /// Faults that are latched here
+    /// Faults that are latched here and open all bridges
     pub faults: Faults,
+    /// Faults that are latched here and cost a wheel
+    pub costs: Faults,
     /// One bit a motor: it is out of use
     pub lost: u8,
     /// True once the offsets are known
@@ -97,8 +99,8 @@ impl Windings {
     /// Takes what a motion turn decided, from the next period on.
     pub fn take(&mut self, turn: &Turn) {
         self.ask = turn.ask;
-        if let Some(setup) = turn.setup {
-            self.setup = setup;
+        if let Some(setup) = &turn.setup {
+            self.install(setup);
         }
         if turn.clear {
             self.clear();
@@ -109,12 +111,27 @@ impl Windings {
         }
     }
 
+    /// Takes other parameters; motors that come or go begin anew.
+    #[inline(never)]
+    fn install(&mut self, setup: &Setup) {
+        if setup.wheels != self.setup.wheels {
+            self.motors = [Motor::default(); MOTORS];
+            self.guard.recount(setup.wheels);
+        }
+        self.setup = *setup;
+    }
+
     /// Forgets latched faults; what is still there is found again in the next turns.
     fn clear(&mut self) {
         self.guard = Guard::default();
-        if self.offsets.are_bad() {
+        if self.offsets.bad() & self.setup.motors() != 0 {
             self.offsets = Offsets::default();
         }
+    }
+
+    /// What has been found and is latched.
+    pub fn guard(&self) -> &Guard {
+        &self.guard
     }
 
     /// Latches a fault that was seen elsewhere.
@@ -147,12 +164,15 @@ impl Windings {
         }
         if !self.offsets.are_known() {
             self.offsets.learn(&codes.phases);
-            if self.offsets.are_bad() {
-                self.guard.latch(Fault::OffsetCalibration);
-            }
         }
         let ready = self.offsets.are_known();
-        let may = if ready { ask.enabled & !self.guard.lost() } else { 0 };
+        let broken = self.offsets.bad() & self.setup.motors();
+        if broken != 0 {
+            for j in (0..MOTORS).filter(|j| broken >> j & 1 != 0) {
+                self.guard.lose(Fault::OffsetCalibration, j, self.setup.wheels);
+            }
+        }
+        let may = if ready { ask.enabled & self.setup.motors() & !self.guard.lost() } else { 0 };
 
         let mut drive = Drive::default();
         let per_bus = 1.0 / bus;
@@ -171,7 +191,8 @@ impl Windings {
                 continue;
             }
             let offsets = self.offsets.of(j);
-            if self.guard.over_current(&self.setup.limits, &codes.phases[j], &offsets) {
+            // a lost motor's bridge is open, and its amplifiers may be what it was lost for
+            if self.guard.lost() & bit == 0 && self.guard.over_current(&self.setup.limits, &codes.phases[j], &offsets) {
                 self.guard.latch(Fault::OverCurrent);
             }
             let want = CurrentWant { current: ask.current[j], voltage: ask.voltage[j], closed: ask.closed };
@@ -180,8 +201,13 @@ impl Windings {
         }
         if self.guard.faults().is_empty() {
             drive.enabled = may & !self.guard.lost();
-        } else {
-            self.motors.iter_mut().for_each(Motor::opened);
+        }
+        if drive.enabled != may {
+            // what was decided above and is not applied
+            for (j, motor) in self.motors.iter_mut().enumerate().filter(|(j, _)| drive.enabled >> j & 1 == 0) {
+                drive.duties[j] = NO_VOLTAGE;
+                motor.opened();
+            }
         }
         self.driven = drive.enabled;
         if self.begins_motion() {
@@ -198,6 +224,7 @@ impl Windings {
             codes: *codes,
             bus,
             faults: self.guard.faults(),
+            costs: self.guard.costs(),
             lost: self.guard.lost(),
             ready: self.offsets.are_known(),
             offsets: *self.offsets.all(),

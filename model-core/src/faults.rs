@@ -83,9 +83,10 @@ impl Fault {
         }
     }
 
-    /// True if it may concern one motor alone, so that three of four wheels can still drive.
+    /// True if it concerns one motor alone, so that three of four wheels can still drive. An over-current does not: what
+    /// a short has hurt besides is not known.
     pub const fn one_motor(self) -> bool {
-        matches!(self, Fault::OverCurrent | Fault::HallCode | Fault::Stall | Fault::OffsetCalibration)
+        matches!(self, Fault::HallCode | Fault::Stall | Fault::OffsetCalibration)
     }
 }
 

@@ -16,6 +16,8 @@ pub struct Moved {
     pub current: [f32; MOTORS],
     /// DC-equivalent voltages [V]: all of it, or what goes ahead of controlled currents (the back-EMF)
     pub voltage: [f32; MOTORS],
+    /// Wanted speed of each wheel's shaft; zero for a lost wheel [rad/s]
+    pub wheel_speed: [f32; MOTORS],
     /// The motion that is followed
     pub reference: BodyTwist,
     /// Share of the wanted acceleration that there was room for [1]
@@ -174,6 +176,7 @@ impl<const N: usize> Wheeled<N> {
         let mut moved = Moved { reference, headroom: decided.headroom, ..Moved::default() };
         for j in 0..N {
             moved.current[j] = decided.current[j];
+            moved.wheel_speed[j] = decided.wheel_speed[j];
             // the current loop finds R·i by itself, and would overshoot if it were given
             let ahead =
                 if self.controls_current { self.settings.robot.motor.resistance * decided.current[j] } else { 0.0 };

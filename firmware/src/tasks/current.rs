@@ -23,6 +23,7 @@ pub fn current(mut cx: app::current::Context<'_>) {
     let overrun = cx.shared.load.lock(|load| load.current(entered, spent, begins_motion)) || late;
     if overrun {
         cx.shared.windings.lock(|windings| windings.latch(Fault::TurnOverrun));
+        bridges.drive(&drive.duties, 0);
     }
     if begins_motion {
         rtic::pend(Interrupt::EXTI0);
