@@ -14,7 +14,8 @@
 //! - [`real`]: what the diagnosis says of recordings of real robots;
 //! - [`virtual_board`]: what the robot's electronics see, without the robot;
 //! - [`emulator`]: the robot's image in QEMU, driving a virtual board;
-//! - [`in_loop`]: the robot's program, a robot that is not what it believes, and somebody who commands it.
+//! - [`in_loop`]: the robot's program, a robot that is not what it believes, and somebody who commands it;
+//! - [`image`]: sizes, symbols, reach and stack of the firmware's image.
 //!
 //! The paper is Oliveira, Sousa, Moreira and Costa, *Dynamical Models for Omni-directional Robots with 3 and 4 Wheels*
 //! (ICINCO 2008). Nothing in the first five rooms depends on the core: two implementations that agree prove something only
@@ -29,6 +30,7 @@ pub mod excite;
 pub mod flow;
 pub mod generated;
 pub mod identification;
+pub mod image;
 pub mod in_loop;
 pub mod matrices;
 pub mod paper;

@@ -1,0 +1,18 @@
+//! # The image: what the firmware's ELF says about itself
+//!
+//! Sizes, symbols, and the call graph of its machine code: what the control path can reach, and how much stack it can take.
+//! Nothing but the file is needed, no tool of a compiler.
+//!
+//! - [`elf`]: sections, functions, vector table;
+//! - [`thumb`]: what an instruction does to flow and stack;
+//! - [`flow`]: one function, every way through it;
+//! - [`calls`]: the graph, what is reached from where, the deepest way;
+//! - [`names`]: which functions are panics, allocations, double precision;
+//! - [`page`]: all of it as a page, and the promises that it must keep.
+
+pub mod calls;
+pub mod elf;
+pub mod flow;
+pub mod names;
+pub mod page;
+pub mod thumb;
