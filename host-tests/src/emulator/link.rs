@@ -35,11 +35,11 @@ impl Line {
     pub fn command(&mut self, command: &Command<'_>) {
         let mut room = [0; MAX_FRAME];
         let frame = command.frame(&mut room).expect("every command fits a frame");
-        self.waiting.extend(&*frame);
+        self.waiting.extend(frame);
     }
 
     /// What leaves in this period.
-    pub fn next(&mut self) -> Bytes {
+    pub fn leave(&mut self) -> Bytes {
         let count = self.waiting.len().min(LINK_BYTES);
         let leaving: Vec<u8> = self.waiting.drain(..count).collect();
         Bytes::of(&leaving)
@@ -85,7 +85,7 @@ mod tests {
         let mut other = Line::default();
         let mut periods = 0;
         while line.waiting() > 0 {
-            other.take(&line.next());
+            other.take(&line.leave());
             periods += 1;
         }
         // 1 + 14 + 2 bytes of body and two more

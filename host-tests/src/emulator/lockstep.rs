@@ -52,7 +52,7 @@ impl<B: Brain, const N: usize> Lockstep<B, N> {
             end: false,
             burn_current: std::mem::take(&mut self.burn_current),
             burn_motion: std::mem::take(&mut self.burn_motion),
-            link: self.line.next(),
+            link: self.line.leave(),
         };
         self.brain.down(&down)?;
         self.last = Some(down);
@@ -86,7 +86,7 @@ impl<const N: usize> Lockstep<super::Qemu, N> {
     pub fn end(mut self) -> Result<(), Trouble> {
         let up = self.brain.up()?;
         let codes = self.board.period(&Outputs { compare: up.compare, enabled: up.enabled });
-        let last = Down { codes, end: true, burn_current: 0, burn_motion: 0, link: self.line.next() };
+        let last = Down { codes, end: true, burn_current: 0, burn_motion: 0, link: self.line.leave() };
         self.brain.end(&last)
     }
 }

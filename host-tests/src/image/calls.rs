@@ -7,7 +7,7 @@
 //!
 //! An exception frame with the floating-point registers is 26 words; one more keeps the stack on eight bytes.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use super::elf::Image;
 use super::flow::{Flow, flow};
@@ -77,6 +77,28 @@ impl Graph {
     pub fn indirect(&self, among: &BTreeSet<u32>) -> Vec<String> {
         let known = |address: &u32| self.flows.get(address).is_some_and(|flow| flow.unknown.is_empty());
         among.iter().filter(|address| !known(address)).map(|address| self.name(*address)).collect()
+    }
+
+    /// The shortest way from a function to one whose name is so, by name; empty if there is none.
+    pub fn way(&self, root: u32, is: impl Fn(&str) -> bool) -> Vec<String> {
+        let found = |address: &u32| self.names.get(address).is_some_and(|names| names.iter().any(|name| is(name)));
+        let mut from = BTreeMap::from([(root, root)]);
+        let mut waiting = VecDeque::from([root]);
+        while let Some(address) = waiting.pop_front() {
+            if found(&address) {
+                let step = |at: &u32| from.get(at).copied().filter(|before| before != at);
+                let mut way: Vec<_> = std::iter::successors(Some(address), step).map(|at| self.name(at)).collect();
+                way.reverse();
+                return way;
+            }
+            for to in self.flows.get(&address).into_iter().flat_map(|flow| flow.calls.keys()) {
+                if !from.contains_key(to) {
+                    from.insert(*to, address);
+                    waiting.push_back(*to);
+                }
+            }
+        }
+        Vec::new()
     }
 
     /// What can be reached from a function.
@@ -181,6 +203,8 @@ mod tests {
         assert_eq!(way, ["a", "b", "d"]);
         assert_eq!((reach.functions.len(), reach.doubts.len()), (4, 0));
         assert_eq!(graph.named(&reach.functions, |name| name == "d"), ["d"]);
+        assert_eq!(graph.way(0, |name| name == "d"), ["a", "b", "d"]);
+        assert_eq!(graph.way(0x200, |name| name == "d"), [""; 0]);
         assert_eq!(graph.reach(0x200).stack, 68);
     }
 

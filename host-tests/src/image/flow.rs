@@ -103,8 +103,16 @@ pub fn flow(function: &Function) -> Flow {
                 note(&mut flow.unknown, at, here);
                 goes_on(&mut waiting);
             }
-            Does::Return if *conditional => goes_on(&mut waiting),
-            Does::Return | Does::Trap => {}
+            Does::Return(by) => {
+                if taken != i64::from(by) {
+                    // where this is seen, an instruction has been misread
+                    flow.unbounded = Some(format!("it returns at {at:#x} with {} bytes taken", taken - i64::from(by)));
+                }
+                if *conditional {
+                    goes_on(&mut waiting);
+                }
+            }
+            Does::Trap => {}
         }
     }
     flow

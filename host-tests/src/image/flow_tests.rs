@@ -48,6 +48,8 @@ fn a_circle_that_keeps_its_depth_ends_and_one_that_digs_is_refused() {
     assert_eq!((keeps.deepest, keeps.unbounded), (16, None));
     // 1: sub sp, #508; b 1b
     assert!(of(&[0xB0FF, 0xE7FD]).unbounded.is_some_and(|why| why.contains("circle")));
+    // push {r4, lr}; bx lr
+    assert!(of(&[0xB510, 0x4770]).unbounded.is_some_and(|why| why.contains("with 8 bytes taken")));
     // mov sp, r4
     assert!(of(&[0x46A5, 0x4770]).unbounded.is_some_and(|why| why.contains("register")));
 }

@@ -24,8 +24,8 @@ pub const TASKS: [(&str, u8); 4] = [("ADC", 4), ("EXTI0", 3), ("EXTI1", 2), ("EX
 /// Priorities from here on are the control path.
 pub const CONTROL: u8 = 3;
 
-/// Handlers of processor exceptions that come in above every task, where an image has them.
-const ABOVE: [(&str, u8); 1] = [("SysTick", u8::MAX)];
+/// Handlers of a board that come in above every task, where an image has them: the emulated period, the latch of duties.
+const ABOVE: [(&str, u8); 2] = [("SysTick", u8::MAX), ("TIM8_CC", u8::MAX)];
 
 /// Handlers after which nothing else runs.
 const LAST: [&str; 3] = ["HardFault", "HardFaultTrampoline", "DefaultHandler"];
@@ -39,10 +39,8 @@ pub struct Handler {
     pub priority: u8,
     /// What it reaches
     pub reach: Reach,
-    /// Panics among that
+    /// The shortest way to a panic, by name; empty if there is none
     pub panics: Vec<String>,
-    /// Allocations among that
-    pub allocations: Vec<String>,
     /// Functions among that which call what a register says
     pub indirect: Vec<String>,
     /// The deepest way, by name
@@ -92,8 +90,7 @@ impl Measured {
             Handler {
                 name: name.to_owned(),
                 priority,
-                panics: graph.named(&reach.functions, panics),
-                allocations: graph.named(&reach.functions, allocates),
+                panics: graph.way(address, panics),
                 indirect: graph.indirect(&reach.functions),
                 deepest: reach.deepest.iter().map(|address| graph.name(*address)).collect(),
                 reach,
@@ -107,9 +104,11 @@ impl Measured {
             };
             if *number == 1 {
                 handlers.push(handler("the program", 0, *address));
+            } else if names.iter().any(|name| LAST.contains(&name.trim_end_matches('_'))) {
+                // what has no handler of its own shares one, and its names
             } else if let Some((name, priority)) = one_of(&TASKS).or(one_of(&ABOVE)) {
                 handlers.push(handler(name, priority, *address));
-            } else if !names.iter().any(|name| LAST.iter().any(|last| name.trim_end_matches('_') == *last)) {
+            } else {
                 strangers.insert(graph.name(*address));
             }
         }
@@ -142,7 +141,9 @@ impl Measured {
             found: if found.is_empty() { "none".into() } else { found.join(", ") },
         };
         let control = || self.handlers.iter().filter(|handler| handler.priority >= CONTROL);
-        let among = |of: fn(&Handler) -> &Vec<String>| control().flat_map(of).cloned().collect::<BTreeSet<_>>();
+        let indirect: BTreeSet<String> = control().flat_map(|handler| &handler.indirect).cloned().collect();
+        let told = |way: &Vec<String>| way.iter().map(|name| short(name)).collect::<Vec<_>>().join(" → ");
+        let panics = control().map(|handler| &handler.panics).filter(|way| !way.is_empty()).map(told);
         let tasks = || self.handlers.iter().filter(|handler| handler.priority > 0);
         let doubts: BTreeSet<String> = tasks().flat_map(|handler| &handler.reach.doubts).cloned().collect();
         let mut odd: Vec<String> = self.strangers.clone();
@@ -158,8 +159,8 @@ impl Measured {
             },
             none("double precision anywhere", self.double_precision.clone()),
             none("allocation anywhere", self.allocations.clone()),
-            none("panic within reach of the control path", among(|h| &h.panics).into_iter().collect()),
-            none("calls by register within reach of the control path", among(|h| &h.indirect).into_iter().collect()),
+            none("panic within reach of the control path", panics.collect()),
+            none("calls by register within reach of the control path", indirect.into_iter().collect()),
             none("doubts about the stack of a task", doubts.into_iter().collect()),
             none("interrupts that are no task's, tasks without an interrupt", odd),
         ]

@@ -36,8 +36,8 @@ pub enum Does {
     Call(u32),
     /// Calls an address in a register
     CallUnknown,
-    /// Returns
-    Return,
+    /// Returns, after so many bytes were taken off the stack
+    Return(i32),
     /// Ends the flow: an undefined instruction on purpose
     Trap,
 }
@@ -83,19 +83,19 @@ fn short(address: u32, h: u16) -> Does {
         // PUSH 1011 010M; POP 1011 110P
         _ if h & 0xFE00 == 0xB400 => Does::Stack(-4 * (registers + i32::from(h >> 8 & 1))),
         _ if h & 0xFF00 == 0xBC00 => Does::Stack(4 * registers),
-        _ if h & 0xFF00 == 0xBD00 => Does::Return,
+        _ if h & 0xFF00 == 0xBD00 => Does::Return(4 * (registers + 1)),
         // ADD SP, #imm7 1011 0000 0; SUB SP, #imm7 1011 0000 1
         _ if h & 0xFF80 == 0xB000 => Does::Stack(seven),
         _ if h & 0xFF80 == 0xB080 => Does::Stack(-seven),
         // ADD Rd, Rm 0100 0100; MOV Rd, Rm 0100 0110; d is split: bit 7 and bits 2 to 0
         _ if h & 0xFD00 == 0x4400 => match (h >> 4 & 8) | (h & 7) {
             SP => Does::StackUnknown,
-            PC if h == 0x46F7 => Does::Return,
+            PC if h == 0x46F7 => Does::Return(0),
             PC => Does::JumpUnknown,
             _ => Does::GoesOn,
         },
         // BX LR; BX Rm 0100 0111 0; BLX Rm 0100 0111 1
-        0x4770 => Does::Return,
+        0x4770 => Does::Return(0),
         _ if h & 0xFF80 == 0x4700 => Does::JumpUnknown,
         _ if h & 0xFF80 == 0x4780 => Does::CallUnknown,
         // CBZ, CBNZ 1011 x0i1 imm5
@@ -146,7 +146,7 @@ fn multiple(h: u16, g: u16, base: u16) -> Does {
     let (load, write_back) = (h & 0x10 != 0, h & 0x20 != 0);
     let loads_pc = load && g & 0x8000 != 0;
     match (base == SP, loads_pc) {
-        (true, true) => Does::Return,
+        (true, true) => Does::Return(4 * g.count_ones() as i32),
         (false, true) => Does::JumpUnknown,
         (true, false) if write_back => {
             let bytes = 4 * g.count_ones() as i32;
@@ -178,7 +178,8 @@ fn single(address: u32, h: u16, g: u16, base: u16) -> Does {
     let load_word = h & 0x0170 == 0x0050;
     if load_word && g >> 12 == PC {
         return match base {
-            SP => Does::Return,
+            // LDR PC, [SP], #imm8
+            SP => Does::Return(i32::from(g & 0xFF)),
             PC => {
                 let offset = i32::from(g & 0xFFF) * if wide_offset { 1 } else { -1 };
                 Does::JumpVia((address.wrapping_add(4) & !3).wrapping_add_signed(offset))

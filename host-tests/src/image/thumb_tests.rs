@@ -50,11 +50,11 @@ fn what_moves_the_stack_pointer_moves_it_by_so_much() {
 #[test]
 fn what_returns_or_ends_does() {
     for (text, halves, does) in [
-        ("pop {r4, r5, r7, pc}", &[0xBDB0][..], Does::Return),
-        ("pop.w {r4-r11, pc}", &[0xE8BD, 0x8FF0], Does::Return),
-        ("ldr pc, [sp], #4", &[0xF85D, 0xFB04], Does::Return),
-        ("bx lr", &[0x4770], Does::Return),
-        ("mov pc, lr", &[0x46F7], Does::Return),
+        ("pop {r4, r5, r7, pc}", &[0xBDB0][..], Does::Return(16)),
+        ("pop.w {r4-r11, pc}", &[0xE8BD, 0x8FF0], Does::Return(36)),
+        ("ldr pc, [sp], #4", &[0xF85D, 0xFB04], Does::Return(4)),
+        ("bx lr", &[0x4770], Does::Return(0)),
+        ("mov pc, lr", &[0x46F7], Does::Return(0)),
         ("udf #0xfe", &[0xDEFE], Does::Trap),
         ("udf.w #1", &[0xF7F0, 0xA001], Does::Trap),
     ] {
