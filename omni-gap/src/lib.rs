@@ -9,7 +9,7 @@
 //! programs).
 //!
 //! A room imports only rooms before it; [`diagnosis`] walks through them all, [`stage`] makes recordings whose truth is
-//! known.
+//! known, [`wire`] speaks with a robot.
 
 // A unit in brackets, [V], is not a link.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -35,6 +35,8 @@ pub mod diagnosis;
 pub mod stage;
 
 pub mod rehearse;
+
+pub mod wire;
 
 mod known;
 

@@ -9,10 +9,12 @@ mod demo;
 mod diagnose;
 mod experiment;
 mod explain;
+mod export;
 mod given;
 mod identify;
 mod place;
 mod predict;
+mod record;
 mod sensitivity;
 mod simulate;
 mod stop;
@@ -52,6 +54,8 @@ enum Command {
     Simulate(simulate::Simulate),
     Sensitivity(sensitivity::Sensitivity),
     Explain(explain::Explain),
+    Export(export::Export),
+    Record(record::Record),
 }
 
 /// Exit code for input that cannot be used.
@@ -72,6 +76,8 @@ impl Cli {
             Command::Simulate(c) => c.run(&voice),
             Command::Sensitivity(c) => c.run(&voice),
             Command::Explain(c) => c.run(&voice),
+            Command::Export(c) => c.run(&voice),
+            Command::Record(c) => c.run(&voice),
         };
         voice.end_phase();
         match done {

@@ -1,0 +1,136 @@
+//! `record`: what a robot sends, as a session.
+
+use std::path::{Path, PathBuf};
+
+use model_core::hello::Hello;
+use omni_gap::Error;
+use omni_gap::error::Result;
+use omni_gap::known_effects;
+use omni_gap::log::{RobotFile, Run, write_whole, write_whole_with};
+use omni_gap::wire::block::export;
+use omni_gap::wire::capture::Capture;
+use omni_gap::wire::run::{columns, faults, run};
+use omni_gap::wire::source::Source;
+
+use super::voice::wrapped;
+use super::{DONE, Done, Voice, given, place};
+
+/// Record what a robot sends into a session: a run, the robot file, and how to read the columns
+#[derive(Debug, clap::Args)]
+pub struct Record {
+    /// Where the frames come from
+    #[arg(long, value_name = "FILE | tcp:HOST:PORT | DEVICE")]
+    from: String,
+
+    /// Speed of a serial line
+    #[arg(long, value_name = "BAUD", default_value_t = 2_000_000)]
+    baud: u32,
+
+    /// How much to record, by the robot's clock; of a robot 10 s, of a file all, where this is left out
+    #[arg(long, value_name = "SECONDS", value_parser = given::seconds)]
+    seconds: Option<f64>,
+
+    /// The robot's file
+    #[arg(long, value_name = "ROBOT.toml")]
+    robot: PathBuf,
+
+    /// The session folder: a new one, or one of this robot that gets another run
+    #[arg(long, value_name = "SESSION")]
+    out: PathBuf,
+
+    /// The run's name
+    #[arg(long, value_name = "NAME", default_value = "run", value_parser = name)]
+    name: String,
+}
+
+/// Turns of the currents in a second [1/s]; a robot tells its own, this one only says when there is enough.
+const TURNS_A_SECOND: f64 = 20_000.0;
+
+/// Seconds of a robot that are recorded where none are asked for [s]
+const USUAL_SECONDS: f64 = 10.0;
+
+impl Record {
+    /// Does it.
+    pub fn run(&self, voice: &Voice) -> Done {
+        let source = Source::named(&self.from);
+        let robot = RobotFile::load(&self.robot, &known_effects())?;
+        let text = std::fs::read_to_string(&self.robot)
+            .map_err(|why| Error::input(&self.robot, why.to_string(), "Check the file's permissions"))?;
+        let columns = columns(robot.wheel.len());
+        let runs = self.out.join("runs");
+        let file = runs.join(format!("{}.csv", self.name));
+        place::folder(&self.out, &["robot.toml", "columns.toml"])?;
+        fits(&self.out.join("robot.toml"), &text)?;
+        fits(&self.out.join("columns.toml"), &columns)?;
+        if file.exists() {
+            return Err(Error::output(&file, "a run of this name is there", "Name another with --name").into());
+        }
+        if source.file().is_none() {
+            voice.phase("recording");
+        }
+        let seconds = self.seconds.or(source.is_live().then_some(USUAL_SECONDS));
+        let wanted = seconds.map(|seconds| (seconds * TURNS_A_SECOND).min(f64::from(u32::MAX / 2)) as u32);
+        let mut capture = Capture::new(wanted);
+        source.read(self.baud, |bytes| capture.take(bytes))?;
+        let run = run(&capture, &source, &self.name, robot.wheel.len())?;
+        voice.end_phase();
+
+        let made = place::NewFolder::make(&runs)?;
+        let fresh = [("robot.toml", &text), ("columns.toml", &columns)];
+        for (name, text) in fresh.into_iter().filter(|(name, _)| !self.out.join(name).exists()) {
+            write_whole(&self.out.join(name), text.as_bytes())?;
+        }
+        write_whole_with(&file, |out| run.write_csv(out))?;
+        made.keep();
+        voice.say(&told(&capture, &run, &file, &robot, &self.robot))?;
+        Ok(DONE)
+    }
+}
+
+/// Refuses a file that stands in the session and says something else.
+fn fits(path: &Path, text: &str) -> Result<()> {
+    if path.exists() && std::fs::read_to_string(path).ok().as_deref() != Some(text) {
+        let reason = "the session holds another file of this name";
+        return Err(Error::output(path, reason, "Record into a new session with --out"));
+    }
+    Ok(())
+}
+
+fn told(capture: &Capture, run: &Run, file: &Path, robot: &RobotFile, path: &Path) -> String {
+    let mut text = format!("{} rows, {:.3} s, written to {}\n", run.rows(), run.duration_s(), file.display());
+    let mut add = |line: String| text += &wrapped(2, &line);
+    let (on_the_way, no_room) = capture.lost();
+    if on_the_way + no_room > 0 {
+        add(format!(
+            "{on_the_way} records were lost on the way and {no_room} for lack of room on the robot; their rows are empty"
+        ));
+    }
+    if capture.bad_frames() > 0 {
+        add(format!("{} frames came broken (checksum or form)", capture.bad_frames()));
+    }
+    if capture.strange > 0 {
+        add(format!("{} frames say nothing to this program; is the firmware newer?", capture.strange));
+    }
+    if capture.restarted {
+        add("the robot started again; what followed is left out".to_owned());
+    }
+    for (fault, at) in faults(capture) {
+        add(format!("fault at {at:.3} s: {}", fault.text()));
+    }
+    let other = |hello: &Hello| export(robot, path).is_ok_and(|block| block.checksum != hello.block_check);
+    if capture.hellos.iter().any(|(_, hello)| other(hello)) {
+        let path = path.display();
+        add(format!("the robot runs with other parameters than `omni-gap export {path}` writes"));
+    }
+    text
+}
+
+/// A name that can be a file's.
+fn name(text: &str) -> std::result::Result<String, String> {
+    let fit = |c: char| c.is_alphanumeric() || "-_.".contains(c);
+    if !text.is_empty() && !text.starts_with('.') && text.chars().all(fit) {
+        Ok(text.to_owned())
+    } else {
+        Err("expected letters, digits, - and _, such as square_2".to_owned())
+    }
+}

@@ -1,0 +1,209 @@
+//! From a robot file to the parameter block that a robot accepts.
+
+use std::path::Path;
+
+use model_core::block::{Block, BlockEffect, BlockEffects, Field, Known, Limits, MAX_BYTES, Mode, Refused, checksum};
+use model_core::compensation::Compensation;
+use model_core::effects;
+use model_core::hello::Commutation;
+use model_core::kinematics::{Wheel, Wheels};
+
+use crate::error::{Error, Result};
+use crate::log::{ControllerFile, EffectEntry, RobotFile};
+use crate::simulate::robot_of;
+
+/// A parameter block, and what it does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exported {
+    /// The block.
+    pub bytes: Vec<u8>,
+    /// Its checksum, as the robot tells it.
+    pub checksum: u32,
+    /// What the robot must not do.
+    pub limits: Limits,
+    /// Limits that the file does not state, by key.
+    pub taken: Vec<&'static str>,
+    /// Effects that the robot undoes.
+    pub undone: Vec<String>,
+    /// Effects that it cannot undo, and why.
+    pub left: Vec<(String, &'static str)>,
+}
+
+/// Share of the supply at which the bridges open, where the file states none: below and above [1]
+const SUPPLY_BAND: (f64, f64) = (0.75, 1.25);
+
+/// Counts of the converter that a limit of current may take, where the file states none.
+const USUAL_COUNTS: f64 = 1900.0;
+
+/// The fastest limit of speed that is taken where the file states none [m/s]
+const USUAL_FASTEST: f64 = 5.0;
+
+/// The block of a robot file; `path` is named in messages.
+///
+/// # Errors
+/// Where the file lacks the supply, or a number is outside the bounds that the robot holds it to.
+pub fn export(file: &RobotFile, path: &Path) -> Result<Exported> {
+    match file.wheel.len() {
+        3 => export_of::<3>(file, path),
+        _ => export_of::<4>(file, path),
+    }
+}
+
+fn export_of<const N: usize>(file: &RobotFile, path: &Path) -> Result<Exported> {
+    let Some(supply) = file.supply.map(|supply| supply.voltage_v) else {
+        let problem = "the file does not state the supply, and a robot must know what it drives with";
+        return Err(Error::input(path, problem, "Add [supply] with voltage_V"));
+    };
+    let controller = file.controller.unwrap_or_default();
+    let (limits, taken) = limits(file, &controller, supply);
+    let mut robot = robot_of::<N, f32>(file, supply);
+    robot.wheels = Wheels::new(std::array::from_fn(|j| {
+        let wheel = &file.wheel[j];
+        // within a turn, where multiples of 90° drive exactly along an axis
+        Wheel::from_degrees(wheel.drive_angle_deg % 360.0, wheel.distance_m as f32, wheel.radius_m as f32)
+    }));
+    let mut block = Block::<N> {
+        robot,
+        inductance: controller.inductance_h as f32,
+        mode: if controller.holds_current { Mode::Current } else { Mode::Voltage },
+        commutation: if controller.six_step { Commutation::SixStep } else { Commutation::FieldOriented },
+        pole_pairs: controller.pole_pairs,
+        limits,
+        feedback: controller.feedback_a_s_per_rad as f32,
+        feedback_integral: controller.feedback_a_per_rad as f32,
+        bandwidth: controller.bandwidth_rad_s as f32,
+        amps_per_count: controller.amps_per_count as f32,
+        bus_volts_per_count: controller.bus_volts_per_count as f32,
+        effects: BlockEffects::default(),
+    };
+    let (undone, left) = effects_of(file, path, &mut block)?;
+    let mut bytes = [0; MAX_BYTES];
+    let length = block.encode(&mut bytes).map_err(|why| refusal(path, why))?;
+    let bytes = bytes[..length].to_vec();
+    let checksum = checksum(&bytes).unwrap_or_default();
+    Ok(Exported { bytes, checksum, limits, taken, undone, left })
+}
+
+/// What the robot must not do, and the keys that the file leaves open.
+fn limits(file: &RobotFile, controller: &ControllerFile, supply: f64) -> (Limits, Vec<&'static str>) {
+    let stated = file.limits.unwrap_or_default();
+    let mut taken = Vec::new();
+    let mut open = |key, stated: Option<f64>, usual: f64| {
+        if stated.is_none() {
+            taken.push(key);
+        }
+        stated.unwrap_or(usual) as f32
+    };
+    // a motor held still draws V/R; the converter must be able to tell
+    let held_still = (supply / file.motor.resistance_ohm).min(USUAL_COUNTS * controller.amps_per_count);
+    // with nothing to drive, v = r·V/(l·K_v)
+    let slowest = file.wheel.iter().map(|wheel| wheel.radius_m).fold(f64::INFINITY, f64::min);
+    let idle = (slowest * supply / file.volts_per_wheel_speed()).min(USUAL_FASTEST);
+    let acceleration =
+        [controller.acceleration_v_m_s2, controller.acceleration_vn_m_s2, controller.acceleration_w_rad_s2];
+    let limits = Limits {
+        current: open("current_A", stated.current_a, held_still),
+        speed: open("speed_m_s", stated.speed_m_s, idle),
+        acceleration: acceleration.map(|x| x as f32),
+        under_voltage: open("under_voltage_V", controller.under_voltage_v, SUPPLY_BAND.0 * supply),
+        over_voltage: open("over_voltage_V", controller.over_voltage_v, SUPPLY_BAND.1 * supply),
+    };
+    (limits, taken)
+}
+
+type Told = (Vec<String>, Vec<(String, &'static str)>);
+
+/// Puts the effects that can be undone into the block, and tells of those that cannot.
+fn effects_of<const N: usize>(file: &RobotFile, path: &Path, block: &mut Block<N>) -> Result<Told> {
+    let (mut undone, mut left) = (Vec::new(), Vec::new());
+    let mut compensation = Compensation::<N, f32>::none();
+    for entry in &file.effects {
+        let place = entry.wheel.map_or(String::new(), |wheel| format!(" on wheel {wheel}"));
+        let name = format!("{}{place}", entry.id);
+        let params = params(entry);
+        match compensation.add(&entry.id, entry.wheel, &params) {
+            Ok(()) => {
+                let wheel = entry.wheel.map(|wheel| wheel as u8);
+                let effect = BlockEffect::new(&entry.id, wheel, &params);
+                effect.and_then(|effect| block.effects.push(effect)).map_err(|why| refusal(path, why))?;
+                undone.push(name);
+            }
+            Err(why) => left.push((name, why.reason())),
+        }
+    }
+    Ok((undone, left))
+}
+
+/// The parameters of an effect in the order of its card.
+fn params(entry: &EffectEntry) -> Vec<f32> {
+    let card = effects::find::<f64>(&entry.id).map(|effect| effect.card());
+    let fields = Known::by_id(&entry.id).map(Known::fields).unwrap_or_default();
+    let given = |key: &str| entry.params.get(key).copied();
+    let typical = |key: &str| card.and_then(|card| Some(card.params[card.param(key)?].typical));
+    fields.iter().map(|Field { key, .. }| given(key).or_else(|| typical(key)).unwrap_or_default() as f32).collect()
+}
+
+fn refusal(path: &Path, why: Refused) -> Error {
+    Error::input(path, format!("the robot would refuse this file: {why}"), "Correct the number in the robot file")
+        .in_column(why.field)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::known_effects;
+    use model_core::block::Parameters;
+
+    const FOUR: &str = include_str!("../../../examples/feup-4w/robot.toml");
+    const THREE: &str = include_str!("../../../examples/feup-3w/robot.toml");
+
+    fn exported(text: &str) -> Result<Exported> {
+        let path = Path::new("robot.toml");
+        export(&RobotFile::parse(text, path, &known_effects())?, path)
+    }
+
+    #[test]
+    fn the_papers_robots_arrive_as_they_stand_in_their_files() {
+        let Ok(Parameters::Four(four)) = Parameters::decode(&exported(FOUR).unwrap().bytes) else { panic!("four") };
+        let Ok(Parameters::Three(three)) = Parameters::decode(&exported(THREE).unwrap().bytes) else { panic!("three") };
+        assert_eq!(four.robot.wheels, model_core::paper::four_wheels().wheels);
+        assert_eq!(three.robot.wheels, model_core::paper::three_wheels().wheels);
+        assert_eq!(four.robot.motor, model_core::paper::four_wheels::<f32>().motor);
+        assert_eq!((three.robot.mass, three.pole_pairs, three.mode), (1.944, 8, Mode::Current));
+    }
+
+    #[test]
+    fn effects_are_undone_where_they_can_be_and_named_where_they_cannot() {
+        let text = format!(
+            "{FOUR}\n[effects.stribeck]\nstatic_excess = 0.4\n[effects.camera_latency]\nlatency_s = 0.05\n\
+             [[effects.motor_mismatch]]\nwheel = 2\ntorque_constant_ratio = 0.88\n"
+        );
+        let told = exported(&text).unwrap();
+        assert_eq!(told.undone, ["stribeck", "motor_mismatch on wheel 2"]);
+        assert!(told.left.len() == 1 && told.left[0].0 == "camera_latency" && !told.left[0].1.is_empty());
+        let Ok(Parameters::Four(block)) = Parameters::decode(&told.bytes) else { panic!("four") };
+        let effects: Vec<_> = block.effects.iter().map(|e| (e.id(), e.wheel(), e.params().to_vec())).collect();
+        assert_eq!(effects[1], ("motor_mismatch", Some(2), vec![0.88, 1.0]));
+    }
+
+    #[test]
+    fn what_the_robot_would_refuse_is_refused_here_with_its_key() {
+        for (from, to, says) in [
+            (
+                "mass_kg = ",
+                "mass_kg = 1000",
+                "column `mass_kg`: the robot would refuse this file: `mass_kg`: found 1000",
+            ),
+            ("voltage_V = ", "voltage_V = 100", "column `voltage_V`"),
+            ("radius_m = ", "radius_m = 1", "column `radius_m`"),
+        ] {
+            let told = exported(&FOUR.replacen(from, to, 1)).unwrap_err().to_string();
+            assert!(told.contains(says), "{told}");
+        }
+        let text = FOUR.replace("[supply]", "[limits]").replace("voltage_V", "current_A");
+        let told = exported(&text).unwrap_err().to_string();
+        assert!(told.contains("does not state the supply") && told.contains("Add [supply]"), "{told}");
+        let told = exported(&format!("{FOUR}\n[controller]\namps_per_count = 0.0001\n[limits]\ncurrent_A = 3\n"));
+        assert!(told.unwrap_err().to_string().contains("column `current_A`"));
+    }
+}

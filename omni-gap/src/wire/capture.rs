@@ -1,0 +1,107 @@
+//! From bytes to records, and how many did not arrive.
+
+use model_core::hello::Hello;
+use model_core::link::{Decoder, Kind};
+use model_core::record::Record;
+
+use super::source::Progress;
+
+/// What a robot sent.
+#[derive(Clone, Debug, Default)]
+pub struct Capture {
+    decoder: Decoder,
+    /// The records, in their order.
+    pub records: Vec<Record>,
+    /// What explains them: each with the number of records that came before it.
+    pub hellos: Vec<(usize, Hello)>,
+    /// Whole frames that mean nothing to this program.
+    pub strange: u32,
+    /// True if the robot started again and what followed was left out.
+    pub restarted: bool,
+    /// Turns of the currents after which there is enough; none: all that comes
+    wanted: Option<u32>,
+}
+
+impl Capture {
+    /// A capture of so many turns of the currents, or of all that comes.
+    pub fn new(wanted: Option<u32>) -> Capture {
+        Capture { wanted, ..Capture::default() }
+    }
+
+    /// Takes bytes.
+    pub fn take(&mut self, bytes: &[u8]) -> Progress {
+        let mut progress = Progress::Nothing;
+        for byte in bytes {
+            let Some(frame) = self.decoder.push(*byte) else { continue };
+            progress = Progress::Frames;
+            let (kind, payload) = (Kind::from_code(frame.kind), frame.payload);
+            match kind {
+                Some(Kind::Record) => match Record::from_bytes(payload) {
+                    Some(record) => self.keep(record),
+                    None => self.strange += 1,
+                },
+                Some(Kind::Hello) => match Hello::from_bytes(payload) {
+                    // before the zeros of its sensors are known a robot tells them as 0
+                    Some(hello) if zeros_are_known(&hello) => self.hellos.push((self.records.len(), hello)),
+                    Some(_) => {}
+                    None => self.strange += 1,
+                },
+                Some(Kind::Reply) => {}
+                _ => self.strange += 1,
+            }
+            if self.is_enough() {
+                return Progress::Enough;
+            }
+        }
+        progress
+    }
+
+    fn keep(&mut self, record: Record) {
+        if let Some(last) = self.records.last() {
+            // the clock and the numbers wrap, but no recording is half as long as their range
+            let back = |now: u32, before: u32| now.wrapping_sub(before).wrapping_sub(1) >= 1 << 31;
+            if self.restarted || back(record.time, last.time) || back(record.sequence, last.sequence) {
+                self.restarted = true;
+                return;
+            }
+        }
+        self.records.push(record);
+    }
+
+    fn is_enough(&self) -> bool {
+        let span = self.records.first().zip(self.records.last()).map(|(a, b)| b.time.wrapping_sub(a.time));
+        self.restarted || self.wanted.zip(span).is_some_and(|(wanted, span)| span >= wanted && !self.hellos.is_empty())
+    }
+
+    /// Stretches between two end marks that were not whole frames.
+    pub fn bad_frames(&self) -> u32 {
+        self.decoder.bad()
+    }
+
+    /// Whole frames of any kind.
+    pub fn good_frames(&self) -> u32 {
+        self.decoder.good()
+    }
+
+    /// What explains a record: the last that came before it; for the first records the first.
+    pub fn hello(&self, record: usize) -> Option<&Hello> {
+        let after = self.hellos.partition_point(|(at, _)| *at <= record);
+        self.hellos.get(after.saturating_sub(1)).map(|(_, hello)| hello)
+    }
+
+    /// How many records did not arrive: (on the way, for lack of room on the robot).
+    pub fn lost(&self) -> (u32, u32) {
+        let pairs = self.records.windows(2).map(|pair| (pair[1].sequence.wrapping_sub(pair[0].sequence) - 1, pair[1]));
+        let (mut on_the_way, mut no_room) = (0, 0);
+        for (missing, after) in pairs {
+            let dropped = u32::from(after.dropped).min(missing);
+            no_room += dropped;
+            on_the_way += missing - dropped;
+        }
+        (on_the_way, no_room)
+    }
+}
+
+fn zeros_are_known(hello: &Hello) -> bool {
+    hello.offsets.iter().take(usize::from(hello.wheels)).flatten().all(|zero| *zero > 0)
+}

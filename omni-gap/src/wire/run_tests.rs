@@ -1,0 +1,196 @@
+use super::*;
+use crate::wire::source::Progress;
+use model_core::link::{Kind, MAX_FRAME, frame};
+use model_core::phases::q_current;
+
+/// What the robot says of itself; its zeros are not in the middle.
+fn hello(wheels: u8) -> Hello {
+    Hello {
+        firmware: 1,
+        block_version: 1,
+        block_check: 7,
+        wheels,
+        commutation: Commutation::FieldOriented,
+        calibration: Calibration::of_board(8),
+        gear_ratio: 5.0,
+        offsets: [[2050 * 16 + 5, 2040 * 16 + 11, 2048 * 16]; 4],
+    }
+}
+
+/// The current that record k shows on every wheel [A].
+fn shown(k: u32) -> f64 {
+    2.5 * (f64::from(k) * 0.1).sin()
+}
+
+/// A robot that drives with a voltage of k/100 V after turn k.
+fn record(k: u32) -> Record {
+    let mut record = Record {
+        sequence: k,
+        time: 20 * k,
+        stage: Stage::Driving,
+        enabled: 0b1111,
+        bus: AdcCode(1354),
+        interval: [100; 4],
+        voltage: [k as f32 / 128.0; 4],
+        ..Record::default()
+    };
+    for wheel in 0..4 {
+        record.angle[wheel] = (k * 997 + 20_000 * wheel as u32) as u16;
+        let angle = f64::from(record.angle[wheel]) / 65_536.0 * TAU;
+        let q = q_current(shown(k));
+        let phases = Rotation::of_angle(angle).to_stationary(model_core::phases::Rotor { d: 0.0, q }).phases();
+        let calibration = calibration(&hello(4));
+        for (phase, x) in phases.into_iter().enumerate() {
+            let zero = f64::from(hello(4).offsets[wheel][phase]) / 16.0;
+            record.phases[wheel][phase] = calibration.current_code(x, zero);
+        }
+    }
+    record
+}
+
+/// The frames of a hello and of these records.
+fn sent(wheels: u8, records: &[Record]) -> Vec<u8> {
+    let mut out = [0; MAX_FRAME];
+    let mut bytes = frame(Kind::Hello.code(), &hello(wheels).to_bytes(), &mut out).unwrap().to_vec();
+    for record in records {
+        bytes.extend(frame(Kind::Record.code(), &record.to_bytes(), &mut out).unwrap());
+    }
+    bytes
+}
+
+fn source() -> Source {
+    Source::named("frames.bin")
+}
+
+fn captured(bytes: &[u8]) -> Capture {
+    let mut capture = Capture::new(None);
+    capture.take(bytes);
+    capture
+}
+
+fn run_of(records: &[Record]) -> Run {
+    run(&captured(&sent(4, records)), &source(), "run", 4).unwrap()
+}
+
+fn at(group: &Option<Group>, wheel: usize, row: usize) -> std::result::Result<f64, Missing> {
+    group.as_ref().unwrap().channels[wheel].get(row)
+}
+
+#[test]
+fn a_row_has_its_own_codes_and_the_voltage_of_the_record_that_follows() {
+    let records: Vec<Record> = (5..105).map(record).collect();
+    let run = run_of(&records);
+    assert_eq!(run.rows(), 99, "the last record only ends the row before it");
+    for row in 0..99 {
+        let k = row as u32 + 5;
+        assert!((run.t_s[row] - 1e-3 * row as f64).abs() < 1e-12);
+        for wheel in 0..4 {
+            assert_eq!(at(&run.u, wheel, row), Ok(f64::from(k + 1) / 128.0));
+            let i = at(&run.i, wheel, row).unwrap();
+            // half a count on each of three phases, 4.9 mA a count, and the zeros' sixteenths
+            assert!((i - shown(k)).abs() < 0.0049, "{i} A against {} A", shown(k));
+        }
+    }
+    // 1354 · 8.86 mV
+    assert!((run.vbat.unwrap().get(3).unwrap() - 11.99644).abs() < 1e-6);
+    assert_eq!((run.currents_sampled, run.enable.unwrap().get(0)), (Sampled::Before, Ok(1.0)));
+}
+
+#[test]
+fn records_that_did_not_arrive_leave_empty_rows_and_are_counted() {
+    let mut records: Vec<Record> = (0..50).map(record).filter(|r| ![10, 11, 30].contains(&r.sequence)).collect();
+    records.iter_mut().find(|r| r.sequence == 31).unwrap().dropped = 1;
+    let capture = captured(&sent(4, &records));
+    assert_eq!(capture.lost(), (2, 1));
+    let run = run_of(&records);
+    assert_eq!(run.rows(), 49);
+    for row in [10, 11, 30] {
+        assert!((run.t_s[row] - 1e-3 * row as f64).abs() < 1e-12);
+        assert_eq!((at(&run.u, 0, row), at(&run.i, 3, row)), (Err(Missing::Lost), Err(Missing::Lost)));
+    }
+    // nobody told what was applied between the last record before the gap and the first after it
+    assert_eq!((at(&run.u, 0, 9), at(&run.u, 0, 29)), (Err(Missing::Lost), Err(Missing::Lost)));
+    assert!(at(&run.i, 0, 9).is_ok() && at(&run.u, 0, 12).is_ok());
+}
+
+#[test]
+fn a_broken_frame_is_counted_and_costs_its_row() {
+    let records: Vec<Record> = (0..20).map(record).collect();
+    let mut bytes = sent(4, &records);
+    let hello_len = sent(4, &[]).len();
+    bytes[hello_len + 5 * (Record::BYTES + 5) + 30] ^= 0x10;
+    let capture = captured(&bytes);
+    assert_eq!((capture.bad_frames(), capture.lost(), capture.records.len()), (1, (1, 0), 19));
+}
+
+#[test]
+fn open_bridges_have_no_voltage() {
+    let mut records: Vec<Record> = (0..30).map(record).collect();
+    records[10..20].iter_mut().for_each(|r| (r.stage, r.enabled) = (Stage::Faulted, 0));
+    records[25..].iter_mut().for_each(|r| r.enabled = 0b1011);
+    let run = run_of(&records);
+    let enable = run.enable.as_ref().unwrap();
+    assert_eq!((enable.get(9), enable.get(10), enable.get(19), enable.get(20)), (Ok(1.0), Ok(0.0), Ok(0.0), Ok(1.0)));
+    // opened within row 9, open up to row 19
+    assert!((9..20).all(|row| at(&run.u, 0, row) == Err(Missing::Blank)) && at(&run.u, 0, 20).is_ok());
+    assert_eq!((at(&run.u, 2, 26), at(&run.u, 1, 26)), (Err(Missing::Blank), Ok(27.0 / 128.0)));
+}
+
+#[test]
+fn a_sensor_at_its_limit_tells_nothing() {
+    let mut records: Vec<Record> = (0..10).map(record).collect();
+    records[4].phases[1][2] = AdcCode(FULL_SCALE);
+    let run = run_of(&records);
+    assert_eq!((at(&run.i, 1, 4), at(&run.i, 0, 4).is_ok()), (Err(Missing::Saturated), true));
+}
+
+#[test]
+fn at_rest_the_current_is_that_of_the_conducting_phases() {
+    let mut records: Vec<Record> = (0..10).map(record).collect();
+    // sector 0: b up, c down; zeros 2040 11/16 and 2048
+    records[3].interval[0] = 0;
+    records[3].angle[0] = 0;
+    records[3].phases[0] = [AdcCode(2050), AdcCode(2041 + 100), AdcCode(2048 - 100)];
+    let i = at(&run_of(&records).i, 0, 3).unwrap();
+    assert!((i - 0.0049 * (200.0 + 5.0 / 16.0) / 2.0).abs() < 1e-7, "{i}");
+}
+
+#[test]
+fn what_comes_after_a_restart_is_left_out() {
+    let records: Vec<Record> = (100..150).chain(0..80).map(record).collect();
+    let capture = captured(&sent(4, &records));
+    assert!(capture.restarted);
+    assert_eq!(capture.records.len(), 50);
+}
+
+#[test]
+fn a_recording_ends_when_there_is_enough() {
+    let records: Vec<Record> = (0..500).map(record).collect();
+    let mut capture = Capture::new(Some(20 * 100));
+    assert_eq!(capture.take(&sent(4, &records)), Progress::Enough);
+    assert_eq!(capture.records.len(), 101);
+}
+
+#[test]
+fn what_is_no_recording_is_told() {
+    let records: Vec<Record> = (0..50).map(record).collect();
+    let told = |bytes: &[u8]| run(&captured(bytes), &source(), "run", 4).unwrap_err().to_string();
+    assert!(told(&[]).contains("frames.bin: nothing came"));
+    assert!(told(&[1, 2, 3, 0, 9, 9, 0, 9, 0]).contains("no whole frame"));
+    assert!(told(&sent(4, &records)[sent(4, &[]).len()..]).contains("no frame says how to read the records"));
+    assert!(told(&sent(3, &records)).contains("the robot has 3 wheels, the robot file 4"));
+    assert!(told(&sent(4, &records[..2])).contains("2 records came, expected three at least"));
+}
+
+#[test]
+fn its_mapping_is_one_that_the_reader_of_logs_takes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.csv");
+    let before = run_of(&(0..30).map(record).collect::<Vec<_>>());
+    before.write_csv(std::fs::File::create(&path).unwrap()).unwrap();
+    let columns = crate::log::Columns::parse(&columns(4), std::path::Path::new("columns.toml")).unwrap();
+    let (after, notices) = Run::load(&path, 4, Some(&columns)).unwrap();
+    assert_eq!((after.t_s.len(), after.currents_sampled), (29, Sampled::Before));
+    assert_eq!((&after.u, &after.i, &after.enable), (&before.u, &before.i, &before.enable));
+    assert!(notices.iter().all(|notice| notice.contains("group `w`")), "{notices:?}");
+}

@@ -1,0 +1,177 @@
+//! Where a robot's bytes come from: a file of frames, a network address, a serial line.
+
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use crate::error::{Error, Result};
+
+/// A place that bytes come from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A file of frames.
+    File(PathBuf),
+    /// A network address, `host:port`.
+    Tcp(String),
+    /// A serial line.
+    Serial(PathBuf),
+}
+
+/// What a reader made of some bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// Nothing yet.
+    Nothing,
+    /// Whole frames.
+    Frames,
+    /// All that was wanted.
+    Enough,
+}
+
+/// How long a robot may be silent before a recording ends [s]
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// How long one look for bytes waits.
+const LOOK: Duration = Duration::from_millis(100);
+
+impl Source {
+    /// What `--from` names: `tcp:HOST:PORT`, a serial device, or a file.
+    pub fn named(text: &str) -> Source {
+        match text.strip_prefix("tcp:") {
+            Some(address) => Source::Tcp(address.to_owned()),
+            None if is_device(Path::new(text)) => Source::Serial(text.into()),
+            None => Source::File(text.into()),
+        }
+    }
+
+    /// True if it never ends by itself.
+    pub fn is_live(&self) -> bool {
+        !matches!(self, Source::File(_))
+    }
+
+    /// The file that it is.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Source::File(path) => Some(path),
+            _ => None,
+        }
+    }
+
+    /// Its name for messages.
+    pub fn place(&self) -> PathBuf {
+        match self {
+            Source::File(path) | Source::Serial(path) => path.clone(),
+            Source::Tcp(address) => format!("tcp:{address}").into(),
+        }
+    }
+
+    /// Hands all bytes to `take` until it has enough, the source ends, or no frame came for five seconds.
+    ///
+    /// # Errors
+    /// Where it cannot be opened or read.
+    pub fn read(&self, baud: u32, mut take: impl FnMut(&[u8]) -> Progress) -> Result<()> {
+        let mut open = self.open(baud)?;
+        let mut bytes = [0; 1 << 14];
+        let mut heard = Instant::now();
+        loop {
+            let progress = match open.read(&mut bytes) {
+                Ok(0) => return Ok(()),
+                Ok(count) => take(bytes.get(..count).unwrap_or_default()),
+                Err(why) if matches!(why.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock) => Progress::Nothing,
+                Err(why) if why.kind() == ErrorKind::Interrupted => continue,
+                Err(why) => return Err(self.error(why.to_string(), "Check the cable, then record again")),
+            };
+            match progress {
+                Progress::Enough => return Ok(()),
+                Progress::Frames => heard = Instant::now(),
+                Progress::Nothing if self.is_live() && heard.elapsed() > PATIENCE => return Ok(()),
+                Progress::Nothing => {}
+            }
+        }
+    }
+
+    fn open(&self, baud: u32) -> Result<Box<dyn Read>> {
+        match self {
+            Source::File(path) if path.is_dir() => {
+                Err(self.error("this is a folder, expected a file of frames", "Name a file inside it"))
+            }
+            Source::File(path) => match File::open(path) {
+                Ok(file) => Ok(Box::new(file)),
+                Err(why) if why.kind() == ErrorKind::NotFound => {
+                    Err(self.error("no such file, expected a file of frames", "Check the path, or the device's name"))
+                }
+                Err(why) => Err(self.error(why.to_string(), "Check the file's permissions")),
+            },
+            Source::Tcp(address) => {
+                let mend = "Write tcp:HOST:PORT, and start what listens there first";
+                let stream = TcpStream::connect(address).map_err(|why| self.error(why.to_string(), mend))?;
+                stream.set_read_timeout(Some(LOOK)).map_err(|why| self.error(why.to_string(), mend))?;
+                Ok(Box::new(stream))
+            }
+            Source::Serial(path) => {
+                let port = serialport::new(path.to_string_lossy(), baud).timeout(LOOK).open();
+                let mend = "Check the device's name, that you may use it, and --baud";
+                Ok(Box::new(port.map_err(|why| self.error(why.to_string(), mend))?))
+            }
+        }
+    }
+
+    /// A mistake about this source.
+    pub fn error(&self, problem: impl Into<String>, mend: impl Into<String>) -> Error {
+        Error::input(&self.place(), problem, mend)
+    }
+}
+
+#[cfg(unix)]
+fn is_device(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    path.metadata().is_ok_and(|found| found.file_type().is_char_device())
+}
+
+#[cfg(not(unix))]
+fn is_device(path: &Path) -> bool {
+    let name = path.to_string_lossy();
+    name.strip_prefix("COM").is_some_and(|number| number.parse::<u16>().is_ok())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+    use std::net::TcpListener;
+
+    #[test]
+    fn a_source_is_known_by_its_name() {
+        assert_eq!(Source::named("tcp:robot:7000"), Source::Tcp("robot:7000".into()));
+        assert_eq!(Source::named("frames.bin"), Source::File("frames.bin".into()));
+        assert!(Source::named("tcp:robot:7000").is_live() && !Source::named("frames.bin").is_live());
+    }
+
+    #[test]
+    fn bytes_come_over_the_network_until_there_are_enough() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let source = Source::named(&format!("tcp:{}", listener.local_addr().unwrap()));
+        let robot = std::thread::spawn(move || {
+            let (mut stream, _) = listener.accept().unwrap();
+            while stream.write_all(&[7; 100]).is_ok() {}
+        });
+        let mut count = 0;
+        let enough = |bytes: &[u8]| {
+            count += bytes.len();
+            if count > 1000 { Progress::Enough } else { Progress::Frames }
+        };
+        source.read(0, enough).unwrap();
+        robot.join().unwrap();
+        assert!(count > 1000);
+    }
+
+    #[test]
+    fn what_is_not_there_is_told() {
+        let told = |name: &str| Source::named(name).read(0, |_| Progress::Nothing).unwrap_err().to_string();
+        assert!(told("no/such/frames.bin").contains("no such file, expected a file of frames"));
+        assert!(told("tcp:127.0.0.1:1").contains("tcp:127.0.0.1:1: "));
+        assert!(told(".").contains("this is a folder"));
+    }
+}
