@@ -12,5 +12,7 @@ mod experiments;
 mod explain;
 #[path = "cli/manners.rs"]
 mod manners;
+#[path = "cli/robot.rs"]
+mod robot;
 #[path = "cli/validate.rs"]
 mod validate;

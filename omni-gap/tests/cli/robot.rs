@@ -1,0 +1,133 @@
+//! What goes to a robot and what comes back: `export` and `record`.
+
+use crate::bench::{Bench, ROBOT, table};
+use model_core::block::Parameters;
+use model_core::calibration::{AdcCode, Calibration};
+use model_core::hello::{Commutation, Hello};
+use model_core::link::{Kind, MAX_FRAME, frame};
+use model_core::record::{Record, Stage};
+
+/// A bench with a robot file and frames of a robot that turns slowly.
+fn bench() -> Bench {
+    let bench = Bench::empty();
+    bench.write("robot.toml", ROBOT);
+    std::fs::write(bench.at("frames.bin"), frames(0..400)).unwrap();
+    bench
+}
+
+fn frames(turns: std::ops::Range<u32>) -> Vec<u8> {
+    let hello = Hello {
+        firmware: 1,
+        block_version: 1,
+        block_check: 7,
+        wheels: 4,
+        commutation: Commutation::FieldOriented,
+        calibration: Calibration::of_board(8),
+        gear_ratio: 5.0,
+        offsets: [[2048 * 16; 3]; 4],
+    };
+    let mut out = [0; MAX_FRAME];
+    let mut bytes = frame(Kind::Hello.code(), &hello.to_bytes(), &mut out).unwrap().to_vec();
+    for k in turns {
+        let record = Record {
+            sequence: k,
+            time: 20 * k,
+            stage: Stage::Driving,
+            enabled: 0b1111,
+            bus: AdcCode(1354),
+            phases: [[AdcCode(2048); 3]; 4],
+            // an edge every 4 ms: 2π/240 rad in that time
+            edges: [(k / 4) as i16; 4],
+            since_edge: [(20 * (k % 4)) as u16; 4],
+            interval: [80; 4],
+            voltage: [1.0; 4],
+            ..Record::default()
+        };
+        bytes.extend(frame(Kind::Record.code(), &record.to_bytes(), &mut out).unwrap());
+    }
+    bytes
+}
+
+#[test]
+fn a_robot_file_becomes_a_block_that_the_robot_accepts() {
+    let bench = bench();
+    bench.write(
+        "more.toml",
+        &format!(
+            "{ROBOT}\n[effects.stribeck]\nstatic_excess = 0.4\n[effects.wheel_slip]\nfriction_coefficient = 0.4\n"
+        ),
+    );
+    let said = bench.done(&["export", "more.toml", "--out", "block.bin"]);
+    assert!(said.out.contains("undone on the robot: stribeck") && said.out.contains("not undone: wheel_slip: "));
+    let block = std::fs::read(bench.at("block.bin")).unwrap();
+    assert!(matches!(Parameters::decode(&block), Ok(Parameters::Four(_))));
+}
+
+#[test]
+fn frames_become_a_session_that_is_checked_like_any_other() {
+    let bench = bench();
+    let said =
+        bench.done(&["record", "--from", "frames.bin", "--robot", "robot.toml", "--out", "session", "--name", "slow"]);
+    assert!(said.out.starts_with("399 rows, 0.398 s, written to session/runs/slow.csv\n"), "{}", said.out);
+    assert!(said.out.contains("other parameters than `omni-gap export robot.toml` writes"), "{}", said.out);
+    assert_eq!(bench.read("session/robot.toml"), ROBOT);
+    let text = bench.read("session/runs/slow.csv");
+    let (names, rows) = table(&text);
+    let column = |name: &str| names.iter().position(|other| *other == name).unwrap();
+    let speeds: Vec<f64> = rows.iter().filter_map(|row| row[column("w2_rad_s")].parse().ok()).collect();
+    assert!(speeds.len() > 80 && speeds.iter().all(|w| (w - 6.545).abs() < 0.01), "{speeds:?}");
+    assert!(rows.iter().all(|row| row[column("u1_V")] == "1" && row[column("enable")] == "1"));
+    bench.run(&["check", "session"]);
+
+    // another run joins; the same name does not, nor does another robot
+    let more = ["record", "--from", "frames.bin", "--robot", "robot.toml", "--out", "session"];
+    bench.done(&more);
+    let before = bench.all();
+    let said = bench.run(&more);
+    assert_eq!((said.code, bench.all()), (2, before.clone()));
+    assert!(said.err.contains("a run of this name is there"), "{}", said.err);
+    bench.write("robot.toml", &format!("{ROBOT}\n"));
+    let said = bench.run(&[&more[..], &["--name", "third"]].concat());
+    assert_eq!((said.code, bench.all()), (2, before));
+    assert!(said.err.contains("the session holds another file of this name"), "{}", said.err);
+}
+
+#[test]
+fn only_so_many_seconds_are_taken_and_what_got_lost_is_told() {
+    let bench = bench();
+    let bytes = [frames(0..50), frames(53..300)].concat();
+    std::fs::write(bench.at("frames.bin"), bytes).unwrap();
+    let said =
+        bench.done(&["record", "--from", "frames.bin", "--seconds", "0.1", "--robot", "robot.toml", "--out", "s"]);
+    assert!(said.out.contains("100 rows, 0.099 s"), "{}", said.out);
+    assert!(said.out.contains("3 records were lost on the way"), "{}", said.out);
+    assert_eq!(bench.read("s/runs/run.csv").lines().filter(|line| line.ends_with(",,,,,,,")).count(), 3);
+}
+
+#[test]
+fn bad_input_ends_with_one_message_and_leaves_nothing() {
+    let bench = bench();
+    bench.write("empty.bin", "");
+    bench.write("text.bin", "this is no frame at all");
+    bench.write("heavy.toml", &ROBOT.replace("mass_kg = ", "mass_kg = 1000"));
+    let before = bench.all();
+    let record =
+        |from: &'static str| ["record", "--robot", "robot.toml", "--out", "deep/session", "--from", from].to_vec();
+    for (args, says) in [
+        (record("empty.bin"), "empty.bin: nothing came"),
+        (record("text.bin"), "text.bin: nothing came"),
+        (record("missing.bin"), "missing.bin: no such file, expected a file of frames"),
+        (record("tcp:127.0.0.1:1"), "tcp:127.0.0.1:1: "),
+        (vec!["export", "heavy.toml", "--out", "b.bin"], "heavy.toml: column `mass_kg`: the robot would refuse"),
+        (vec!["export", "robot.toml", "--out", "no/b.bin"], "there is no folder no"),
+        (vec!["export", "robot.toml", "--out", "robot.toml"], "it is an input and would be lost"),
+    ] {
+        let said = bench.run(&args);
+        assert_eq!((said.code, said.out.as_str()), (2, ""), "{args:?}");
+        assert_eq!(said.err.trim_end().lines().count(), 1, "{}", said.err);
+        assert!(said.err.contains(says), "{args:?}: {}", said.err);
+        assert_eq!(bench.all(), before, "{args:?} left something behind");
+    }
+    let said = bench.run(&["record", "--robot", "robot.toml", "--out", "s", "--from", "frames.bin", "--name", "../x"]);
+    assert_eq!((said.code, bench.all()), (2, before));
+}
