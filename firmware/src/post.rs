@@ -25,22 +25,25 @@ pub enum Message {
     Reply(Reply),
 }
 
-/// Room for messages: seven milliseconds of records.
-pub type Room = Queue<Message, 8>;
+/// Places for messages, one of which stays empty: seven milliseconds of records.
+const ROOM: usize = 8;
+
+/// Room for messages.
+pub type Room = Queue<Message, ROOM>;
 
 /// Turns from one hello to the next.
 const HELLO_TURNS: u32 = 1000;
 
 /// The end that the motion turn holds.
 pub struct Sender {
-    queue: Producer<'static, Message>,
+    queue: Producer<'static, Message, ROOM>,
     sequence: u32,
     dropped: u16,
 }
 
 /// The end that the link holds.
 pub struct Post {
-    queue: Consumer<'static, Message>,
+    queue: Consumer<'static, Message, ROOM>,
     frame: [u8; MAX_FRAME],
     len: usize,
     sent: usize,

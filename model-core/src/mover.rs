@@ -7,7 +7,8 @@ use crate::block::{Block, Mode, Parameters};
 use crate::compensation::Compensation;
 use crate::frames::BodyTwist;
 use crate::record::MOTORS;
-use crate::tick::{Controller, Memory, Seen, Settings};
+use crate::scalar::Real;
+use crate::tick::{Controller, Decided, Memory, Seen, Settings};
 
 /// What a turn decided, for all motors of the board.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,10 +86,24 @@ impl Mover {
     /// One turn towards a wanted motion; wheel speeds [rad/s] and supply [V] as measured.
     #[inline]
     pub fn turn(&mut self, wheel_speed: &[f32; MOTORS], bus: f32, want: BodyTwist) -> Moved {
-        match self {
-            Mover::Three(wheeled) => wheeled.turn(wheel_speed, bus, want),
-            Mover::Four(wheeled) => wheeled.turn(wheel_speed, bus, want),
+        let quick = match self {
+            Mover::Three(wheeled) => wheeled.turn(wheel_speed, bus, want, Controller::tick_in_reach),
+            Mover::Four(wheeled) => wheeled.turn(wheel_speed, bus, want, Controller::tick_in_reach),
+        };
+        match quick {
+            Some(moved) => moved,
+            None => self.turn_slowly(wheel_speed, bus, want),
         }
+    }
+
+    /// A turn in which an effect is undone or something does not fit. By itself, and compiled where small code is wanted.
+    #[inline(never)]
+    fn turn_slowly(&mut self, wheel_speed: &[f32; MOTORS], bus: f32, want: BodyTwist) -> Moved {
+        let moved = match self {
+            Mover::Three(wheeled) => wheeled.turn(wheel_speed, bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
+            Mover::Four(wheeled) => wheeled.turn(wheel_speed, bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
+        };
+        moved.unwrap_or_default()
     }
 
     /// True if the currents are to be controlled.
@@ -158,7 +173,7 @@ impl<const N: usize> Wheeled<N> {
         if square <= self.most_speed * self.most_speed {
             return want;
         }
-        let share = self.most_speed / square.sqrt();
+        let share = self.most_speed / Real::sqrt(square);
         BodyTwist { v: share * want.v, vn: share * want.vn, w: want.w }
     }
 
@@ -168,20 +183,27 @@ impl<const N: usize> Wheeled<N> {
     }
 
     #[inline]
-    fn turn(&mut self, wheel_speed: &[f32; MOTORS], bus: f32, want: BodyTwist) -> Moved {
+    fn turn(
+        &mut self,
+        wheel_speed: &[f32; MOTORS],
+        bus: f32,
+        want: BodyTwist,
+        tick: impl Fn(&Controller<N>, &mut Memory, &Seen<N>, BodyTwist) -> Option<Decided<N>>,
+    ) -> Option<Moved> {
         let seen = Seen { wheel_speed: core::array::from_fn(|j| wheel_speed[j]), bus };
         let want = self.within_speed(want);
         let reference = self.memory.reference;
-        let decided = self.controller.tick(&mut self.memory, &seen, want);
+        let decided = tick(&self.controller, &mut self.memory, &seen, want)?;
+        let wanted = self.settings.robot.wheels.wheel_speeds(reference);
         let mut moved = Moved { reference, headroom: decided.headroom, ..Moved::default() };
         for j in 0..N {
             moved.current[j] = decided.current[j];
-            moved.wheel_speed[j] = decided.wheel_speed[j];
+            moved.wheel_speed[j] = wanted[j];
             // the current loop finds R·i by itself, and would overshoot if it were given
             let ahead =
                 if self.controls_current { self.settings.robot.motor.resistance * decided.current[j] } else { 0.0 };
             moved.voltage[j] = decided.voltage[j] - ahead;
         }
-        moved
+        Some(moved)
     }
 }

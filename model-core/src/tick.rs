@@ -170,7 +170,19 @@ impl<const N: usize, T: Real> Controller<N, T> {
     /// One turn: sees, remembers, decides. Finite in, finite out.
     #[inline]
     pub fn tick(&self, memory: &mut Memory<T>, seen: &Seen<N, T>, want: BodyTwist<T>) -> Decided<N, T> {
-        if self.flags == 0 { self.turn::<false>(memory, seen, want) } else { self.turn_and_undo(memory, seen, want) }
+        self.tick_in_reach(memory, seen, want).unwrap_or_else(|| self.turn_and_undo(memory, seen, want))
+    }
+
+    /// The turn of most turns, in which nothing is undone and everything fits; `None`, and nothing remembered, where it is
+    /// not one of these.
+    #[inline]
+    pub fn tick_in_reach(
+        &self,
+        memory: &mut Memory<T>,
+        seen: &Seen<N, T>,
+        want: BodyTwist<T>,
+    ) -> Option<Decided<N, T>> {
+        if self.flags == 0 { self.turn::<false>(memory, seen, want) } else { None }
     }
 
     /// What the motors have to do so that the robot, moving with `twist`, accelerates as wanted, effects undone, with no
@@ -189,19 +201,24 @@ impl<const N: usize, T: Real> Controller<N, T> {
         }
     }
 
-    /// A turn with effects undone: by itself, so that one without stays short.
+    /// Any other turn. By itself, so that most stay short; where nothing is undone, undoing it changes nothing.
     #[inline(never)]
     fn turn_and_undo(&self, memory: &mut Memory<T>, seen: &Seen<N, T>, want: BodyTwist<T>) -> Decided<N, T> {
-        self.turn::<true>(memory, seen, want)
-    }
-
-    /// A turn, with or without effects undone.
-    #[inline(always)]
-    fn turn<const UNDO: bool>(&self, memory: &mut Memory<T>, seen: &Seen<N, T>, want: BodyTwist<T>) -> Decided<N, T> {
-        let x = memory.reference;
-        if UNDO && self.flags & undo::STAYS != 0 {
+        if self.flags & undo::STAYS != 0 {
             return stay(memory);
         }
+        self.turn::<true>(memory, seen, want).unwrap_or_else(|| self.squeeze(memory, seen, want))
+    }
+
+    /// A turn in which everything fits, with or without effects undone.
+    #[inline(always)]
+    fn turn<const UNDO: bool>(
+        &self,
+        memory: &mut Memory<T>,
+        seen: &Seen<N, T>,
+        want: BodyTwist<T>,
+    ) -> Option<Decided<N, T>> {
+        let x = memory.reference;
         let change = self.limiter.change(x, want);
         // x⁺ = x + δ
         let next = BodyTwist { v: x.v + change.v, vn: x.vn + change.vn, w: x.w + change.w };
@@ -213,7 +230,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let (mut asked, missing) =
             self.ask::<UNDO>(x.to_array(), next.to_array(), inertial, a, memory.heading, feedback);
         if !self.room::<UNDO>(seen).holds(&asked.current, &asked.voltage) {
-            return self.squeeze::<UNDO>(memory, seen, want);
+            return None;
         }
         memory.reference = next;
         for (sum, missing) in memory.integral.iter_mut().zip(missing) {
@@ -225,7 +242,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
             self.undo_last(&mut asked.current, &mut asked.voltage);
         }
         let Asked { current, voltage, .. } = asked;
-        Decided { current, voltage, headroom: T::one(), steady: T::one() }
+        Some(Decided { current, voltage, headroom: T::one(), steady: T::one() })
     }
 
     /// M·a [N, N, N·m].
@@ -299,34 +316,25 @@ impl<const N: usize, T: Real> Controller<N, T> {
     /// A turn whose wish does not fit, from its beginning: one that fits then carries nothing for this one.
     #[cold]
     #[inline(never)]
-    fn squeeze<const UNDO: bool>(
-        &self,
-        memory: &mut Memory<T>,
-        seen: &Seen<N, T>,
-        want: BodyTwist<T>,
-    ) -> Decided<N, T> {
+    fn squeeze(&self, memory: &mut Memory<T>, seen: &Seen<N, T>, want: BodyTwist<T>) -> Decided<N, T> {
         let zero = T::zero();
         let x = memory.reference;
         let change = self.limiter.change(x, want).to_array();
         let (a, next) = (scaled(self.rate, change), add_scaled(x.to_array(), T::one(), change));
         let feedback = Some((seen, memory.integral));
-        let (asked, missing) = self.ask::<UNDO>(x.to_array(), next, self.inertial(a), a, memory.heading, feedback);
-        let room = self.room::<UNDO>(seen);
+        let (asked, missing) = self.ask::<true>(x.to_array(), next, self.inertial(a), a, memory.heading, feedback);
+        let room = self.room::<true>(seen);
         let wheel_speed = asked.wheel_speed;
         // q, what of the currents accelerates; p, the rest
         let mut force = self.inertial(a);
-        if UNDO {
-            self.undo_coupling(a, &mut force);
-        }
+        self.undo_coupling(a, &mut force);
         let mut accelerating: [T; N] = array::from_fn(|j| dot(self.drives[j].share, force));
-        if UNDO {
-            self.undo_losses_as(&wheel_speed, &asked.current, &mut accelerating);
-        }
+        self.undo_losses_as(&wheel_speed, &asked.current, &mut accelerating);
         let fitted = Room { voltage: room.voltage.max(zero), ..room }.fit(&Wish {
             steady: array::from_fn(|j| asked.current[j] - accelerating[j]),
             accelerating,
-            emf: array::from_fn(|j| self.winding::<UNDO>(j).1 * wheel_speed[j]),
-            resistance: array::from_fn(|j| self.winding::<UNDO>(j).0),
+            emf: array::from_fn(|j| self.winding::<true>(j).1 * wheel_speed[j]),
+            resistance: array::from_fn(|j| self.winding::<true>(j).0),
         });
         let (mut current, mut voltage) = (fitted.current, fitted.voltage);
         let (s, k) = (fitted.share.acceleration, fitted.share.steady);
@@ -344,10 +352,8 @@ impl<const N: usize, T: Real> Controller<N, T> {
                 *sum += self.integral_gain * missing;
             }
         }
-        if UNDO {
-            self.turn_heading(memory, x.w);
-            self.undo_last(&mut current, &mut voltage);
-        }
+        self.turn_heading(memory, x.w);
+        self.undo_last(&mut current, &mut voltage);
         Decided { current, voltage, headroom: s, steady: k }
     }
 }

@@ -110,7 +110,7 @@ fn undone(watch: &mut Stopwatch) {
             board::fail(format_args!("{id} cannot be undone"));
         }
         let settings = settings(paper::four_wheels(), undo);
-        say("motion tick, 4 wheels, undoing ", id, tick_costs(watch, &settings, NEAR, 12.0));
+        say("motion tick, 4 wheels, undoing ", id, tick_costs(watch, &settings, NEAR, 16.0));
     }
 }
 
