@@ -5,8 +5,8 @@
 //! - [`link`]: the bytes of the serial line, as frames;
 //! - [`lockstep`]: brain and board, period by period.
 //!
-//! QEMU's clock is the exchange: the image waits for every answer, so that a run does not depend on how fast either side
-//! is, and the same seed gives the same bits.
+//! QEMU's clock is the exchange: the image waits for every answer, so that a run does not depend on how fast either
+//! side is, and the same seed gives the same bits.
 
 pub mod brain;
 pub mod link;

@@ -1,7 +1,8 @@
 //! # QEMU: an image on `netduinoplus2`, an STM32F405 without peripherals worth the name
 //!
-//! The image opens two files in the working folder by semihosting; here they are named pipes. Both are opened for reading
-//! and writing on this side, so that no open waits for the other; that an image has ended is told by its process.
+//! The image opens two files in the working folder by semihosting; here they are named pipes. Both are opened for
+//! reading and writing on this side, so that no open waits for the other; that an image has ended is told by its
+//! process.
 
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Write};

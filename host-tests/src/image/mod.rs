@@ -1,7 +1,7 @@
 //! # The image: what the firmware's ELF says about itself
 //!
-//! Sizes, symbols, and the call graph of its machine code: what the control path can reach, and how much stack it can take.
-//! Nothing but the file is needed, no tool of a compiler.
+//! Sizes, symbols, and the call graph of its machine code: what the control path can reach, and how much stack it can
+//! take. Nothing but the file is needed, no tool of a compiler.
 //!
 //! - [`elf`]: sections, functions, vector table;
 //! - [`thumb`]: what an instruction does to flow and stack;

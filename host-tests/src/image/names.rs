@@ -23,8 +23,8 @@ pub fn allocates(name: &str) -> bool {
         || name == "malloc"
 }
 
-/// True for a routine of arithmetic in double precision, which this processor has no instructions for: the run-time names
-/// of the Arm (RTABI, 4.1.2: `__aeabi_d…` and conversions to double) and the compiler's own.
+/// True for a routine of arithmetic in double precision, which this processor has no instructions for: the run-time
+/// names of the Arm (RTABI, 4.1.2: `__aeabi_d…` and conversions to double) and the compiler's own.
 pub fn double_precision(name: &str) -> bool {
     let conversion = ["f2d", "i2d", "ui2d", "l2d", "ul2d"];
     name.starts_with("__aeabi_d") && !["__aeabi_divmod"].contains(&name)

@@ -24,7 +24,8 @@ pub const TASKS: [(&str, u8); 4] = [("ADC", 4), ("EXTI0", 3), ("EXTI1", 2), ("EX
 /// Priorities from here on are the control path.
 pub const CONTROL: u8 = 3;
 
-/// Handlers of a board that come in above every task, where an image has them: the emulated period, the latch of duties.
+/// Handlers of a board that come in above every task, where an image has them: the emulated period, the latch of
+/// duties.
 const ABOVE: [(&str, u8); 2] = [("SysTick", u8::MAX), ("TIM8_CC", u8::MAX)];
 
 /// Handlers after which nothing else runs.
@@ -171,8 +172,8 @@ impl Measured {
 pub fn page(measured: &Measured) -> String {
     let mut page = String::from(
         "# The image of the firmware\n\n\
-         Measured from the ELF alone by `cargo xtask image`: sizes from its sections, the rest from the call graph of its\n\
-         machine code. The control path is the tasks of priority 3 and above.\n\n\
+         Measured from the ELF alone by `cargo run --release -p host-tests --bin image -- ELF`: sizes from its sections,\n\
+         the rest from the call graph of its machine code. The control path is the tasks of priority 3 and above.\n\n\
          | promise | found | kept |\n|---|---|---|\n",
     );
     for promise in measured.promises() {

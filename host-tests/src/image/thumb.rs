@@ -1,9 +1,10 @@
 //! # Thumb: what an instruction does to the flow and to the stack pointer
 //!
-//! Not a disassembler: of the Thumb-2 instructions only those are told apart that branch, call, return or move the stack
-//! pointer. Every other one goes on to the next, and its length follows from its first five bits.
+//! Not a disassembler: of the Thumb-2 instructions only those are told apart that branch, call, return or move the
+//! stack pointer. Every other one goes on to the next, and its length follows from its first five bits.
 //!
-//! Source: ARMv7-M Architecture Reference Manual (DDI 0403), A5.2–A5.3 and A7.7; encodings are quoted beside their masks.
+//! Source: ARMv7-M Architecture Reference Manual (DDI 0403), A5.2–A5.3 and A7.7; encodings are quoted beside their
+//! masks.
 
 /// What an instruction does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -223,7 +224,8 @@ fn constant(h: u16, g: u16, base: u16) -> Does {
         return Does::StackUnknown;
     }
     match h & 0xFBE0 {
-        // ADD.W 11110i 0 1000S, SUB.W 11110i 0 1101S: a modified constant; ADDW 11110i 1 00000, SUBW 11110i 1 01010: plain
+        // ADD.W 11110i 0 1000S, SUB.W 11110i 0 1101S: a modified constant; ADDW 11110i 1 00000, SUBW 11110i 1 01010:
+        // plain
         0xF100 => Does::Stack(expanded(twelve)),
         0xF1A0 => Does::Stack(-expanded(twelve)),
         0xF200 => Does::Stack(twelve as i32),

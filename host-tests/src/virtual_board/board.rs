@@ -10,8 +10,9 @@
 //! | sense (`current_sensor_offset`) | the codes of the phase currents |
 //! | gear, contact, body | the plant |
 //!
-//! `actuation_delay` is refused: on this board nothing stands between command and bridge, a late command is late on the link.
-//! Within a period the wheels' speeds are those of its beginning; the plant then takes one step under the mean currents.
+//! `actuation_delay` is refused: on this board nothing stands between command and bridge, a late command is late on the
+//! link. Within a period the wheels' speeds are those of its beginning; the plant then takes one step under the mean
+//! currents.
 
 use firmware::codes::{Codes, MOTORS};
 use firmware::exchange::TOPS;
@@ -330,7 +331,8 @@ impl Motor {
 
     /// Codes of the phase currents, sampled while the rotor is at an electrical angle [rad].
     fn codes(&self, angle: f64, dice: &mut ChaCha8Rng) -> [AdcCode; 3] {
-        // the effect speaks of the DC-equivalent current: what reads o too much there turns with the rotor, i_q = 2/√3·o
+        // the effect speaks of the DC-equivalent current: what reads o too much there turns with the rotor, i_q =
+        // 2/√3·o
         let turning = Vector::new(0.0, 2.0 / 3.0_f64.sqrt() * self.sensor_offset) * Vector::from_polar(1.0, angle);
         let wrong = phases(turning);
         std::array::from_fn(|x| AdcCode(self.channels[x].code(self.outcome.sampled[x] + wrong[x], dice)))

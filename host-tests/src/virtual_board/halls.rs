@@ -5,7 +5,8 @@
 //! ```
 //!
 //! With the switches in their places the code walks 1, 3, 2, 6, 4, 5 as the electrical angle θ grows, and code 1 is
-//! centred on θ = 0. ε_x is an error of placement, electrical: a switch that sits 1° off on a motor of 8 pole pairs is 8° off.
+//! centred on θ = 0. ε_x is an error of placement, electrical: a switch that sits 1° off on a motor of 8 pole pairs is
+//! 8° off.
 
 /// Codes of the six sectors, forward; sector k spans k·60° ± 30°.
 pub const FORWARD: [u8; 6] = [1, 3, 2, 6, 4, 5];

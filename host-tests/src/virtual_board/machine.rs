@@ -17,15 +17,15 @@
 //! | V_l, i₀ | [`LegLoss`] | V, A | what dead time takes from a leg, and the ripple around whose zero it fades |
 //! | d_x, U | `duties`, `bus` | 1, V | duties of the legs, bus voltage |
 //!
-//! The star point floats: only the space vector of the legs' voltages matters, and the phase currents sum to zero. Duties,
-//! bus voltage and speed are held over a period, and the solution is then exact, its means too; with dead time a period is
-//! cut into pieces over which the loss is held.
+//! The star point floats: only the space vector of the legs' voltages matters, and the phase currents sum to zero.
+//! Duties, bus voltage and speed are held over a period, and the solution is then exact, its means too; with dead time
+//! a period is cut into pieces over which the loss is held.
 //!
-//! A period begins where the new duties take effect, at the far end of the PWM's triangle. The currents are sampled at its
-//! middle, where the ripple passes through zero: half a period after the duties have come into force.
+//! A period begins where the new duties take effect, at the far end of the PWM's triangle. The currents are sampled at
+//! its middle, where the ripple passes through zero: half a period after the duties have come into force.
 //!
-//! While the bridge is open the current is zero: the diodes carry it against the whole bus, and it is gone in a fraction
-//! of a period; its last charge, some ten microseconds' worth, is not accounted for.
+//! While the bridge is open the current is zero: the diodes carry it against the whole bus, and it is gone in a
+//! fraction of a period; its last charge, some ten microseconds' worth, is not accounted for.
 //!
 //! Neglects: ripple, saturation, cogging, saliency, iron losses, unequal phases. Fails when: the back-EMF between two
 //! phases (K_v·ω_m) exceeds the bus while the bridge is open: the diodes would brake.
@@ -49,8 +49,9 @@ pub struct LegLoss {
 }
 
 impl LegLoss {
-    /// The loss of each leg whose mean over a turn of the rotor is a DC-equivalent loss `voltage·sat(i/smoothing)` [V, A]:
-    /// the same height at large currents and the same slope at zero; between them sinusoidal currents round the corner.
+    /// The loss of each leg whose mean over a turn of the rotor is a DC-equivalent loss `voltage·sat(i/smoothing)` [V,
+    /// A]: the same height at large currents and the same slope at zero; between them sinusoidal currents round the
+    /// corner.
     pub fn dc_equivalent(voltage: f64, smoothing: f64) -> Self {
         // a square wave of height V_l has a fundamental of 4/π·V_l, and u = √3·u_q
         let leg = voltage * PI / (4.0 * 3.0_f64.sqrt());

@@ -19,7 +19,8 @@ fn duties(magnet: Magnet, d: f64, q: f64) -> [f64; 3] {
     phases(Vector::new(d, q) * Vector::from_polar(1.0, middle)).map(|v| 0.5 + v / BUS)
 }
 
-/// Runs with held d and q voltages [V] until all is settled, and gives the mean of the last periods, a whole turn of them.
+/// Runs with held d and q voltages [V] until all is settled, and gives the mean of the last periods, a whole turn of
+/// them.
 fn settled(machine: &Machine, speed: f64, d: f64, q: f64) -> Outcome {
     let (mut current, mut magnet) = (Vector::default(), Magnet { angle: 0.3, speed });
     let turn = if speed == 0.0 { 1 } else { (TAU / (speed.abs() * DT)).round() as usize };
@@ -61,7 +62,8 @@ fn the_settled_current_is_what_voltage_less_back_emf_drives_through_the_resistan
     for motor_speed in [-200.0, -40.0, 40.0, 200.0] {
         let (m, speed) = (machine(), 8.0 * motor_speed);
         let u = 3.0;
-        // the d axis is held free of current by v_d = −ω·L·i_q, as a current loop does; sinc: a held vector in turning axes
+        // the d axis is held free of current by v_d = −ω·L·i_q, as a current loop does; sinc: a held vector in turning
+        // axes
         let want = (u - KV * motor_speed) / R;
         let i_q = 2.0 / 3.0_f64.sqrt() * want;
         let half = 0.5 * speed * DT;

@@ -1,6 +1,7 @@
 //! # The virtual board: what a robot's electronics see, without the robot
 //!
-//! Everything between the duties that a program writes and the codes that it reads, in f64, one PWM period of 50 µs a step:
+//! Everything between the duties that a program writes and the codes that it reads, in f64, one PWM period of 50 µs a
+//! step:
 //!
 //! ```text
 //! compare counts ─ bridge ─ [`machine`] ─ current ─ plant of the core ─ wheel speed
@@ -8,8 +9,9 @@
 //!                [`battery`]  [`adc`] ─ codes ─────────────────────── [`halls`]
 //! ```
 //!
-//! The windings are solved here and share no line with the robot's code; body, wheels and their effects are the core's plant,
-//! driven by the mean current of each motor. [`board`] puts it together, [`faults`] is what can go wrong with it.
+//! The windings are solved here and share no line with the robot's code; body, wheels and their effects are the core's
+//! plant, driven by the mean current of each motor. [`board`] puts it together, [`faults`] is what can go wrong with
+//! it.
 
 pub mod adc;
 pub mod battery;
