@@ -106,7 +106,10 @@ mod tests {
     fn what_was_written_is_read() {
         let mut memory = [0; 16];
         let mut writer = Writer::new(&mut memory);
-        (writer.u8(7), writer.u16(0x1234), writer.u32(0xdead_beef), writer.f32(-1.5));
+        writer.u8(7);
+        writer.u16(0x1234);
+        writer.u32(0xdead_beef);
+        writer.f32(-1.5);
         assert_eq!(writer.len(), Some(11));
         let mut reader = Reader::new(writer.written());
         assert_eq!((reader.u8(), reader.u16()), (Some(7), Some(0x1234)));
@@ -117,7 +120,8 @@ mod tests {
     fn what_does_not_fit_is_told() {
         let mut memory = [0; 3];
         let mut writer = Writer::new(&mut memory);
-        (writer.u16(1), writer.u16(2));
+        writer.u16(1);
+        writer.u16(2);
         assert_eq!((writer.len(), writer.written()), (None, &[1, 0][..]));
         assert_eq!(Reader::new(&[1, 2]).each::<u16, 2>(Reader::u16), None);
     }

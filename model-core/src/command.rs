@@ -231,7 +231,8 @@ mod tests {
     fn driven(v: f32, vn: f32, w: f32) -> [u8; 14] {
         let mut payload = [0; 14];
         let mut writer = Writer::new(&mut payload);
-        (writer.u16(5), writer.f32(v), writer.f32(vn), writer.f32(w));
+        writer.u16(5);
+        [v, vn, w].into_iter().for_each(|x| writer.f32(x));
         payload
     }
 
