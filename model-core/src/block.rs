@@ -31,7 +31,7 @@ mod bounds;
 mod effects;
 mod refused;
 
-pub use bounds::Field;
+pub use bounds::{Field, USABLE_COUNTS};
 pub use effects::{BlockEffect, BlockEffects, KNOWN, Known};
 pub use refused::{Reason, Refused};
 

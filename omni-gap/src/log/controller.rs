@@ -5,6 +5,7 @@
 //! ```toml
 //! [controller]                     # all keys may be left out
 //! mode = "current"                 # or "voltage": without a loop for the currents
+//! feedforward = true               # false: by feedback alone
 //! commutation = "field_oriented"   # or "six_step": by the sectors of the halls alone
 //! pole_pairs = 8                   # electrical turns in a turn of the motor
 //! inductance_H = 0.5e-3            # between two terminals, as resistance_ohm
@@ -30,6 +31,8 @@ use serde::Serialize;
 pub struct ControllerFile {
     /// Whether a loop holds the currents; otherwise the wheels are driven by the model's voltages alone.
     pub holds_current: bool,
+    /// Whether the model's voltages and currents go ahead of the feedback.
+    pub feedforward: bool,
     /// Whether the motors are commutated by the sectors of the halls alone.
     pub six_step: bool,
     pub pole_pairs: u8,
@@ -57,6 +60,7 @@ impl Default for ControllerFile {
     fn default() -> Self {
         ControllerFile {
             holds_current: true,
+            feedforward: true,
             six_step: false,
             pole_pairs: 8,
             inductance_h: 0.5e-3,
@@ -74,8 +78,9 @@ impl Default for ControllerFile {
     }
 }
 
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "mode",
+    "feedforward",
     "commutation",
     "pole_pairs",
     "inductance_H",
@@ -106,6 +111,7 @@ pub(super) fn controller(s: &Section) -> Result<ControllerFile> {
     };
     Ok(ControllerFile {
         holds_current: one_of(s, "mode", ["voltage", "current"], default.holds_current)?,
+        feedforward: s.flag("feedforward")?.unwrap_or(default.feedforward),
         six_step: one_of(s, "commutation", ["field_oriented", "six_step"], default.six_step)?,
         pole_pairs,
         inductance_h: positive("inductance_H", default.inductance_h)?,

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use model_core::block::{Block, BlockEffect, BlockEffects, Field, Known, Limits, MAX_BYTES, Mode, Refused, checksum};
+use model_core::block::{
+    Block, BlockEffect, BlockEffects, Field, Known, Limits, MAX_BYTES, Mode, Refused, USABLE_COUNTS, checksum,
+};
 use model_core::compensation::Compensation;
 use model_core::effects;
 use model_core::hello::Commutation;
@@ -32,8 +34,8 @@ pub struct Exported {
 /// Share of the supply at which the bridges open, where the file states none: below and above [1]
 const SUPPLY_BAND: (f64, f64) = (0.75, 1.25);
 
-/// Counts of the converter that a limit of current may take, where the file states none.
-const USUAL_COUNTS: f64 = 1900.0;
+/// Share of the converter's usable range that a limit of current takes, where the file states none [1]
+const RANGE_SHARE: f64 = 0.95;
 
 /// The fastest limit of speed that is taken where the file states none [m/s]
 const USUAL_FASTEST: f64 = 5.0;
@@ -66,6 +68,7 @@ fn export_of<const N: usize>(file: &RobotFile, path: &Path) -> Result<Exported> 
         robot,
         inductance: controller.inductance_h as f32,
         mode: if controller.holds_current { Mode::Current } else { Mode::Voltage },
+        feedforward: controller.feedforward,
         commutation: if controller.six_step { Commutation::SixStep } else { Commutation::FieldOriented },
         pole_pairs: controller.pole_pairs,
         limits,
@@ -95,7 +98,8 @@ fn limits(file: &RobotFile, controller: &ControllerFile, supply: f64) -> (Limits
         stated.unwrap_or(usual) as f32
     };
     // a motor held still draws V/R; the converter must be able to tell
-    let held_still = (supply / file.motor.resistance_ohm).min(USUAL_COUNTS * controller.amps_per_count);
+    let held_still =
+        (supply / file.motor.resistance_ohm).min(RANGE_SHARE * f64::from(USABLE_COUNTS) * controller.amps_per_count);
     // with nothing to drive, v = r·V/(l·K_v)
     let slowest = file.wheel.iter().map(|wheel| wheel.radius_m).fold(f64::INFINITY, f64::min);
     let idle = (slowest * supply / file.volts_per_wheel_speed()).min(USUAL_FASTEST);
@@ -200,6 +204,9 @@ mod tests {
             let told = exported(&FOUR.replacen(from, to, 1)).unwrap_err().to_string();
             assert!(told.contains(says), "{told}");
         }
+        let strong = FOUR.replace("resistance_ohm = 4.3111", "resistance_ohm = 0.2");
+        let told = exported(&strong).expect("a limit that the converters can see being broken is taken");
+        assert!(strong != FOUR && told.limits.current < 7.35, "{} A", told.limits.current);
         let text = FOUR.replace("[supply]", "[limits]").replace("voltage_V", "current_A");
         let told = exported(&text).unwrap_err().to_string();
         assert!(told.contains("does not state the supply") && told.contains("Add [supply]"), "{told}");
