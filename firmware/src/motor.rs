@@ -48,8 +48,7 @@ impl Motor {
     ///
     /// # Errors
     /// [`HallFault`] says what is wrong with the code; the rotor is then taken to be where it was.
-    // By itself, as below.
-    #[inline(never)]
+    #[inline]
     pub fn follow(&mut self, code: HallCode) -> Result<(), HallFault> {
         match &mut self.halls {
             Some(halls) => halls.turn(code)?,
@@ -72,8 +71,7 @@ impl Motor {
     }
 
     /// Duties of the next period [1]; those of no voltage where the bridge is to be open.
-    // By itself, so that four motors are not four times the code.
-    #[inline(never)]
+    #[inline]
     pub fn decide(&mut self, setup: &Setup, sensed: &Sensed, want: &CurrentWant, closed: bool) -> [f32; 3] {
         let sector = self.sector(setup.six_step);
         let seen = CurrentSeen {

@@ -50,7 +50,8 @@ impl Stalls {
     /// wheel from one hall edge to the next [rad].
     pub fn turn(&mut self, told: &Told, moved: &Moved, limit: f32, edge: f32) -> u8 {
         let mut stalled = 0;
-        for (j, stall) in self.0.iter_mut().enumerate() {
+        for j in 0..MOTORS {
+            let stall = &mut self.0[j];
             let edges = told.edges[j];
             if edges.abs_diff(stall.edges) >= MOVED || told.lost >> j & 1 != 0 {
                 *stall = Stall { edges, ..Stall::default() };

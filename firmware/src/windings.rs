@@ -15,6 +15,7 @@
 
 use model_core::current_loop::CurrentWant;
 use model_core::faults::{Fault, Faults};
+use model_core::halls::HallCode;
 
 use crate::codes::{Codes, MOTORS, PERIODS_PER_TURN};
 use crate::guard::Guard;
@@ -182,31 +183,21 @@ impl Windings {
             if j >= usize::from(self.setup.wheels) {
                 continue;
             }
-            let bit = 1 << j;
-            match motor.follow(codes.halls[j]) {
-                Ok(()) => self.guard.good_hall(j),
-                Err(_) => self.guard.bad_hall(j, self.setup.wheels),
-            }
-            if !ready {
-                continue;
-            }
-            let offsets = self.offsets.of(j);
-            // a lost motor's bridge is open, and its amplifiers may be what it was lost for
-            if self.guard.lost() & bit == 0 && self.guard.over_current(&self.setup.limits, &codes.phases[j], &offsets) {
-                self.guard.latch(Fault::OverCurrent);
-            }
+            let sensed = Sensed { codes: codes.phases[j], offsets: self.offsets.of(j), bus, per_bus };
             let want = CurrentWant { current: ask.current[j], voltage: ask.voltage[j], closed: ask.closed };
-            let sensed = Sensed { codes: codes.phases[j], offsets, bus, per_bus };
-            drive.duties[j] = motor.decide(&self.setup, &sensed, &want, may & bit != 0);
+            let place = Place { motor: j, ready, closed: may >> j & 1 != 0 };
+            drive.duties[j] = turn_of(motor, &mut self.guard, &self.setup, &place, codes.halls[j], &sensed, &want);
         }
         if self.guard.faults().is_empty() {
             drive.enabled = may & !self.guard.lost();
         }
         if drive.enabled != may {
             // what was decided above and is not applied
-            for (j, motor) in self.motors.iter_mut().enumerate().filter(|(j, _)| drive.enabled >> j & 1 == 0) {
-                drive.duties[j] = NO_VOLTAGE;
-                motor.opened();
+            for (j, (motor, duties)) in self.motors.iter_mut().zip(&mut drive.duties).enumerate() {
+                if drive.enabled >> j & 1 == 0 {
+                    *duties = NO_VOLTAGE;
+                    motor.opened();
+                }
             }
         }
         self.driven = drive.enabled;
@@ -244,4 +235,39 @@ impl Windings {
         }
         told
     }
+}
+
+/// Which motor's turn it is, and what may be done.
+struct Place {
+    motor: usize,
+    /// The offsets are known
+    ready: bool,
+    /// The bridge may be closed
+    closed: bool,
+}
+
+/// One motor's turn: what to put on its phases. By itself, so that four motors are not four times the code.
+#[inline(never)]
+fn turn_of(
+    motor: &mut Motor,
+    guard: &mut Guard,
+    setup: &Setup,
+    place: &Place,
+    hall: HallCode,
+    sensed: &Sensed,
+    want: &CurrentWant,
+) -> [f32; 3] {
+    match motor.follow(hall) {
+        Ok(()) => guard.good_hall(place.motor),
+        Err(_) => guard.bad_hall(place.motor, setup.wheels),
+    }
+    if !place.ready {
+        return NO_VOLTAGE;
+    }
+    // a lost motor's bridge is open, and its amplifiers may be what it was lost for
+    let in_use = guard.lost() >> place.motor & 1 == 0;
+    if in_use && guard.over_current(&setup.limits, &sensed.codes, &sensed.offsets) {
+        guard.latch(Fault::OverCurrent);
+    }
+    motor.decide(setup, sensed, want, place.closed)
 }

@@ -79,7 +79,12 @@ impl<T: Real> Room<T> {
     /// True if no current and no voltage is beyond its limit.
     #[inline(always)]
     pub fn holds<const N: usize>(&self, current: &[T; N], voltage: &[T; N]) -> bool {
-        (0..N).all(|j| !current[j].exceeds(self.current) && !voltage[j].exceeds(self.voltage))
+        for j in 0..N {
+            if current[j].exceeds(self.current) || voltage[j].exceeds(self.voltage) {
+                return false;
+            }
+        }
+        true
     }
 
     /// As much of a wish as there is room for.

@@ -173,7 +173,7 @@ impl<const N: usize> Wheeled<N> {
         if square <= self.most_speed * self.most_speed {
             return want;
         }
-        let share = self.most_speed / Real::sqrt(square);
+        let share = self.most_speed * Real::inverse_sqrt(square);
         BodyTwist { v: share * want.v, vn: share * want.vn, w: want.w }
     }
 
