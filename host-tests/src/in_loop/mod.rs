@@ -3,6 +3,7 @@
 //! [`Ride`] is one run: a brain (the image in QEMU, or the same library called here) in lockstep with a virtual board, and
 //! a host that sends the parameter block, commands a hundred times a second, and keeps what comes back.
 
+pub mod gap;
 mod ride;
 mod software;
 

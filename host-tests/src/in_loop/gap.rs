@@ -1,0 +1,173 @@
+//! # Gap: drive, record, diagnose, correct, drive again
+//!
+//! A robot has an effect that its file does not know. It drives a script with the parameters of that file; what it sends is
+//! recorded, the recording is diagnosed, the corrected file becomes a parameter block, and the robot drives the same script
+//! with it. Everything between the two drives is what a person would do with `omni-gap record`, `diagnose` and `export`:
+//! the same library calls, on files in a folder.
+
+use std::path::{Path, PathBuf};
+
+use model_core::active::Effects;
+use model_core::effects::catalogue;
+use model_core::frames::BodyTwist;
+use model_core::robot::Robot;
+use omni_gap::diagnosis::{Diagnosis, Options};
+use omni_gap::known_effects;
+use omni_gap::log::{RobotFile, Session, write_whole, write_whole_with};
+use omni_gap::report::Verdict;
+use omni_gap::wire::block::export;
+use omni_gap::wire::capture::Capture;
+use omni_gap::wire::run::{columns, run};
+use omni_gap::wire::source::Source;
+
+use super::{Ride, Taken};
+use crate::emulator::{Brain, Trouble};
+use crate::virtual_board::{Setup, VirtualBoard};
+
+/// An effect that the robot has and its file does not know.
+#[derive(Clone, Copy, Debug)]
+pub struct Hidden {
+    /// Its id in the catalogue
+    pub id: &'static str,
+    /// On which wheel alone, if on one
+    pub wheel: Option<usize>,
+    /// Its parameters, in the card's order
+    pub params: &'static [f64],
+    /// True: the wheels are driven by the model's voltages; false: by currents that a loop holds
+    pub by_voltage: bool,
+}
+
+/// What closing the loop came to.
+#[derive(Clone, Debug)]
+pub struct Closed {
+    /// What was hidden
+    pub hidden: Hidden,
+    /// What the diagnosis says
+    pub verdict: Verdict,
+    /// The causes that it names
+    pub causes: Vec<String>,
+    /// What the exported block undoes
+    pub undone: Vec<String>,
+    /// RMS of the body's speed less the wanted one [m/s], before and after
+    pub error: [f64; 2],
+    /// The same of the yaw rate [rad/s]
+    pub turning: [f64; 2],
+}
+
+/// Seconds that the robot is awake before it is commanded: its offsets are learned in 51 ms.
+const WAKES: f64 = 0.15;
+
+/// Seconds of every drive.
+const SECONDS: f64 = 6.0;
+
+/// The scripts that are driven and recorded; the first one is what is judged.
+const SCRIPTS: [f64; 3] = [0.0, 0.37, 0.71];
+
+/// What is wanted at a time: all three axes at once, with rests and reversals.
+pub fn script(phase: f64, t: f64) -> BodyTwist<f64> {
+    // rests of 0.4 s every 2 s
+    if (t + phase) % 2.0 < 0.4 {
+        return BodyTwist::default();
+    }
+    let turn = std::f64::consts::TAU;
+    let wave = |frequency: f64, at: f64| (turn * (frequency * t + at + phase)).sin();
+    BodyTwist { v: 0.7 * wave(0.55, 0.0), vn: 0.6 * wave(0.43, 0.3), w: 4.0 * wave(0.37, 0.6) }
+}
+
+/// A robot file in the form that the loop drives it: with the supply, the limits and the controller that it needs.
+pub fn robot_file(text: &str, by_voltage: bool) -> String {
+    let mode = if by_voltage { "voltage" } else { "current" };
+    format!(
+        "{text}\n[limits]\ncurrent_A = 4.0\nspeed_m_s = 2.0\n\n[controller]\nmode = \"{mode}\"\ninductance_H = 0.6e-3\n\
+         feedback_A_s_per_rad = 0.01\nfeedback_A_per_rad = 0.0\nbandwidth_rad_s = 2000.0\n"
+    )
+}
+
+/// Closes the loop on one hidden effect, in `folder`. `brain` starts a program for a drive.
+///
+/// # Errors
+/// [`Trouble`] says what became of the program.
+pub fn close<B: Brain, const N: usize>(
+    robot: Robot<N, f64>,
+    nominal: &str,
+    hidden: Hidden,
+    folder: &Path,
+    mut brain: impl FnMut() -> Result<B, Trouble>,
+) -> Result<Closed, Trouble> {
+    let nominal_path = folder.join("robot.toml");
+    write(&nominal_path, nominal);
+    write(&folder.join("columns.toml"), &columns(N));
+    std::fs::create_dir_all(folder.join("runs")).expect("a folder for the runs");
+    let mut before = Vec::new();
+    for (k, phase) in SCRIPTS.into_iter().enumerate() {
+        let name = format!("drive-{k}");
+        let (taken, bytes) = drive(robot, hidden, &nominal_path, phase, k as u64, brain()?)?;
+        record(&bytes, &name, N, &folder.join("runs"));
+        before.push(taken);
+    }
+
+    let session = Session::load(folder, None, &known_effects()).expect("a session that was just recorded");
+    let diagnosis = Diagnosis::of(&session, &Options::default());
+    let corrected_path = folder.join("corrected_robot.toml");
+    write(&corrected_path, &diagnosis.corrected_robot);
+    let corrected = RobotFile::load(&corrected_path, &known_effects()).expect("a corrected robot file is a robot file");
+    let undone = export(&corrected, &corrected_path).expect("a corrected robot file can be exported").undone;
+    let (after, _) = drive(robot, hidden, &corrected_path, SCRIPTS[0], 0, brain()?)?;
+    let errors = [tracking(&before[0]), tracking(&after)];
+    Ok(Closed {
+        hidden,
+        verdict: diagnosis.report.verdict,
+        causes: diagnosis.report.causes.clone(),
+        undone,
+        error: errors.map(|(error, _)| error),
+        turning: errors.map(|(_, turning)| turning),
+    })
+}
+
+/// One drive of a script by the parameters of a robot file: what is true and said, and every byte that came.
+fn drive<B: Brain, const N: usize>(
+    robot: Robot<N, f64>,
+    hidden: Hidden,
+    file: &Path,
+    phase: f64,
+    seed: u64,
+    brain: B,
+) -> Result<(Taken, Vec<u8>), Trouble> {
+    let file_read = RobotFile::load(file, &known_effects()).expect("a robot file");
+    let block = export(&file_read, file).expect("a robot file that can be exported");
+    let mut effects = Effects::default();
+    let effect = catalogue::<f64>().iter().find(|effect| effect.card().id == hidden.id).expect("an effect's id");
+    effects.add(*effect, hidden.wheel, hidden.params).expect("parameters of its card");
+    let board = VirtualBoard::new(Setup::new(robot, effects, seed));
+    let mut ride = Ride::new(brain, board);
+    ride.send_bytes_of_block(&block.bytes);
+    ride.wait(WAKES)?;
+    ride.follow(SECONDS, |t| script(phase, t))?;
+    let bytes = ride.lockstep.line.received().to_vec();
+    Ok((ride.taken, bytes))
+}
+
+/// Makes a run of what came over the link.
+fn record(bytes: &[u8], name: &str, wheels: usize, folder: &Path) {
+    let mut capture = Capture::new(None);
+    capture.take(bytes);
+    let source = Source::File(PathBuf::from("link"));
+    let run = run(&capture, &source, name, wheels).expect("a drive that was recorded");
+    write_whole_with(&folder.join(format!("{name}.csv")), |out| run.write_csv(out)).expect("room for a run");
+}
+
+/// RMS of what the body does less what is wanted, (v, vn) and ω [m/s, rad/s], while the robot is commanded.
+fn tracking(taken: &Taken) -> (f64, f64) {
+    let (mut along, mut about, mut count) = (0.0, 0.0, 0.0);
+    for (moment, record) in taken.moments.iter().zip(&taken.records).filter(|(moment, _)| moment.time > WAKES) {
+        let [v, vn, w] = record.wanted.map(f64::from);
+        along += (moment.twist.v - v).powi(2) + (moment.twist.vn - vn).powi(2);
+        about += (moment.twist.w - w).powi(2);
+        count += 1.0;
+    }
+    ((along / count).sqrt(), (about / count).sqrt())
+}
+
+fn write(path: &Path, text: &str) {
+    write_whole(path, text.as_bytes()).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+}
