@@ -4,8 +4,11 @@
 //! a host that sends the parameter block, commands a hundred times a second, and keeps what comes back.
 
 pub mod gap;
+pub mod faults;
 mod ride;
 mod software;
+mod twin;
 
 pub use ride::{Moment, Ride, Taken};
 pub use software::Software;
+pub use twin::Twin;

@@ -61,6 +61,11 @@ impl<B: Brain, const N: usize> Ride<B, N> {
         Self { lockstep: Lockstep::new(brain, board), taken: Taken::default(), periods: 0, sequence: 0 }
     }
 
+    /// Periods since the start.
+    pub fn periods(&self) -> u32 {
+        self.periods
+    }
+
     /// Since the start [s].
     pub fn time(&self) -> f64 {
         f64::from(self.periods) * PERIOD
@@ -86,6 +91,11 @@ impl<B: Brain, const N: usize> Ride<B, N> {
     /// Sends one command to move.
     pub fn drive(&mut self, twist: BodyTwist<f64>) {
         self.sequence = self.sequence.wrapping_add(1);
+        self.drive_again(twist);
+    }
+
+    /// Sends a command to move under the number of the one before.
+    pub fn drive_again(&mut self, twist: BodyTwist<f64>) {
         let twist = BodyTwist::from_array(twist.to_array().map(|x| x as f32));
         self.lockstep.line.command(&Command::Drive { sequence: self.sequence, twist });
     }

@@ -14,6 +14,7 @@ use firmware::listener::Listener;
 use firmware::motion::Motion;
 use firmware::post::{self, Post, Room, Sender};
 use firmware::windings::Windings;
+use model_core::faults::Faults;
 
 use crate::emulator::{Brain, Trouble};
 
@@ -54,6 +55,14 @@ impl fmt::Debug for Software {
             .field("windings", &self.windings)
             .field("motion", &self.motion)
             .finish_non_exhaustive()
+    }
+}
+
+impl Software {
+    /// The faults that are latched, those included that only cost a wheel.
+    pub fn faults(&self) -> Faults {
+        let guard = self.windings.guard();
+        Faults::from_bits(guard.faults().bits() | guard.costs().bits())
     }
 }
 

@@ -43,10 +43,11 @@ pub enum Fault {
     },
 }
 
-/// Torque that holds a blocked wheel [N·m]: more than any motor of such a robot has at its wheel.
-const HELD: f64 = 1.0e3;
+/// Torque against the turning of a blocked wheel [N·m·s/rad]: the torque of any motor of such a robot turns it by less than
+/// 10⁻⁸ rad/s. A dry friction would do for wheels that roll, but the plant spends it as if no wheel could slip.
+const HELD: f64 = 1.0e9;
 
-/// A wheel that does not turn, as an effect of the plant: its shaft can hold anything.
+/// A wheel that does not turn, as an effect of the plant: it may still be dragged over the floor.
 #[derive(Debug)]
 pub struct BlockedWheel;
 
@@ -57,7 +58,7 @@ static CARD: Card = Card {
     id: "blocked_wheel",
     title: "Blocked wheel",
     summary: "Something has got between a wheel and the robot.",
-    equation: "budget → budget + 1000 N·m",
+    equation: "damping → damping + 10⁹ N·m·s/rad",
     source: "a fault of the virtual board",
     seams: &[Seam::Gear],
     place: Place::OneWheel,
@@ -74,6 +75,6 @@ impl Effect<f64> for BlockedWheel {
     }
 
     fn gear(&self, _: &[f64], _: &[f64], _: &At<f64>, x: &mut Gear<f64>) {
-        x.budget += HELD;
+        x.damping += HELD;
     }
 }

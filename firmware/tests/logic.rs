@@ -1,0 +1,290 @@
+//! When bridges close, when they open, and what is said about it.
+
+mod program;
+
+use firmware::codes::Codes;
+use firmware::listener::{Heard, Listener};
+use firmware::motion::events;
+use firmware::post::{self, Room};
+use firmware::setup::{MOST_TRIP, Setup};
+use firmware::windings::Told;
+use model_core::block::{Parameters, Reason};
+use model_core::calibration::AdcCode;
+use model_core::command::{Command, Reply};
+use model_core::faults::{Fault, Faults};
+use model_core::frames::BodyTwist;
+use model_core::halls::HallCode;
+use model_core::link::{Kind, MAX_FRAME};
+use model_core::paper::{four_wheels, three_wheels};
+use model_core::record::Stage;
+use program::{Program, block, bytes, still};
+
+const AHEAD: BodyTwist = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
+
+fn four() -> Parameters {
+    Parameters::Four(block(four_wheels()))
+}
+
+fn three() -> Parameters {
+    Parameters::Three(block(three_wheels()))
+}
+
+/// Codes with one hall code wrong.
+fn bad_hall(motor: usize) -> Codes {
+    let mut codes = still();
+    codes.halls[motor] = HallCode(7);
+    codes
+}
+
+#[test]
+fn without_parameters_nothing_is_driven() {
+    let mut program = Program::new();
+    program.turns(100, &still());
+    program.drive();
+    assert_eq!(program.turns(20, &still()).enabled, 0);
+    assert_eq!(program.turn.stage, Stage::Asleep);
+}
+
+#[test]
+fn only_a_fresh_command_closes_the_bridges_of_the_motors_that_the_robot_has() {
+    for (parameters, motors) in [(four(), 0b1111), (three(), 0b0111)] {
+        let mut program = Program::new();
+        program.send_block(&bytes(&parameters));
+        // heard before anything is ready, and not kept for later
+        program.drive();
+        assert_eq!(program.turns(100, &still()).enabled, 0);
+        assert_eq!(program.turn.stage, Stage::Open);
+        program.drive();
+        assert_eq!(program.turns(2, &still()).enabled, motors);
+        program.command(&Command::Open);
+        assert_eq!(program.turns(2, &still()).enabled, 0);
+        assert_eq!(program.turn.stage, Stage::Open);
+    }
+}
+
+#[test]
+fn a_command_does_not_restart_a_robot_with_a_fault_and_a_clear_does_not_drive_it() {
+    let mut program = Program::driving(&four());
+    program.period(&Codes { driver_fault: true, ..still() });
+    for _ in 0..10 {
+        program.drive();
+        assert_eq!(program.turns(10, &still()).enabled, 0);
+    }
+    assert!(program.records.last().is_some_and(|last| last.faults.has(Fault::DriverLine)));
+    // the command that stands before the clear is not taken up after it
+    program.drive();
+    program.command(&Command::Clear);
+    assert_eq!(program.turns(20, &still()).enabled, 0);
+    assert_eq!((program.turn.stage, program.records.last().map(|r| r.faults)), (Stage::Open, Some(Faults::NONE)));
+    program.drive();
+    assert_eq!(program.turns(2, &still()).enabled, 0b1111);
+}
+
+#[test]
+fn a_lost_wheel_opens_in_the_turn_that_sees_it_and_is_named_while_the_others_drive() {
+    let mut program = Program::driving(&four());
+    assert_eq!(program.period(&bad_hall(2)).enabled, 0b1111, "once is a glitch");
+    let drive = program.period(&bad_hall(2));
+    assert_eq!((drive.enabled, drive.duties[2]), (0b1011, [0.0; 3]));
+    program.drive();
+    program.turns(2, &still());
+    let last = program.records.last().expect("records");
+    assert!(last.faults.iter().eq([Fault::HallCode]) && last.events & events::WHEEL_LOST != 0);
+    assert_eq!((last.stage, last.enabled), (Stage::Driving, 0b1011));
+}
+
+#[test]
+fn a_second_wheel_stops_the_robot() {
+    let mut program = Program::driving(&four());
+    program.turns(1, &bad_hall(2));
+    assert_eq!(program.turns(1, &bad_hall(0)).enabled, 0);
+    program.turns(1, &still());
+    assert_eq!(program.turn.stage, Stage::Faulted);
+}
+
+#[test]
+fn a_clear_while_three_wheels_drive_opens_all_and_waits_for_a_command() {
+    let mut program = Program::driving(&four());
+    program.turns(2, &bad_hall(1));
+    program.command(&Command::Clear);
+    assert_eq!(program.turns(2, &still()).enabled, 0);
+    assert_eq!(program.turn.stage, Stage::Open);
+    program.drive();
+    assert_eq!(program.turns(2, &still()).enabled, 0b1111);
+}
+
+#[test]
+fn a_clear_with_nothing_to_forget_disturbs_nobody() {
+    let mut program = Program::driving(&four());
+    program.command(&Command::Clear);
+    for _ in 0..60 {
+        assert_eq!(program.period(&still()).enabled, 0b1111);
+    }
+}
+
+#[test]
+fn halls_that_are_wrong_from_the_start_never_drive() {
+    let mut program = Program::new();
+    program.send_block(&bytes(&three()));
+    program.turns(100, &bad_hall(0));
+    program.drive();
+    assert_eq!(program.turns(5, &bad_hall(0)).enabled, 0);
+    assert_eq!(program.turn.stage, Stage::Faulted);
+}
+
+#[test]
+fn the_bridge_that_a_robot_of_three_wheels_has_over_may_measure_anything() {
+    let mut codes = still();
+    codes.phases[3] = [AdcCode(4095); 3];
+    codes.halls[3] = HallCode(0);
+    let mut program = Program::new();
+    program.send_block(&bytes(&three()));
+    program.turns(60, &codes);
+    program.drive();
+    assert_eq!(program.turns(3, &codes).enabled, 0b0111);
+}
+
+#[test]
+fn a_block_of_another_machine_opens_the_bridges_and_one_that_retunes_does_not() {
+    let retuned = |change: fn(&mut model_core::block::Block<4>)| {
+        let mut block = block(four_wheels());
+        change(&mut block);
+        Parameters::Four(block)
+    };
+    let others = [three(), retuned(|b| b.pole_pairs = 7), retuned(|b| b.amps_per_count = 0.005)];
+    for (parameters, opens) in others.into_iter().map(|p| (p, true)).chain([(retuned(|b| b.feedback = 0.1), false)]) {
+        let mut program = Program::driving(&four());
+        program.send_block(&bytes(&parameters));
+        let drive = program.turns(2, &still());
+        assert_eq!(drive.enabled == 0, opens, "{parameters:?}");
+        program.drive();
+        let motors = if matches!(parameters, Parameters::Three(_)) { 0b0111 } else { 0b1111 };
+        assert_eq!(program.turns(2, &still()).enabled, motors);
+    }
+}
+
+#[test]
+fn a_wheel_lost_stops_the_robot_when_a_block_says_that_it_has_three() {
+    let mut program = Program::driving(&four());
+    program.turns(1, &bad_hall(1));
+    program.send_block(&bytes(&three()));
+    program.turns(3, &still());
+    program.drive();
+    assert_eq!(program.turns(3, &still()).enabled, 0);
+    assert!(program.records.last().is_some_and(|last| last.faults.has(Fault::HallCode)));
+}
+
+#[test]
+fn motors_that_come_with_a_block_begin_anew() {
+    let mut program = Program::driving(&four());
+    program.send_block(&bytes(&three()));
+    program.turns(50, &still());
+    program.send_block(&bytes(&four()));
+    let mut codes = still();
+    // turned by hand meanwhile
+    codes.halls[3] = HallCode(6);
+    program.turns(3, &codes);
+    let last = program.records.last().expect("records");
+    assert_eq!((last.faults, last.edges[3], last.voltage[3]), (Faults::NONE, 0, 0.0));
+}
+
+#[test]
+fn a_command_that_cannot_be_meant_is_a_fault_in_the_turn_that_hears_it() {
+    for v in [f32::NAN, f32::NEG_INFINITY, 20.5] {
+        let mut program = Program::driving(&four());
+        program.command(&Command::Drive { sequence: 99, twist: BodyTwist { v, ..AHEAD } });
+        while !program.windings.begins_motion() || program.turn.faults.is_empty() {
+            program.period(&still());
+        }
+        assert_eq!(program.period(&still()).enabled, 0, "{v}");
+        assert!(program.records.last().is_some_and(|last| last.faults.has(Fault::BadCommand)));
+    }
+}
+
+#[test]
+fn a_command_that_is_only_repeated_is_silence() {
+    let mut program = Program::driving(&four());
+    for _ in 0..30 {
+        program.command(&Command::Drive { sequence: 1, twist: AHEAD });
+        program.turns(10, &still());
+    }
+    let last = program.records.last().expect("records");
+    assert!(last.faults.has(Fault::CommandSilent) && last.stage == Stage::Faulted);
+}
+
+#[test]
+fn a_block_is_made_of_its_own_chunks_alone() {
+    let block = bytes(&four());
+    let mut program = Program::new();
+    let commit = Command::Commit { length: block.len() as u16 };
+    let refused = |program: &mut Program| {
+        program.command(&commit);
+        program.inbox.reply.expect("an answer")
+    };
+    let answer = |reason: Reason| Reply { to: Kind::Commit.code(), taken: false, reason: reason.code() };
+    assert_eq!(refused(&mut program), answer(Reason::Magic));
+    program.send_block(&block);
+    assert!(program.inbox.reply.is_some_and(|reply| reply.taken));
+    // nothing was sent since
+    assert_eq!(refused(&mut program), answer(Reason::Magic));
+    program.command(&Command::Chunk { offset: 0, bytes: &block[..128] });
+    assert_eq!(refused(&mut program), answer(Reason::Checksum));
+    // a chunk that would not fit leaves no trace
+    program.command(&Command::Chunk { offset: 511, bytes: &[1, 2] });
+    program.command(&Command::Chunk { offset: u16::MAX, bytes: &[1] });
+    program.send_block(&block);
+    assert!(program.inbox.reply.is_some_and(|reply| reply.taken));
+}
+
+#[test]
+fn a_block_that_was_kept_is_taken_and_a_spoilt_one_is_a_fault() {
+    let mut kept = bytes(&four());
+    assert!(Listener::default().restore(&[0xff; 64]).is_none());
+    assert!(matches!(Listener::default().restore(&kept), Some(Heard::Parameters(_, None))));
+    kept[40] ^= 1;
+    let mut program = Program::new();
+    program.inbox.put(Listener::default().restore(&kept).expect("something was kept"));
+    program.turns(60, &still());
+    assert_eq!(program.turn.stage, Stage::Faulted);
+    assert!(program.records.last().is_some_and(|last| last.faults.has(Fault::BadBlock)));
+}
+
+#[test]
+fn what_finds_no_room_is_counted() {
+    let (mut sender, mut post) = post::split(Box::leak(Box::new(Room::new())));
+    for _ in 0..10 {
+        sender.turn(&Told::default(), &firmware::motion::Turn::default(), (0, 0));
+    }
+    let mut sent = Vec::new();
+    while let Some(bytes) = post.waiting().map(<[u8]>::to_vec) {
+        assert!(!bytes.is_empty() && bytes.len() <= MAX_FRAME);
+        // the link takes what it has room for
+        let taken = bytes.len().min(10);
+        sent.extend_from_slice(&bytes[..taken]);
+        post.sent(taken);
+    }
+    sender.turn(&Told::default(), &firmware::motion::Turn::default(), (0, 0));
+    sent.extend_from_slice(post.waiting().expect("one more"));
+    let mut decoder = model_core::link::Decoder::new();
+    let mut records = Vec::new();
+    for byte in sent {
+        records.extend(decoder.push(byte).and_then(|f| model_core::record::Record::from_bytes(f.payload)));
+    }
+    // a queue of 8 holds 7
+    let told: Vec<(u32, u16)> = records.iter().map(|record| (record.sequence, record.dropped)).collect();
+    assert_eq!(told, [(0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (5, 0), (6, 0), (10, 3)]);
+}
+
+#[test]
+fn the_largest_limit_that_a_block_may_state_can_be_seen_being_broken() {
+    let mut block = block(four_wheels());
+    block.limits.current = 1500.0 * block.amps_per_count;
+    let parameters = Parameters::Four(block);
+    bytes(&parameters);
+    let trip = Setup::of(&parameters).limits.trip_counts;
+    assert_eq!(trip, MOST_TRIP);
+    // a zero at its worst, and a converter at either end
+    assert!(4095.0 - (2048.0 + 150.0) > trip && 2048.0 - 150.0 > trip);
+    // the crest of the limit itself, 2/√3 of it, is no fault
+    assert!(1500.0 * 1.1548 < trip);
+}

@@ -1,0 +1,69 @@
+//! The robots that faults are done to: the paper's, on wheels that can slip.
+
+use model_core::active::Effects;
+use model_core::block::{Block, BlockEffects, Limits, Mode, Parameters};
+use model_core::effects::find;
+use model_core::hello::Commutation;
+use model_core::paper::{four_wheels, three_wheels};
+use model_core::robot::Robot;
+
+use crate::virtual_board::{Setup, VirtualBoard};
+
+/// Seed of the boards: zeros of the converters, rotor angles, noise.
+const SEED: u64 = 6;
+
+/// μ, B [s/m] and C of the wheels: a wheel that is blocked slides, as it does on a floor.
+const SLIP: [f64; 3] = [0.6, 30.0, 1.0];
+
+/// What turns with a motor's shaft [kg·m²]: a wheel that can slip needs a weight of its own.
+const ROTOR: [f64; 1] = [7.5e-5];
+
+/// Largest acceleration along v and vn [m/s²], and about the vertical axis [rad/s²].
+pub const ACCELERATION: [f32; 3] = [2.0, 2.0, 15.0];
+
+/// A robot that a case is played with.
+#[derive(Debug)]
+pub struct Bench<const N: usize> {
+    /// Electronics and body
+    pub board: VirtualBoard<N>,
+    /// What its program is told
+    pub parameters: Parameters,
+}
+
+/// The block of a robot.
+pub fn block<const N: usize>(robot: Robot<N, f32>, mode: Mode) -> Block<N> {
+    Block {
+        robot,
+        inductance: 0.6e-3,
+        mode,
+        feedforward: true,
+        commutation: Commutation::FieldOriented,
+        pole_pairs: 8,
+        limits: Limits { current: 4.0, speed: 2.0, acceleration: ACCELERATION, under_voltage: 8.0, over_voltage: 16.0 },
+        feedback: 0.02,
+        feedback_integral: 0.2,
+        bandwidth: 2000.0,
+        amps_per_count: 0.0049,
+        bus_volts_per_count: 0.00886,
+        effects: BlockEffects::default(),
+    }
+}
+
+fn board<const N: usize>(robot: Robot<N, f64>) -> VirtualBoard<N> {
+    let mut effects = Effects::default();
+    let slip = find("wheel_slip").expect("the catalogue has it");
+    effects.add(slip, None, &SLIP).expect("there is room for one");
+    let rotor = find("rotor_inertia").expect("the catalogue has it");
+    effects.add(rotor, None, &ROTOR).expect("there is room for two");
+    VirtualBoard::new(Setup::new(robot, effects, SEED))
+}
+
+/// The robot with three wheels.
+pub fn three(mode: Mode) -> Bench<3> {
+    Bench { board: board(three_wheels()), parameters: Parameters::Three(block(three_wheels(), mode)) }
+}
+
+/// The robot with four wheels.
+pub fn four(mode: Mode) -> Bench<4> {
+    Bench { board: board(four_wheels()), parameters: Parameters::Four(block(four_wheels(), mode)) }
+}

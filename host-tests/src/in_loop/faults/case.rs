@@ -1,0 +1,160 @@
+//! What is done to the robot, and what it is to be called.
+
+use model_core::block::{Mode, Reason};
+use model_core::faults::Fault;
+
+use crate::virtual_board::Fault as Broken;
+
+/// Something that goes wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cause {
+    /// On the board; it lasts until it is mended
+    Board(Broken),
+    /// On the board, before the program starts
+    FromTheStart(Broken),
+    /// No command any more
+    Silence,
+    /// The same command over and over
+    Repeated,
+    /// One command to move along v so [m/s]
+    Command(f64),
+    /// One parameter block
+    Block(Spoilt),
+    /// One current turn takes longer than it has, by so many times 64 idle turns of a loop
+    LongTurn(u16),
+    /// One motion turn does
+    LongMotion(u16),
+}
+
+/// What is wrong with a parameter block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spoilt {
+    /// One bit has flipped
+    Bit,
+    /// A number outside its bounds, under a checksum that fits
+    Number,
+    /// A later form, under a checksum that fits
+    Newer,
+    /// One of its chunks was lost
+    Chunk,
+}
+
+impl Spoilt {
+    /// The reason that the robot is to give.
+    pub const fn reason(self) -> Reason {
+        match self {
+            Spoilt::Bit | Spoilt::Chunk => Reason::Checksum,
+            Spoilt::Number => Reason::OutOfBounds,
+            Spoilt::Newer => Reason::Newer,
+        }
+    }
+}
+
+/// One case.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// What is done, in words
+    pub title: &'static str,
+    /// What the robot is to call it
+    pub fault: Fault,
+    /// Three or four
+    pub wheels: usize,
+    /// How they are driven
+    pub mode: Mode,
+    /// What is done
+    pub cause: Cause,
+    /// The wheel of four that it is to cost; none where all bridges are to open
+    pub costs: Option<usize>,
+    /// The longest that it may take to be seen [periods]
+    pub seen_within: u32,
+}
+
+const fn case(title: &'static str, fault: Fault, cause: Cause, seen_within: u32) -> Case {
+    Case { title, fault, wheels: 4, mode: Mode::Current, cause, costs: None, seen_within }
+}
+
+const fn costs(motor: usize, case: Case) -> Case {
+    Case { costs: Some(motor), ..case }
+}
+
+const fn on_three(case: Case) -> Case {
+    Case { wheels: 3, costs: None, ..case }
+}
+
+const fn by_voltage(case: Case) -> Case {
+    Case { mode: Mode::Voltage, ..case }
+}
+
+/// Periods of a command on its way: two motion turns, one to be heard in and one to be followed in.
+const HEARD: u32 = 40;
+
+/// 300 ms, and as long again for a wheel to come to rest and to strain.
+const STALLED: u32 = 12_000;
+
+/// 200 ms and the way of a command.
+const SILENT: u32 = 4_000 + HEARD;
+
+/// Idle turns that last longer than a period, and longer than a motion turn.
+const LONG: u16 = 1_000;
+const LONGER: u16 = 20_000;
+
+const HALLS_HIGH: Case =
+    case("hall lines of motor 1 read 7", Fault::HallCode, Cause::Board(Broken::Halls { motor: 1, code: 7 }), 1);
+const BLOCKED: Case = case("wheel 1 is blocked", Fault::Stall, Cause::Board(Broken::Blocked { motor: 1 }), STALLED);
+const OFFSET: Case = case(
+    "zero of motor 2, phase b, at 2300",
+    Fault::OffsetCalibration,
+    Cause::FromTheStart(Broken::Offset { motor: 2, phase: 1, counts: 2300.0 }),
+    1,
+);
+
+/// True if the length of a turn is the event: only a processor, or its emulator, has that.
+pub const fn is_timed(cause: &Cause) -> bool {
+    matches!(cause, Cause::LongTurn(_) | Cause::LongMotion(_))
+}
+
+/// All cases, by the codes of their faults.
+pub const CASES: [Case; 26] = [
+    case("short in motor 0, phase a", Fault::OverCurrent, Cause::Board(Broken::Short { motor: 0, phase: 0 }), 0),
+    on_three(case(
+        "short in motor 2, phase c",
+        Fault::OverCurrent,
+        Cause::Board(Broken::Short { motor: 2, phase: 2 }),
+        0,
+    )),
+    case("bus at 18 V", Fault::OverVoltage, Cause::Board(Broken::Bus(18.0)), 2),
+    case("bus at 6 V", Fault::UnderVoltage, Cause::Board(Broken::Bus(6.0)), 2),
+    costs(1, HALLS_HIGH),
+    costs(
+        3,
+        case("hall lines of motor 3 read 0", Fault::HallCode, Cause::Board(Broken::Halls { motor: 3, code: 0 }), 1),
+    ),
+    on_three(HALLS_HIGH),
+    costs(1, BLOCKED),
+    costs(1, by_voltage(BLOCKED)),
+    costs(
+        3,
+        case(
+            "hall lines of motor 3 stuck at 2",
+            Fault::Stall,
+            Cause::Board(Broken::Halls { motor: 3, code: 2 }),
+            STALLED,
+        ),
+    ),
+    on_three(case("wheel 0 is blocked", Fault::Stall, Cause::Board(Broken::Blocked { motor: 0 }), STALLED)),
+    case("fault line of the gate drivers pulled", Fault::DriverLine, Cause::Board(Broken::DriverLine), 0),
+    costs(2, OFFSET),
+    on_three(OFFSET),
+    case("no command any more", Fault::CommandSilent, Cause::Silence, SILENT),
+    case("the same command over and over", Fault::CommandSilent, Cause::Repeated, SILENT),
+    case("command of NaN m/s", Fault::BadCommand, Cause::Command(f64::NAN), HEARD),
+    case("command of ∞ m/s", Fault::BadCommand, Cause::Command(f64::INFINITY), HEARD),
+    case("command of 20.1 m/s", Fault::BadCommand, Cause::Command(20.1), HEARD),
+    case("one current turn of more than 50 µs", Fault::TurnOverrun, Cause::LongTurn(LONG), 0),
+    case("one motion turn of more than 1 ms", Fault::TurnOverrun, Cause::LongMotion(LONGER), HEARD),
+    case("block with a flipped bit", Fault::BadBlock, Cause::Block(Spoilt::Bit), HEARD),
+    case("block with a resistance of −1 Ω", Fault::BadBlock, Cause::Block(Spoilt::Number), HEARD),
+    case("block of the next version", Fault::BadBlock, Cause::Block(Spoilt::Newer), HEARD),
+    case("block that has lost a chunk", Fault::BadBlock, Cause::Block(Spoilt::Chunk), HEARD),
+    on_three(case("block with a flipped bit", Fault::BadBlock, Cause::Block(Spoilt::Bit), HEARD)),
+];

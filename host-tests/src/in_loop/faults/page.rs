@@ -1,0 +1,211 @@
+//! The golden page of the faults: what a person judges, and what it must keep.
+
+use model_core::block::{Mode, Reason};
+use model_core::command::Refused;
+use model_core::link::Kind;
+
+use super::Results;
+use super::bench::ACCELERATION;
+use super::case::{Case, Cause, is_timed};
+use super::play::Played;
+use super::three::{Gone, LEGS, Loss};
+
+/// How far from what it is told a robot with three wheels may be [m/s, and rad/s over ten].
+const ASTRAY: f64 = 0.06;
+
+/// Turns from the one that sees a fault to the one that drops the enables, at most: within one period.
+const DROPPED: u32 = 1;
+
+/// Periods without food after which the dog bites.
+const HUNGRY: u32 = 400;
+
+/// The page.
+pub fn page(results: &Results) -> String {
+    let mut page = String::from(HEAD);
+    for (case, played) in &results.played {
+        page += &row(case, played);
+    }
+    page += BETWEEN;
+    for (loss, gone) in &results.three {
+        page += &leg_row(loss, gone);
+    }
+    let dog = &results.dog;
+    page += &format!(
+        "{DOG}- {} after the first motion turn that does not end the bridges are open: `TurnOverrun`, the next turn \
+         was due.\n- {} after it the dog has bitten; it was not fed for {}.\n- Bridges closed after that, though \
+         CLEAR and commands came: {} periods.\n",
+        dog.overrun.map_or("Never".into(), time),
+        dog.bite.map_or("Never".into(), time),
+        time(HUNGRY),
+        dog.closed_after,
+    );
+    page + LEVELS
+}
+
+const HEAD: &str = "\
+# Faults, injected
+
+Made by `cargo run --release -p host-tests --bin faults -- IMAGE` with the emulated image in QEMU; `BLESS=1` rewrites it.
+
+The robot drives along v with 0.5 m/s, commands come every 10 ms, and something goes wrong. A period is 50 µs. Each time \
+is counted in whole periods from the one in whose codes or bytes the event is whole for the first time:
+
+- **seen**: until the turn that latches the fault (known from the same library called on the host beside the image, which \
+asks the same of every period, bit for bit, in every row with a time here);
+- **enables dropped**: *same turn*, or *next turn* where a motion turn finds it, which comes to an end between two \
+current turns. Both are within one current period;
+- **safe**: until the first period that the board lives through with the bridges open. The emulated board takes the \
+enables over with the compare registers at the end of the period; pins drop in the turn itself;
+- **latched**: with the cause gone and commands coming for 100 ms the bridges stay open, and the records name the code;
+- **cleared while it lasts**: periods with bridges closed after CLEAR, commands coming, until it is seen again;
+- **cleared after**: CLEAR alone closes nothing for 100 ms; the next fresh command drives, and 1 s later so fast.
+
+*opens* tells which bridges: all, or that of one wheel while the robot drives on with three.
+
+| what goes wrong | code | robot | opens | seen | enables dropped | safe | latched | cleared while it lasts | cleared after |
+|---|---|---|---|---|---|---|---|---|---|
+";
+
+const BETWEEN: &str = "
+## Four wheels go on with three
+
+One wheel is out of use, its bridge open, and nothing is cleared: the robot is told to go forward, to the left, back and \
+to the right, and to turn, 1.5 s each. What it does in the last 0.3 s, and the largest acceleration of its reference along v.
+
+| wheel lost | v 0.5 m/s | vn 0.5 m/s | v −0.3, vn −0.3 m/s | ω 3 rad/s | largest acceleration |
+|---|---|---|---|---|---|
+";
+
+const DOG: &str = "
+## Watchdog
+
+Motion turns are made so long that none ends: nothing below them runs, nobody feeds the dog. The dog here is the emulated \
+board's own, which counts exchanges and opens the bridges for good; the chip's, which restarts it, is for a board to show.
+
+";
+
+const LEVELS: &str = "
+## At which level
+
+Every row is played on the image in QEMU; converters, hall lines, fault line, supply and link are the virtual board's. \
+What has no part there: the reset that the chip's watchdog makes and `Watchdog` (code 12) latched by the start that \
+follows; the gate drivers' own reaction; brown-out.
+";
+
+/// Periods as a time.
+fn time(periods: u32) -> String {
+    match periods {
+        0 => "at once".into(),
+        few if few < 100 => format!("{} µs", few * 50),
+        many => format!("{:.2} ms", f64::from(many) * 0.05),
+    }
+}
+
+fn row(case: &Case, played: &Played) -> String {
+    let mode = if case.mode == Mode::Voltage { ", by voltage" } else { "" };
+    let opens = case.costs.map_or("all".into(), |motor| format!("wheel {motor}"));
+    let dropped = match played.dropped {
+        Some(0) => "same turn".into(),
+        Some(1) => "next turn".into(),
+        Some(turns) => format!("{turns} turns later"),
+        None => "same turn".into(),
+    };
+    let safe = match (case.cause, played.safe) {
+        (Cause::FromTheStart(_), Some(0)) => "never closed".into(),
+        (_, Some(periods)) => time(periods),
+        (_, None) => "**never**".into(),
+    };
+    let seen = match (played.seen, case.cause) {
+        (Some(periods), _) => time(periods),
+        (None, Cause::LongTurn(_)) => "at its end".into(),
+        (None, Cause::LongMotion(_)) => "when the next is due".into(),
+        (None, _) => "**never**".into(),
+    };
+    let latched = match (played.named, played.closed_after) {
+        (true, 0) => "yes".into(),
+        (false, 0) => "**not named**".into(),
+        (_, periods) => format!("**closed for {periods}**"),
+    };
+    let lasting = played.closed_by_clear.map_or("–".into(), |periods| match periods {
+        0 => "stays open".into(),
+        1 => "1 period".into(),
+        few if few < 100 => format!("{few} periods"),
+        many => time(many),
+    });
+    let after = match (played.cleared, played.closed_waiting) {
+        (true, 0) => format!("{:.2} m/s", played.speed),
+        (false, _) => "**not cleared**".into(),
+        (_, periods) => format!("**closed for {periods} before a command**"),
+    };
+    let said = played.refused.map_or(String::new(), |reply| format!(" (answer: {})", reason(reply.to, reply.reason)));
+    format!(
+        "| {}{said} | {} `{:?}` | {} wheels{mode} | {opens} | {seen} | {dropped} | {safe} | {latched} | {lasting} | {after} |\n",
+        case.title,
+        case.fault.code(),
+        case.fault,
+        case.wheels,
+    )
+}
+
+fn reason(to: u8, code: u8) -> String {
+    let words = if to == Kind::Commit.code() {
+        Reason::from_code(code).map(Reason::text)
+    } else {
+        Refused::ALL.into_iter().find(|reason| reason.code() == code).map(Refused::text)
+    };
+    words.unwrap_or("**no reason that is known**").into()
+}
+
+fn leg_row(loss: &Loss, gone: &Gone) -> String {
+    let [ahead, left, back, turned] = gone.went;
+    let held = if gone.without { "" } else { " **(not as it should be)**" };
+    format!(
+        "| {}{held} | {:.2} | {:.2} | {:.2}, {:.2} | {:.2} | {:.2} m/s² |\n",
+        loss.title, ahead.v, left.vn, back.v, back.vn, turned.w, gone.acceleration,
+    )
+    .replace('-', "−")
+}
+
+/// What the results do not keep of what is promised; empty where they keep all.
+pub fn broken(results: &Results) -> Vec<String> {
+    let mut broken = Vec::new();
+    for (case, played) in &results.played {
+        let mut must = |kept: bool, what: &str| {
+            if !kept {
+                broken.push(format!("{}, {} wheels, {:?}: {what}: {played:?}", case.title, case.wheels, case.mode));
+            }
+        };
+        let timed = is_timed(&case.cause);
+        must(played.seen.is_some_and(|seen| seen <= case.seen_within) || timed, "seen in time");
+        must(played.dropped.is_some_and(|turns| turns <= DROPPED) || timed, "open within one period");
+        // seen, dropped, and the period that it holds from
+        must(played.safe.is_some_and(|safe| safe <= case.seen_within + DROPPED + 1), "safe in time");
+        must(played.named && played.closed_after == 0, "latched");
+        must(played.cleared && played.closed_waiting == 0 && played.drives(), "cleared, and driving again");
+        must(played.same_block, "the first block is still in use");
+        must(played.parted.is_none(), "the twins ask the same");
+        let answer = match case.cause {
+            Cause::Block(spoilt) => Some((Kind::Commit, spoilt.reason().code())),
+            Cause::Command(v) => {
+                Some((Kind::Drive, if v.is_finite() { Refused::TooFast } else { Refused::NotFinite }.code()))
+            }
+            _ => None,
+        };
+        must(played.refused.map(|r| (r.to, r.reason)) == answer.map(|(to, code)| (to.code(), code)), "answered");
+    }
+    for (loss, gone) in &results.three {
+        let near = |k: usize| {
+            let (is, want) = (gone.went[k], LEGS[k]);
+            (is.v - want.v).abs() < ASTRAY && (is.vn - want.vn).abs() < ASTRAY && (is.w - want.w).abs() < 10.0 * ASTRAY
+        };
+        let reduced = loss.motor >= 4 || gone.acceleration < 0.9 * f64::from(ACCELERATION[0]);
+        if !((0..4).all(near) && reduced && gone.without) {
+            broken.push(format!("wheel lost: {}: {gone:?}", loss.title));
+        }
+    }
+    let dog = &results.dog;
+    if !(dog.overrun.is_some_and(|k| k <= 42) && dog.bite.is_some_and(|k| k <= HUNGRY + 20) && dog.closed_after == 0) {
+        broken.push(format!("the dog: {dog:?}"));
+    }
+    broken
+}

@@ -1,0 +1,53 @@
+//! The promises of the page of the faults, kept by the library on the host as far as it has the parts; the page itself is
+//! made with the image.
+
+use std::path::Path;
+
+use host_tests::in_loop::Software;
+use host_tests::in_loop::faults::case::{CASES, is_timed};
+use host_tests::in_loop::faults::dog::Bitten;
+use host_tests::in_loop::faults::three::{LOSSES, go_on};
+use host_tests::in_loop::faults::{Results, broken, page, play::play};
+use model_core::faults::Fault;
+use rayon::prelude::*;
+
+/// Nobody bites here.
+const NO_DOG: Bitten = Bitten { overrun: Some(0), bite: Some(0), closed_after: 0 };
+
+#[test]
+fn every_fault_is_injected_but_the_one_that_a_restart_tells_of() {
+    for fault in Fault::ALL {
+        let injected = CASES.iter().any(|case| case.fault == fault);
+        assert_eq!(injected, fault != Fault::Watchdog, "{fault:?}");
+    }
+}
+
+#[test]
+fn the_library_keeps_the_promises_of_the_page_and_says_what_the_page_says() {
+    let cases: Vec<_> = CASES.into_iter().filter(|case| !is_timed(&case.cause)).collect();
+    let play = |case| (case, play(&case, Software::default()).expect("software does not fail"));
+    let go_on = |loss| (loss, go_on(&loss, Software::default()).expect("software does not fail"));
+    let results = Results {
+        played: cases.into_par_iter().map(play).collect(),
+        three: LOSSES.into_par_iter().map(go_on).collect(),
+        dog: NO_DOG,
+    };
+    let broken = broken(&results);
+    assert!(broken.is_empty(), "{broken:#?}");
+
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/faults.md");
+    let golden = std::fs::read_to_string(golden).expect("the page is there");
+    // every row of a table, but for those of what only the image can do
+    for row in page(&results).lines().filter(|line| line.starts_with('|')) {
+        assert!(golden.lines().any(|line| line == row), "the page does not say: {row}");
+    }
+}
+
+#[test]
+fn nothing_on_the_page_stands_out() {
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/faults.md");
+    let golden = std::fs::read_to_string(golden).expect("the page is there");
+    let rows = golden.lines().filter(|line| line.starts_with('|'));
+    assert!(rows.clone().count() > CASES.len() + LOSSES.len());
+    assert!(rows.clone().all(|row| !row.contains("**")), "a row in bold is a promise that is not kept");
+}
