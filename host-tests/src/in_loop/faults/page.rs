@@ -32,7 +32,7 @@ pub fn page(results: &Results) -> String {
     let dog = &results.dog;
     page += &format!(
         "{DOG}- {} after the first motion turn that does not end the bridges are open: `TurnOverrun`, the next turn \
-         was due.\n- {} after it the dog has bitten; it was not fed for {}.\n- Bridges closed after that, though \
+         was due.\n- {} after it the dog has bitten; it waits for {}.\n- Bridges closed after that, though \
          CLEAR and commands came: {} periods.\n",
         dog.overrun.map_or("Never".into(), time),
         dog.bite.map_or("Never".into(), time),
@@ -108,7 +108,8 @@ fn row(case: &Case, played: &Played) -> String {
         Some(0) => "same turn".into(),
         Some(1) => "next turn".into(),
         Some(turns) => format!("{turns} turns later"),
-        None => "same turn".into(),
+        // the moment of a detection by time is not known to a period
+        None => "–".into(),
     };
     let safe = match (case.cause, played.safe) {
         (Cause::FromTheStart(_), Some(0)) => "never closed".into(),
