@@ -20,6 +20,7 @@ use model_core::faults::{Fault, Faults};
 use model_core::frames::BodyTwist;
 use model_core::hello::{Commutation, Hello, OFFSET_PARTS};
 use model_core::mover::Mover;
+use model_core::observer;
 use model_core::record::Stage;
 
 use crate::codes::{PERIODS_PER_SECOND, PERIODS_PER_TURN};
@@ -158,7 +159,12 @@ impl Motion {
             self.stalls = Stalls::default();
             return turn;
         }
-        let moved = mover.turn(&told.wheel_speed, told.bus, inbox.twist);
+        let wheels = core::array::from_fn(|j| observer::Told {
+            edges: told.edges[j],
+            since_edge: told.since_edge[j],
+            speed: told.wheel_speed[j],
+        });
+        let moved = mover.turn(&wheels, told.bus, inbox.twist);
         turn.reference = moved.reference;
         turn.headroom = moved.headroom;
         if moved.headroom < 1.0 {

@@ -53,6 +53,7 @@ pub mod active;
 // The robot and its motion
 pub mod robot;
 
+pub mod observer;
 pub mod paper;
 
 pub mod body;

@@ -2,10 +2,15 @@
 //!
 //! The controller knows its number of wheels when it is compiled; here the parameter block chooses between the two, and
 //! the numbers of the three or four motors come and go in arrays for all that a board has bridges for.
+//!
+//! What the controller is told of the wheels' speeds is what their [`observer`](crate::observer) makes of hall edges and
+//! reference. While the reference rests, what the integral holds fades: it was friction, and that turns round.
 
 use crate::block::{Block, Mode, Parameters};
 use crate::compensation::Compensation;
+use crate::calibration::Calibration;
 use crate::frames::BodyTwist;
+use crate::observer::{Observed, Observer, Told};
 use crate::record::MOTORS;
 use crate::scalar::Real;
 use crate::tick::{Controller, Decided, Memory, Seen, Settings};
@@ -44,7 +49,14 @@ pub struct Wheeled<const N: usize> {
     memory: Memory<f32>,
     controls_current: bool,
     most_speed: f32,
+    observer: Observer,
+    wheels: [Observed; N],
+    /// Wanted speeds of the wheels in the turn before [rad/s]
+    wanted: [f32; N],
 }
+
+/// Share of the integral that is left after a turn at rest [1]: half of it fades in 35 ms.
+const FADES: f32 = 0.98;
 
 impl Mover {
     /// A robot at rest with these parameters; `max_duty` is the largest part of the bus voltage that a motor may get [1],
@@ -60,8 +72,8 @@ impl Mover {
     /// Goes on with the motion that another one was following, where it has as many wheels.
     pub fn go_on_from(&mut self, old: &Mover) {
         match (self, old) {
-            (Mover::Three(new), Mover::Three(old)) => new.memory = old.memory,
-            (Mover::Four(new), Mover::Four(old)) => new.memory = old.memory,
+            (Mover::Three(new), Mover::Three(old)) => new.go_on_from(old),
+            (Mover::Four(new), Mover::Four(old)) => new.go_on_from(old),
             _ => {}
         }
     }
@@ -83,25 +95,35 @@ impl Mover {
         }
     }
 
-    /// One turn towards a wanted motion; wheel speeds [rad/s] and supply [V] as measured.
+    /// One turn towards a wanted motion; wheels and supply [V] as measured.
     #[inline]
-    pub fn turn(&mut self, wheel_speed: &[f32; MOTORS], bus: f32, want: BodyTwist) -> Moved {
+    pub fn turn(&mut self, told: &[Told; MOTORS], bus: f32, want: BodyTwist) -> Moved {
+        self.observe(told);
         let quick = match self {
-            Mover::Three(wheeled) => wheeled.turn(wheel_speed, bus, want, Controller::tick_in_reach),
-            Mover::Four(wheeled) => wheeled.turn(wheel_speed, bus, want, Controller::tick_in_reach),
+            Mover::Three(wheeled) => wheeled.turn(bus, want, Controller::tick_in_reach),
+            Mover::Four(wheeled) => wheeled.turn(bus, want, Controller::tick_in_reach),
         };
         match quick {
             Some(moved) => moved,
-            None => self.turn_slowly(wheel_speed, bus, want),
+            None => self.turn_slowly(bus, want),
+        }
+    }
+
+    /// Takes in what the halls tell.
+    #[inline(never)]
+    fn observe(&mut self, told: &[Told; MOTORS]) {
+        match self {
+            Mover::Three(wheeled) => wheeled.observe(told),
+            Mover::Four(wheeled) => wheeled.observe(told),
         }
     }
 
     /// A turn in which an effect is undone or something does not fit. By itself, and compiled where small code is wanted.
     #[inline(never)]
-    fn turn_slowly(&mut self, wheel_speed: &[f32; MOTORS], bus: f32, want: BodyTwist) -> Moved {
+    fn turn_slowly(&mut self, bus: f32, want: BodyTwist) -> Moved {
         let moved = match self {
-            Mover::Three(wheeled) => wheeled.turn(wheel_speed, bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
-            Mover::Four(wheeled) => wheeled.turn(wheel_speed, bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
+            Mover::Three(wheeled) => wheeled.turn(bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
+            Mover::Four(wheeled) => wheeled.turn(bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
         };
         moved.unwrap_or_default()
     }
@@ -150,13 +172,31 @@ impl<const N: usize> Wheeled<N> {
             working: [true; N],
             dt,
         };
+        let calibration = Calibration::of_board(block.pole_pairs);
         Self {
             settings,
             controller: Controller::new(&settings),
             memory: Memory::default(),
             controls_current: block.mode == Mode::Current,
             most_speed: block.limits.speed,
+            observer: Observer::new(calibration.edge_angle(block.robot.motor.gear_ratio), dt, calibration.period),
+            wheels: [Observed::default(); N],
+            wanted: [0.0; N],
         }
+    }
+
+    fn go_on_from(&mut self, old: &Self) {
+        self.memory = old.memory;
+        self.wheels = old.wheels;
+        self.wanted = old.wanted;
+    }
+
+    fn observe(&mut self, told: &[Told; MOTORS]) {
+        let wanted = self.settings.robot.wheels.wheel_speeds(self.memory.reference);
+        for j in 0..N {
+            self.observer.turn(&mut self.wheels[j], told[j], wanted[j] - self.wanted[j], wanted[j]);
+        }
+        self.wanted = wanted;
     }
 
     fn lose(&mut self, lost: u8) {
@@ -180,25 +220,28 @@ impl<const N: usize> Wheeled<N> {
     /// Forgets the motion, not the direction that the robot faces.
     fn rest(&mut self) {
         self.memory = Memory { heading: self.memory.heading, ..Memory::default() };
+        self.wheels = [Observed::default(); N];
+        self.wanted = [0.0; N];
     }
 
     #[inline]
     fn turn(
         &mut self,
-        wheel_speed: &[f32; MOTORS],
         bus: f32,
         want: BodyTwist,
         tick: impl Fn(&Controller<N>, &mut Memory, &Seen<N>, BodyTwist) -> Option<Decided<N>>,
     ) -> Option<Moved> {
-        let seen = Seen { wheel_speed: core::array::from_fn(|j| wheel_speed[j]), bus };
+        let seen = Seen { wheel_speed: self.wheels.map(|wheel| wheel.speed), bus };
         let want = self.within_speed(want);
         let reference = self.memory.reference;
         let decided = tick(&self.controller, &mut self.memory, &seen, want)?;
-        let wanted = self.settings.robot.wheels.wheel_speeds(reference);
+        if self.memory.reference == BodyTwist::default() {
+            self.memory.integral = self.memory.integral.map(|force| FADES * force);
+        }
         let mut moved = Moved { reference, headroom: decided.headroom, ..Moved::default() };
         for j in 0..N {
             moved.current[j] = decided.current[j];
-            moved.wheel_speed[j] = wanted[j];
+            moved.wheel_speed[j] = self.wanted[j];
             // the current loop finds R·i by itself, and would overshoot if it were given
             let ahead =
                 if self.controls_current { self.settings.robot.motor.resistance * decided.current[j] } else { 0.0 };
