@@ -3,10 +3,14 @@
 //! The same functions, in single precision, on the host and on the chip: 20,000 results are folded into one number
 //! (FNV-1a over their bits). A test on the host, the image in the emulator and a test on the board compare it.
 
+use model_core::calibration::AdcCode;
+use model_core::compensation::Compensation;
+use model_core::current_loop::{CurrentLoop, CurrentMemory, CurrentSeen, CurrentWant};
 use model_core::frames::{BodyTwist, Pose};
 use model_core::paper;
 use model_core::plant::{Input, Plant};
 use model_core::scalar::Real;
+use model_core::tick::{Controller, Memory, Seen, Settings};
 
 /// How many results [`hash`] folds.
 pub const RESULTS: u32 = 20_000;
@@ -42,7 +46,8 @@ impl Draws {
     }
 }
 
-/// The folded bits of [`RESULTS`] results of the model: trigonometry, inverse dynamics and plant, three and four wheels.
+/// The folded bits of [`RESULTS`] results of the model: trigonometry, inverse dynamics, plant, motion turn and current
+/// loop, three and four wheels.
 pub fn hash() -> u64 {
     let mut fold = Fold { hash: 0xcbf2_9ce4_8422_2325, results: 0 };
     let mut draws = Draws(1);
@@ -51,6 +56,20 @@ pub fn hash() -> u64 {
     let rest = Pose { x: 0.0, y: 0.0, theta: 0.0 };
     let mut three_state = three.start(0.0, rest, BodyTwist::from_array([0.0; 3]));
     let mut four_state = four.start(0.0, rest, BodyTwist::from_array([0.0; 3]));
+    let controller = Controller::new(&Settings {
+        robot: paper::four_wheels(),
+        undo: Compensation::none(),
+        acceleration: [3.0, 3.0, 20.0],
+        current_limit: 2.5,
+        max_duty: 0.9,
+        feedback: 0.05,
+        feedback_integral: 0.2,
+        feedforward: true,
+        working: [true; 4],
+        dt: 1.0e-3,
+    });
+    let current_loop = CurrentLoop::new(4.3111, 0.6e-3, 0.0049, 2000.0, 50.0e-6, 0.9);
+    let (mut motion, mut winding) = (Memory::default(), CurrentMemory::default());
     while fold.results < RESULTS {
         let (sin, cos) = (40.0 * draws.next()).sin_cos();
         fold.add_all([sin, cos, draws.next().atan2(draws.next())]);
@@ -65,6 +84,14 @@ pub fn hash() -> u64 {
         fold.add_all(three.step(&mut three_state, &mut [], &Input::Voltage([a, b, c]), 1.0e-3).current);
         fold.add_all(four.step(&mut four_state, &mut [], &Input::Voltage(volts), 1.0e-3).current);
         fold.add_all(four_state.twist.to_array());
+
+        let seen = Seen { wheel_speed: volts, bus: 12.0 };
+        fold.add_all(controller.tick(&mut motion, &seen, twist).voltage);
+        let codes = [a, b, c].map(|x| AdcCode((2048.0 + 20.0 * x) as u16));
+        let angle = 3.0 + 3.0 * draws.next();
+        let seen = CurrentSeen { codes, offsets: [2048.0; 3], angle, ahead: 0.02, bus: 12.0, per_bus: 1.0 / 12.0 };
+        let want = CurrentWant { current: draws.next(), voltage: a, closed: true };
+        fold.add_all(current_loop.field_oriented(&mut winding, &seen, &want).duties);
     }
     fold.hash
 }
