@@ -9,6 +9,8 @@ use model_core::frames::BodyTwist;
 use model_core::link::{Decoder, Frame, Kind};
 
 /// Something that was said.
+// There is one of them at a time, and nothing is allocated.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug)]
 pub enum Heard {
     /// Move so
