@@ -36,7 +36,7 @@
 //! Source: a Luenberger observer of second order with both poles at −w; the dead zone is the sector.
 
 /// w [rad/s]
-pub const BANDWIDTH: f32 = 120.0;
+pub const BANDWIDTH: f32 = 160.0;
 
 /// Periods of the halls without an edge after which a wheel that is to stand does stand: 50 ms.
 const REST: u16 = crate::halls::REST;

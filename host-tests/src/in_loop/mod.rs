@@ -5,17 +5,25 @@
 //!
 //! - [`robots`]: what is believed of the paper's robots, and what is true;
 //! - [`ramps`]: a speed on one axis, with the acceleration measured;
-//! - [`eight`]: a figure-eight, with and without the model ahead of the feedback;
+//! - [`eight`]: a path with curves to both sides;
+//! - [`saturation`]: a diagonal acceleration for which the bus has not enough;
+//! - [`silence`]: commands that end;
+//! - [`study`]: all of these, on many seeds, and one of them in the emulator too;
+//! - [`page`]: what came of it, and what is promised;
 //! - [`faults`]: every fault, injected while the robot drives;
 //! - [`gap`]: drive, record, diagnose, correct, drive again.
 
 pub mod eight;
 pub mod faults;
 pub mod gap;
+pub mod page;
 pub mod ramps;
 mod ride;
 pub mod robots;
+pub mod saturation;
+pub mod silence;
 mod software;
+pub mod study;
 mod twin;
 
 pub use ride::{Moment, Ride, Taken};

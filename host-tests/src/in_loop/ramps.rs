@@ -13,7 +13,7 @@ use super::{Moment, Ride};
 use crate::emulator::{Brain, Trouble};
 
 /// The accelerations asked for [m/s²] and the speeds up to which [m/s].
-pub const LEVELS: [[f64; 2]; 5] = [[0.5, 0.6], [0.75, 0.75], [1.0, 0.8], [2.0, 1.0], [3.0, 1.2]];
+pub const LEVELS: [[f64; 2]; 5] = [[0.5, 0.4], [0.75, 0.5], [1.0, 0.6], [2.0, 0.9], [3.0, 1.2]];
 
 /// One ramp, as it was asked for and as it was.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +38,7 @@ impl Ramp {
 }
 
 /// Time from the one command to the other beyond the ramp itself [s]
-const HELD: f64 = 0.15;
+const HELD: f64 = 0.1;
 
 /// All levels along one axis, each in the other direction than the one before.
 ///

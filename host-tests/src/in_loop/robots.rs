@@ -26,10 +26,10 @@ use rand_distr::{Distribution, StandardNormal};
 use crate::virtual_board::Setup;
 
 /// k_p, current for an error of a wheel's speed [A·s/rad]
-pub const FEEDBACK: f32 = 0.1;
+pub const FEEDBACK: f32 = 0.3;
 
 /// k_i, current for an error of a wheel's angle [A/rad]
-pub const FEEDBACK_INTEGRAL: f32 = 1.0;
+pub const FEEDBACK_INTEGRAL: f32 = 0.05;
 
 /// Bandwidth of the currents' loop [rad/s]
 pub const BANDWIDTH: f32 = 2000.0;

@@ -1,0 +1,167 @@
+//! Processor in the loop: the firmware's image in QEMU and the same library on the host, against robots that are not what
+//! they are believed to be; holds both to what is promised and to the golden page.
+//!
+//! `pil path/to/firmware.elf`; with `BLESS=1` the page is rewritten.
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use host_tests::emulator::{Qemu, Trouble};
+use host_tests::in_loop::page::{Emulated, Promise, Robot, differences, page};
+use host_tests::in_loop::robots::AnyBlock;
+use host_tests::in_loop::saturation;
+use host_tests::in_loop::study::{Believed, Came, Run, SEEDS, Scenario, difference, load};
+use model_core::block::Block;
+use model_core::paper::{four_wheels, three_wheels};
+use rayon::prelude::*;
+
+/// How far a figure may have moved since the page was blessed.
+const SHARE: f64 = 0.05;
+
+/// How long the emulator may think about one period: another program may have the machine.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// What the image plays, the longest first: on how many wheels, and whether it is compared with itself. Three wheels
+/// take the axis on which they differ most from four.
+const IN_EMULATOR: [(usize, Scenario, bool); 11] = [
+    (4, Scenario::Eight, false),
+    (3, Scenario::Eight, false),
+    (4, Scenario::Ramps(0), false),
+    (4, Scenario::Ramps(1), false),
+    (4, Scenario::Ramps(2), false),
+    (3, Scenario::Ramps(2), false),
+    (3, Scenario::Silence, true),
+    (4, Scenario::Silence, false),
+    (3, Scenario::Silence, false),
+    (4, Scenario::Saturation, false),
+    (3, Scenario::Saturation, false),
+];
+
+const THREE: &str = "Three wheels";
+const FOUR: &str = "Four wheels";
+
+fn main() -> ExitCode {
+    let Some(image) = std::env::args().nth(1) else {
+        eprintln!("which image? pil path/to/firmware.elf (an emulated one)");
+        return ExitCode::FAILURE;
+    };
+    match held(Path::new(&image)) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(why) => {
+            eprintln!("{image}: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn held(image: &Path) -> Result<bool, Box<dyn std::error::Error>> {
+    let three = Believed { host: three_wheels(), robot: three_wheels() };
+    let four = Believed { host: four_wheels(), robot: four_wheels() };
+    let begun = Instant::now();
+    let robots = [all_seeds(THREE, &three), all_seeds(FOUR, &four)];
+    eprintln!("on the host: {:.0} s", begun.elapsed().as_secs_f64());
+    let emulated: Result<Vec<Emulated>, Trouble> = IN_EMULATOR
+        .par_iter()
+        .with_max_len(1)
+        .map(|&(wheels, scenario, again)| match wheels {
+            3 => in_emulator(image, THREE, &three, scenario, again),
+            _ => in_emulator(image, FOUR, &four, scenario, again),
+        })
+        .collect();
+    let emulated = emulated?;
+    eprintln!("with the emulator: {:.0} s", begun.elapsed().as_secs_f64());
+    let text = page(&robots, &emulated);
+    println!("{text}");
+
+    let mut well = true;
+    let same = |run: &Emulated| {
+        let why = run.differs.as_deref().unwrap_or_default();
+        Promise { what: format!("{}: the image against the host: {why}", run.name), kept: run.differs.is_none() }
+    };
+    let promises = robots.iter().flat_map(Robot::promises).chain(emulated.iter().map(same));
+    for broken in promises.filter(|promise| !promise.kept) {
+        eprintln!("not kept: {}", broken.what);
+        well = false;
+    }
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/in_loop.md");
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(&golden, &text)?;
+        println!("written: host-tests/golden/in_loop.md; read the difference before you commit it: git diff");
+        return Ok(well);
+    }
+    let different = differences(&std::fs::read_to_string(&golden).unwrap_or_default(), &text, SHARE);
+    for difference in &different {
+        eprintln!("not as in host-tests/golden/in_loop.md (BLESS=1 rewrites it): {difference}");
+    }
+    Ok(well && different.is_empty())
+}
+
+/// Every scenario with every seed, in software.
+fn all_seeds<const N: usize>(name: &'static str, believed: &Believed<N>) -> Robot
+where
+    Block<N>: AnyBlock,
+{
+    let jobs: Vec<(Scenario, u64)> =
+        Scenario::ALL.iter().flat_map(|scenario| SEEDS.map(|seed| (*scenario, seed))).collect();
+    let came: Vec<Came> =
+        jobs.par_iter().with_max_len(1).map(|&(scenario, seed)| believed.in_software(scenario, seed).came).collect();
+    let of = |scenario: Scenario, seed: u64| {
+        jobs.iter().position(|job| *job == (scenario, seed)).map(|k| came[k].clone()).expect("all were played")
+    };
+    let mut robot = Robot { name, ..Robot::default() };
+    for seed in SEEDS {
+        let truth = believed.board(seed).robot;
+        let ratio = |f: fn(&model_core::kinematics::Wheel<f64>) -> f64| {
+            f(&truth.wheels.wheels()[0]) / f(&believed.host.wheels.wheels()[0]) - 1.0
+        };
+        robot.geometry.push([ratio(|w| w.radius), ratio(|w| w.distance)]);
+        let mut ramps = Vec::new();
+        for axis in 0..3 {
+            if let Came::Ramps(more) = of(Scenario::Ramps(axis), seed) {
+                ramps.extend(more);
+            }
+        }
+        robot.ramps.push(ramps);
+        if let (Came::Eight(with), Came::Eight(without)) =
+            (of(Scenario::Eight, seed), of(Scenario::EightByFeedback, seed))
+        {
+            robot.eights.push([with, without]);
+        }
+        if let Came::Saturation(scaled) = of(Scenario::Saturation, seed) {
+            let clipped = saturation::clipped(&believed.host, &truth, &believed.block());
+            robot.saturations.push([scaled, clipped]);
+        }
+        if let Came::Silence(silence) = of(Scenario::Silence, seed) {
+            robot.silences.push(silence);
+        }
+    }
+    robot
+}
+
+/// One scenario with the first seed in the image, against the same in software, or against itself.
+fn in_emulator<const N: usize>(
+    image: &Path,
+    name: &str,
+    believed: &Believed<N>,
+    scenario: Scenario,
+    again: bool,
+) -> Result<Emulated, Trouble>
+where
+    Block<N>: AnyBlock,
+{
+    let once = || -> Result<Run, Trouble> {
+        let (run, ride) = believed.play(Qemu::start(image, PATIENCE)?, scenario, SEEDS[0])?;
+        ride.lockstep.end()?;
+        Ok(run)
+    };
+    let run = once()?;
+    let (other, title) = if again {
+        (once()?, format!("{name}: {}, twice", scenario.name()))
+    } else {
+        (believed.in_software(scenario, SEEDS[0]), format!("{name}: {}", scenario.name()))
+    };
+    let differs = difference(&run.taken, &other.taken, again);
+    Ok(Emulated { name: title, records: run.taken.records.len(), load: load(&run.taken), differs })
+}
