@@ -9,9 +9,9 @@
 //! commutation = "field_oriented"   # or "six_step": by the sectors of the halls alone
 //! pole_pairs = 8                   # electrical turns in a turn of the motor
 //! inductance_H = 0.5e-3            # between two terminals, as resistance_ohm
-//! bandwidth_rad_s = 4000.0         # of the currents' loop
-//! feedback_A_s_per_rad = 0.2       # current for an error of a wheel's speed
-//! feedback_A_per_rad = 1.0         # current for an error of a wheel's angle
+//! bandwidth_rad_s = 2000.0         # of the currents' loop
+//! feedback_A_s_per_rad = 0.3       # current for an error of a wheel's speed
+//! feedback_A_per_rad = 0.05        # current for an error of a wheel's angle
 //! acceleration_v_m_s2 = 3.0        # largest along v, along vn and about the vertical axis
 //! acceleration_vn_m_s2 = 3.0
 //! acceleration_w_rad_s2 = 30.0
@@ -64,9 +64,9 @@ impl Default for ControllerFile {
             six_step: false,
             pole_pairs: 8,
             inductance_h: 0.5e-3,
-            bandwidth_rad_s: 4000.0,
-            feedback_a_s_per_rad: 0.2,
-            feedback_a_per_rad: 1.0,
+            bandwidth_rad_s: 2000.0,
+            feedback_a_s_per_rad: 0.3,
+            feedback_a_per_rad: 0.05,
             acceleration_v_m_s2: 3.0,
             acceleration_vn_m_s2: 3.0,
             acceleration_w_rad_s2: 30.0,
