@@ -71,8 +71,8 @@ pub fn hash() -> u64 {
     let current_loop = CurrentLoop::new(4.3111, 0.6e-3, 0.0049, 2000.0, 50.0e-6, 0.9);
     let (mut motion, mut winding) = (Memory::default(), CurrentMemory::default());
     while fold.results < RESULTS {
-        let (sin, cos) = (40.0 * draws.next()).sin_cos();
-        fold.add_all([sin, cos, draws.next().atan2(draws.next())]);
+        let (sin, cos) = Real::sin_cos(40.0 * draws.next());
+        fold.add_all([sin, cos, Real::atan2(draws.next(), draws.next())]);
 
         let twist = BodyTwist::from_array([draws.next(), draws.next(), 5.0 * draws.next()]);
         let acceleration = BodyTwist::from_array([3.0 * draws.next(), 3.0 * draws.next(), 10.0 * draws.next()]);

@@ -9,12 +9,14 @@ use model_core::record::MOTORS;
 use crate::codes::PERIODS_PER_SECOND;
 use crate::guard::Limits;
 use crate::offsets::{MIDDLE, REACH};
+use crate::registers::timing;
 
 /// Version of this firmware, as a hello tells it.
 pub const FIRMWARE: u16 = 1;
 
-/// Largest share of the bus that the three duties may span: the rest of the period is the converters' [1].
-pub const MAX_DUTY: f32 = 0.9;
+/// Largest share of the bus that the three duties may span: the rest of the period is the converters', which sample while
+/// all low sides conduct [1].
+pub const MAX_DUTY: f32 = timing::MAX_SHARE;
 
 /// Phase current over the current limit at which the bridges open [1]: regulation overshoots less.
 const TRIP_OVER_LIMIT: f32 = 1.6;

@@ -101,10 +101,8 @@ mod tests {
     use super::*;
 
     fn costs(tick: u32) -> Vec<Cost> {
-        let mut costs: Vec<Cost> = LIMITS
-            .iter()
-            .map(|limit| Cost { part: limit.part.to_owned(), instructions: limit.instructions })
-            .collect();
+        let mut costs: Vec<Cost> =
+            LIMITS.iter().map(|limit| Cost { part: limit.part.to_owned(), instructions: limit.instructions }).collect();
         costs[0].instructions = tick;
         costs
     }

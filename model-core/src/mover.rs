@@ -7,8 +7,8 @@
 //! reference. While the reference rests, what the integral holds fades: it was friction, and that turns round.
 
 use crate::block::{Block, Mode, Parameters};
-use crate::compensation::Compensation;
 use crate::calibration::Calibration;
+use crate::compensation::Compensation;
 use crate::frames::BodyTwist;
 use crate::observer::{Observed, Observer, Told};
 use crate::record::MOTORS;

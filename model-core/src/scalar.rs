@@ -161,7 +161,13 @@ impl Real for f32 {
     #[inline]
     fn pow(self, y: Self) -> Self {
         // xʸ = e^(y·ln x): a third of the code of `powf`, to 10⁻⁶ where it is used, |y·ln x| < 10
-        if self > 0.0 { libm::expf(y * libm::logf(self)) } else if y == 0.0 { 1.0 } else { 0.0 }
+        if self > 0.0 {
+            libm::expf(y * libm::logf(self))
+        } else if y == 0.0 {
+            1.0
+        } else {
+            0.0
+        }
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {

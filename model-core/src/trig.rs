@@ -56,8 +56,8 @@ pub fn sin_cos_f32(x: f32) -> (f32, f32) {
 #[inline(never)]
 fn far_f32(x: f32) -> (f32, f32) {
     if x.abs() >= LOST_F32 {
-        // x − x: NaN for what is infinite or no number
-        return quarter_turns_f32(x - x);
+        // 0·x: NaN for what is infinite or no number
+        return quarter_turns_f32(x * 0.0);
     }
     // n = round(x/2π),  r = x − n·2π
     let n = (x * (1.0 / single::TAU) + ROUND_F32) - ROUND_F32;

@@ -37,6 +37,24 @@ pub const ERRANDS: &[Errand] = &[
         run: identification,
     },
     Errand {
+        name: "pil",
+        takes: "",
+        does: "build the image and run it in QEMU in the loop with a robot: scenarios, faults, the gap (BLESS=1: rewrite)",
+        run: pil,
+    },
+    Errand {
+        name: "emulate",
+        takes: "",
+        does: "build the images and compare their bits and instructions (BLESS=1: rewrite)",
+        run: emulate,
+    },
+    Errand {
+        name: "image",
+        takes: "",
+        does: "build the board's image and check its sizes, symbols and stack (BLESS=1: rewrite)",
+        run: image,
+    },
+    Errand {
         name: "real",
         takes: "[FOLDER]",
         does: "diagnose the recordings of real robots in FOLDER (or in OMNI_GAP_DATA)",
@@ -105,6 +123,24 @@ fn benchmark(_: Option<OsString>) -> Result<(), String> {
 
 fn identification(_: Option<OsString>) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin identification"))
+}
+
+fn pil(_: Option<OsString>) -> Result<(), String> {
+    tool::ensure(tool::TOOLS)?;
+    announced(Line::of(steps::EMULATED_IMAGES))?;
+    steps::IN_LOOP.into_iter().try_for_each(|command| announced(Line::of(command)))
+}
+
+fn emulate(_: Option<OsString>) -> Result<(), String> {
+    tool::ensure(tool::TOOLS)?;
+    announced(Line::of(steps::EMULATED_IMAGES))?;
+    announced(Line::of(steps::EMULATE))
+}
+
+fn image(_: Option<OsString>) -> Result<(), String> {
+    tool::ensure(tool::TOOLS)?;
+    announced(Line::of(steps::BOARD_IMAGE))?;
+    announced(Line::of(steps::CHECK_IMAGE))
 }
 
 fn on_recordings(argument: Option<OsString>) -> Result<(), String> {

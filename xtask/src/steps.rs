@@ -18,11 +18,57 @@ pub struct Step {
     pub env: &'static [(&'static str, &'static str)],
 }
 
+/// The images for the emulator.
+pub const EMULATED_IMAGES: &str =
+    "cargo build --profile firmware -p firmware --bins --features emulated --target thumbv7em-none-eabihf";
+
+/// The image for the board. In a folder of its own: it has the name of the emulator's.
+pub const BOARD_IMAGE: &str = "cargo build --profile firmware -p firmware --bin firmware --features f405 \
+                               --target thumbv7em-none-eabihf --target-dir target/f405";
+
+/// The image of the board, checked: sizes, symbols, reach, stack.
+pub const CHECK_IMAGE: &str =
+    "cargo run -p host-tests --bin image -- target/f405/thumbv7em-none-eabihf/firmware/firmware";
+
+/// Bits and instructions, told by two images.
+pub const EMULATE: &str = "cargo run -p host-tests --bin emulated -- target/thumbv7em-none-eabihf/firmware";
+
+/// The image in the loop: how it drives, what it does about faults, and the loop closed on the gap.
+pub const IN_LOOP: [&str; 3] = [
+    "cargo run -p host-tests --bin pil -- target/thumbv7em-none-eabihf/firmware/firmware",
+    "cargo run -p host-tests --bin faults -- target/thumbv7em-none-eabihf/firmware/firmware",
+    "cargo run -p host-tests --bin gap -- target/thumbv7em-none-eabihf/firmware/firmware",
+];
+
 /// All checks. Tests on the source tree itself (the walls between the rooms) are tests like any other.
 pub const STEPS: &[Step] = &[
     Step { name: "format", command: "cargo fmt --all --check", env: &[] },
     Step { name: "lints", command: "cargo clippy --workspace --all-targets -- -D warnings", env: &[] },
+    Step {
+        name: "lints, emulated",
+        command: "cargo clippy -p firmware --bins --features emulated --target thumbv7em-none-eabihf -- -D warnings",
+        env: &[],
+    },
+    Step {
+        name: "lints, board",
+        command: "cargo clippy -p firmware --bins --test hil --test by_hand --features f405 --target thumbv7em-none-eabihf \
+                  -- -D warnings",
+        env: &[],
+    },
     Step { name: "tests", command: "cargo test --workspace", env: &[] },
+    Step { name: "emulated images", command: EMULATED_IMAGES, env: &[] },
+    Step { name: "board image", command: BOARD_IMAGE, env: &[] },
+    Step {
+        name: "board tests",
+        command: "cargo test --no-run --profile firmware -p firmware --test hil --test by_hand --features f405 \
+                  --target thumbv7em-none-eabihf --target-dir target/f405",
+        env: &[],
+    },
+    Step { name: "image", command: CHECK_IMAGE, env: &[] },
+    Step { name: "emulator", command: EMULATE, env: &[] },
+    Step { name: "in the loop", command: IN_LOOP[0], env: &[] },
+    Step { name: "faults", command: IN_LOOP[1], env: &[] },
+    Step { name: "gap", command: IN_LOOP[2], env: &[] },
     Step { name: "docs", command: "cargo doc --workspace --no-deps", env: &[("RUSTDOCFLAGS", "-D warnings")] },
 ];
 
@@ -63,7 +109,7 @@ impl Outcome {
         let failed = usize::from(self.failed.is_some());
         let mut text = String::new();
         for (name, time) in &self.times {
-            text += &format!("{name:>8} {:8.1} s\n", time.as_secs_f64());
+            text += &format!("{name:>15} {:8.1} s\n", time.as_secs_f64());
         }
         if let Some(command) = &self.failed {
             text += &format!("to run the failed step again: {command}\n");

@@ -38,6 +38,16 @@ pub const TOOLS: &[Tool] = &[
         installs: Install::Rustup("component add clippy"),
     },
     Tool { name: "a C linker (cc)", probe: LINKER, installs: Install::Apt("gcc libc6-dev") },
+    Tool {
+        name: "the chip's target (thumbv7em-none-eabihf)",
+        probe: Probe("rustup target list --installed", "thumbv7em-none-eabihf"),
+        installs: Install::Rustup("target add thumbv7em-none-eabihf"),
+    },
+    Tool {
+        name: "qemu-system-arm",
+        probe: Probe("qemu-system-arm --version", "QEMU"),
+        installs: Install::Apt("qemu-system-arm"),
+    },
 ];
 
 /// Off Unix the linker is not called `cc`, and that this program was built is proof enough of it.

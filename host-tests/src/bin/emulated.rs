@@ -32,7 +32,11 @@ fn checked(folder: &Path) -> Result<bool, Trouble> {
     let (here, there) = (format!("{:016x}", firmware::parity::hash()), said(&folder.join("parity"))?);
     let same = there.trim() == here;
     let verdict = if same { "the same" } else { "NOT the same" };
-    println!("{} results of the model: bits {here} here, {} in the emulator: {verdict}", firmware::parity::RESULTS, there.trim());
+    println!(
+        "{} results of the model: bits {here} here, {} in the emulator: {verdict}",
+        firmware::parity::RESULTS,
+        there.trim()
+    );
 
     let costs = Cost::read(&said(&folder.join("cycles"))?);
     let broken = above(&costs);

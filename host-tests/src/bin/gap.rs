@@ -1,27 +1,66 @@
-//! Closes the loop on the gap, effect by effect.
-use host_tests::in_loop::Software;
-use host_tests::in_loop::gap::{Hidden, close, robot_file};
-use model_core::paper::four_wheels;
+//! Closes the loop on the gap, effect by effect: drive, record, diagnose, correct, drive again. The first effect is driven
+//! by the image in QEMU as well, which must come to the same. `BLESS=1` rewrites the golden page.
 
-fn main() {
-    let text = include_str!("../../../examples/feup-4w/robot.toml");
-    let h = |id, wheel, params, by_voltage| Hidden { id, wheel, params, by_voltage };
-    let all = [
-        h("coriolis", None, &[1.0][..], false),
-        h("stribeck", None, &[0.8, 0.08, 1.0][..], false),
-        h("gear_efficiency", None, &[0.8][..], false),
-        h("rotor_inertia", None, &[1.5e-4][..], false),
-        h("motor_mismatch", Some(2), &[0.8, 1.0][..], false),
-        h("floor_tilt", None, &[0.03, 0.6][..], false),
-        h("dead_time", None, &[0.5, 0.05][..], true),
-        h("creep", None, &[0.03][..], false),
-        h("coriolis", None, &[1.0][..], true),
-    ];
-    for hidden in all {
-        let dir = tempfile::tempdir().unwrap();
-        let nominal = robot_file(text, hidden.by_voltage);
-        let t = std::time::Instant::now();
-        let c = close::<_, 4>(four_wheels(), &nominal, hidden, dir.path(), || Ok(Software::default())).unwrap();
-        println!("{:16} {:?} {:?} {:?} {:.4} -> {:.4} ({:.2})  w {:.4} -> {:.4} ({:.2})  {:.1?}", hidden.id, c.verdict, c.causes, c.undone, c.error[0], c.error[1], c.error[1]/c.error[0], c.turning[0], c.turning[1], c.turning[1]/c.turning[0], t.elapsed());
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use host_tests::emulator::{Qemu, Trouble};
+use host_tests::in_loop::Software;
+use host_tests::in_loop::gap::{Closed, HIDDEN, close, robot_file};
+use host_tests::in_loop::gap_page::{broken, differences, page};
+use model_core::paper::four_wheels;
+use omni_gap::log::write_whole;
+
+/// The robot that is believed in.
+const NOMINAL: &str = include_str!("../../../examples/feup-4w/robot.toml");
+
+/// How long the image may think about one period: others use the machine too.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+fn main() -> ExitCode {
+    let Some(image) = std::env::args_os().nth(1).map(PathBuf::from) else {
+        eprintln!("gap IMAGE: the firmware for the emulator, an ELF");
+        return ExitCode::from(2);
+    };
+    match checked(&image) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
     }
+}
+
+fn checked(image: &Path) -> Result<bool, Trouble> {
+    let on_host = |hidden| {
+        let folder = tempfile::tempdir().map_err(Trouble::Exchange)?;
+        let file = robot_file(NOMINAL, hidden);
+        let closed = close(four_wheels(), &file, hidden, folder.path(), || Ok(Software::default()))?;
+        println!("{:24} {:.1} -> {:.1} mm/s", hidden.id, 1e3 * closed.error[0], 1e3 * closed.error[1]);
+        Ok(closed)
+    };
+    let closed = HIDDEN.into_iter().map(on_host).collect::<Result<Vec<Closed>, Trouble>>()?;
+
+    let folder = tempfile::tempdir().map_err(Trouble::Exchange)?;
+    let file = robot_file(NOMINAL, HIDDEN[0]);
+    let emulated = close(four_wheels(), &file, HIDDEN[0], folder.path(), || Qemu::start(image, PATIENCE))?;
+    let same = emulated.error == closed[0].error && emulated.causes == closed[0].causes;
+    println!("{} in the image: {}", HIDDEN[0].id, if same { "the same, to the last bit" } else { "NOT the same" });
+
+    let not_kept = broken(&closed);
+    not_kept.iter().for_each(|what| println!("not kept: {what}"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/gap.md");
+    if std::env::var_os("BLESS").is_some() {
+        if let Err(why) = write_whole(&path, page(&closed).as_bytes()) {
+            eprintln!("{why}");
+            return Ok(false);
+        }
+        println!("written: host-tests/golden/gap.md; read the difference before you commit it: git diff");
+        return Ok(same && not_kept.is_empty());
+    }
+    let differences = differences(&std::fs::read_to_string(&path).unwrap_or_default(), &closed);
+    differences.iter().for_each(|what| println!("not as in host-tests/golden/gap.md (BLESS=1 rewrites it): {what}"));
+    Ok(same && not_kept.is_empty() && differences.is_empty())
 }

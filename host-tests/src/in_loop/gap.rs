@@ -48,11 +48,35 @@ pub struct Closed {
     pub causes: Vec<String>,
     /// What the exported block undoes
     pub undone: Vec<String>,
-    /// RMS of the body's speed less the wanted one [m/s], before and after
+    /// RMS of the motion less the wanted one [m/s], before and after: (v, vn), and ω at the wheels' distance
     pub error: [f64; 2],
-    /// The same of the yaw rate [rad/s]
-    pub turning: [f64; 2],
 }
+
+impl Closed {
+    /// What is left of the error [1].
+    pub fn left(&self) -> f64 {
+        self.error[1] / self.error[0]
+    }
+}
+
+/// What is hidden, effect by effect, at sizes that a robot shows plainly.
+pub const HIDDEN: [Hidden; 9] = [
+    Hidden { id: "coriolis", wheel: None, params: &[1.0], by_voltage: false },
+    Hidden { id: "stribeck", wheel: None, params: &[0.8, 0.08, 1.0], by_voltage: false },
+    Hidden { id: "gear_efficiency", wheel: None, params: &[0.8], by_voltage: false },
+    Hidden { id: "motor_mismatch", wheel: Some(2), params: &[0.8, 1.0], by_voltage: true },
+    Hidden { id: "dead_time", wheel: None, params: &[0.5, 0.05], by_voltage: true },
+    Hidden { id: "creep", wheel: None, params: &[0.03], by_voltage: false },
+    Hidden { id: "rotor_inertia", wheel: None, params: &[4.0e-4], by_voltage: false },
+    Hidden { id: "floor_tilt", wheel: None, params: &[0.03, 0.6], by_voltage: false },
+    Hidden { id: "current_sensor_offset", wheel: None, params: &[0.15], by_voltage: false },
+];
+
+/// How many effects must be left with at most [`LEFT`] of their error.
+pub const EFFECTS: usize = 6;
+
+/// The most that may be left of the error of each [1].
+pub const LEFT: f64 = 0.40;
 
 /// Seconds that the robot is awake before it is commanded: its offsets are learned in 51 ms.
 const WAKES: f64 = 0.15;
@@ -63,22 +87,22 @@ const SECONDS: f64 = 6.0;
 /// The scripts that are driven and recorded; the first one is what is judged.
 const SCRIPTS: [f64; 3] = [0.0, 0.37, 0.71];
 
-/// What is wanted at a time: all three axes at once, with rests and reversals.
+/// What is wanted at a time: all three axes at once, with rests and reversals, and nothing that jumps.
 pub fn script(phase: f64, t: f64) -> BodyTwist<f64> {
-    // rests of 0.4 s every 2 s
-    if (t + phase) % 2.0 < 0.4 {
-        return BodyTwist::default();
-    }
     let turn = std::f64::consts::TAU;
-    let wave = |frequency: f64, at: f64| (turn * (frequency * t + at + phase)).sin();
+    // two seconds of motion between rests of 0.3 s, in and out of which it is eased for 0.3 s
+    let at = (t + phase) % 2.3;
+    let ease = |x: f64| (0.25 * turn * (x / 0.3).clamp(0.0, 1.0)).sin().powi(2);
+    let share = ease(at) * ease(2.0 - at);
+    let wave = |frequency: f64, at: f64| share * (turn * (frequency * t + at + phase)).sin();
     BodyTwist { v: 0.7 * wave(0.55, 0.0), vn: 0.6 * wave(0.43, 0.3), w: 4.0 * wave(0.37, 0.6) }
 }
 
 /// A robot file in the form that the loop drives it: with the supply, the limits and the controller that it needs.
-pub fn robot_file(text: &str, by_voltage: bool) -> String {
-    let mode = if by_voltage { "voltage" } else { "current" };
+pub fn robot_file(text: &str, hidden: Hidden) -> String {
+    let mode = if hidden.by_voltage { "voltage" } else { "current" };
     format!(
-        "{text}\n[limits]\ncurrent_A = 4.0\nspeed_m_s = 2.0\n\n[controller]\nmode = \"{mode}\"\ninductance_H = 0.6e-3\n\
+        "{text}\n[limits]\ncurrent_A = 4.0\nspeed_m_s = 2.0\n\n[controller]\nacceleration_v_m_s2 = 6.0\nacceleration_vn_m_s2 = 6.0\nmode = \"{mode}\"\ninductance_H = 0.6e-3\n\
          feedback_A_s_per_rad = 0.01\nfeedback_A_per_rad = 0.0\nbandwidth_rad_s = 2000.0\n"
     )
 }
@@ -113,14 +137,13 @@ pub fn close<B: Brain, const N: usize>(
     let corrected = RobotFile::load(&corrected_path, &known_effects()).expect("a corrected robot file is a robot file");
     let undone = export(&corrected, &corrected_path).expect("a corrected robot file can be exported").undone;
     let (after, _) = drive(robot, hidden, &corrected_path, SCRIPTS[0], 0, brain()?)?;
-    let errors = [tracking(&before[0]), tracking(&after)];
+    let distance = robot.wheels.wheels()[0].distance;
     Ok(Closed {
         hidden,
         verdict: diagnosis.report.verdict,
         causes: diagnosis.report.causes.clone(),
         undone,
-        error: errors.map(|(error, _)| error),
-        turning: errors.map(|(_, turning)| turning),
+        error: [&before[0], &after].map(|taken| tracking(taken, distance)),
     })
 }
 
@@ -142,7 +165,7 @@ fn drive<B: Brain, const N: usize>(
     let mut ride = Ride::new(brain, board);
     ride.send_bytes_of_block(&block.bytes);
     ride.wait(WAKES)?;
-    ride.follow(SECONDS, |t| script(phase, t))?;
+    ride.follow_closely(SECONDS, |t| script(phase, t))?;
     let bytes = ride.lockstep.line.received().to_vec();
     Ok((ride.taken, bytes))
 }
@@ -156,16 +179,17 @@ fn record(bytes: &[u8], name: &str, wheels: usize, folder: &Path) {
     write_whole_with(&folder.join(format!("{name}.csv")), |out| run.write_csv(out)).expect("room for a run");
 }
 
-/// RMS of what the body does less what is wanted, (v, vn) and ω [m/s, rad/s], while the robot is commanded.
-fn tracking(taken: &Taken) -> (f64, f64) {
-    let (mut along, mut about, mut count) = (0.0, 0.0, 0.0);
-    for (moment, record) in taken.moments.iter().zip(&taken.records).filter(|(moment, _)| moment.time > WAKES) {
-        let [v, vn, w] = record.wanted.map(f64::from);
-        along += (moment.twist.v - v).powi(2) + (moment.twist.vn - vn).powi(2);
-        about += (moment.twist.w - w).powi(2);
-        count += 1.0;
-    }
-    ((along / count).sqrt(), (about / count).sqrt())
+/// RMS of what the body does less what is wanted, while the robot is commanded [m/s]; ω counts at a distance [m].
+fn tracking(taken: &Taken, distance: f64) -> f64 {
+    let commanded = taken.moments.iter().zip(&taken.records).filter(|(moment, _)| moment.time > WAKES);
+    let squares: Vec<f64> = commanded
+        .map(|(moment, record)| {
+            let [v, vn, w] = record.wanted.map(f64::from);
+            let turning = distance * (moment.twist.w - w);
+            (moment.twist.v - v).powi(2) + (moment.twist.vn - vn).powi(2) + turning.powi(2)
+        })
+        .collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
 fn write(path: &Path, text: &str) {

@@ -11,11 +11,12 @@
 //! - [`study`]: all of these, on many seeds, and one of them in the emulator too;
 //! - [`page`]: what came of it, and what is promised;
 //! - [`faults`]: every fault, injected while the robot drives;
-//! - [`gap`]: drive, record, diagnose, correct, drive again.
+//! - [`gap`] and [`gap_page`]: drive, record, diagnose, correct, drive again.
 
 pub mod eight;
 pub mod faults;
 pub mod gap;
+pub mod gap_page;
 pub mod page;
 pub mod ramps;
 mod ride;

@@ -67,9 +67,7 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
 impl Robot {
     /// Root mean square over the seeds: velocity [m/s] and position [m], of the model and of feedback alone.
     fn eight(&self) -> [[f64; 2]; 2] {
-        [0, 1].map(|k| {
-            [rms(self.eights.iter().map(|e| e[k].velocity)), rms(self.eights.iter().map(|e| e[k].position))]
-        })
+        [0, 1].map(|k| [rms(self.eights.iter().map(|e| e[k].velocity)), rms(self.eights.iter().map(|e| e[k].position))])
     }
 
     /// The mean error of ramps [1], and the worst by size.
@@ -139,13 +137,15 @@ impl Robot {
             eight((k + 1).to_string(), e.map(|e| [e.velocity, e.position]));
         }
         eight("all".into(), self.eight());
-        line("\nDiagonal into saturation: angle between true and wanted acceleration while not all of it fits [°].\n".into());
+        line(
+            "\nDiagonal into saturation: angle between true and wanted acceleration while not all of it fits [°].\n"
+                .into(),
+        );
         line("| seed | headroom: rms | most | for [ms] | each wheel clipped: rms | most | for [ms] |".into());
         line("|---|---|---|---|---|---|---|".into());
         for (k, both) in self.saturations.iter().enumerate() {
-            let [s, c] = both.map(|x| {
-                format!("{:.1} | {:.1} | {:.0}", x.rms.to_degrees(), x.most.to_degrees(), 1e3 * x.time)
-            });
+            let [s, c] =
+                both.map(|x| format!("{:.1} | {:.1} | {:.0}", x.rms.to_degrees(), x.most.to_degrees(), 1e3 * x.time));
             line(format!("| {} | {s} | {c} |", k + 1));
         }
         line("\nCommands end at 1 m/s.\n".into());

@@ -63,7 +63,11 @@ where
         let sign = if level % 2 == 0 { 1.0 } else { -1.0 };
         let mut want = [0.0; 3];
         // while the block is on its way
-        if level == 0 { ride.wait(0.15)? } else { ride.follow(0.1, |_| BodyTwist::default())? };
+        if level == 0 {
+            ride.wait(0.15)?
+        } else {
+            ride.follow(0.1, |_| BodyTwist::default())?
+        };
         for braking in [false, true] {
             let began = ride.time();
             want[axis] = if braking { 0.0 } else { sign * speed };
@@ -83,6 +87,7 @@ fn slope(moments: &[Moment], axis: usize, [from, to]: [f64; 2]) -> f64 {
     let n = seen().count() as f64;
     let (time, speed) = seen().fold((0.0, 0.0), |sum, (t, x)| (sum.0 + t / n, sum.1 + x / n));
     // Σ (t − t̄)·(x − x̄)/Σ (t − t̄)²
-    let (up, down) = seen().fold((0.0, 0.0), |sum, (t, x)| (sum.0 + (t - time) * (x - speed), sum.1 + (t - time) * (t - time)));
+    let (up, down) =
+        seen().fold((0.0, 0.0), |sum, (t, x)| (sum.0 + (t - time) * (x - speed), sum.1 + (t - time) * (t - time)));
     up / down
 }

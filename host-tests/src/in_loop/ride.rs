@@ -137,9 +137,26 @@ impl<B: Brain, const N: usize> Ride<B, N> {
     /// # Errors
     /// [`Trouble`] says what became of the program.
     pub fn follow(&mut self, seconds: f64, want: impl Fn(f64) -> BodyTwist<f64>) -> Result<(), Trouble> {
+        self.follow_every(COMMANDS, seconds, want)
+    }
+
+    /// The same with a command for every motion turn: a reference that need not run after stairs.
+    ///
+    /// # Errors
+    /// [`Trouble`] says what became of the program.
+    pub fn follow_closely(&mut self, seconds: f64, want: impl Fn(f64) -> BodyTwist<f64>) -> Result<(), Trouble> {
+        self.follow_every(TURN, seconds, want)
+    }
+
+    fn follow_every(
+        &mut self,
+        periods: u32,
+        seconds: f64,
+        want: impl Fn(f64) -> BodyTwist<f64>,
+    ) -> Result<(), Trouble> {
         let began = self.time();
         while self.time() < began + seconds {
-            if self.periods.is_multiple_of(COMMANDS) {
+            if self.periods.is_multiple_of(periods) {
                 self.drive(want(self.time() - began));
             }
             self.period()?;

@@ -7,7 +7,6 @@
 use std::collections::VecDeque;
 use std::fmt;
 
-use firmware::codes::MOTORS;
 use firmware::exchange::{Bytes, Down, LINK_BYTES, TOPS, Up, compare};
 use firmware::inbox::Inbox;
 use firmware::listener::Listener;
@@ -79,8 +78,8 @@ impl Brain for Software {
     fn down(&mut self, down: &Down) -> Result<(), Trouble> {
         self.inward.extend(down.link.as_slice());
         let drive = self.windings.turn(&down.codes);
-        for j in 0..MOTORS {
-            self.next.compare[j] = drive.duties[j].map(|duty| compare(duty, TOPS[j]));
+        for ((counts, duties), top) in self.next.compare.iter_mut().zip(drive.duties).zip(TOPS) {
+            *counts = duties.map(|duty| compare(duty, top));
         }
         self.next.enabled = drive.enabled;
         if self.windings.begins_motion() {
