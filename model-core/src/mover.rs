@@ -69,11 +69,11 @@ impl Mover {
         }
     }
 
-    /// Goes on with the motion that another one was following, where it has as many wheels.
+    /// Goes on with the motion that another one was following, where it has as many wheels; their speeds begin anew.
     pub fn go_on_from(&mut self, old: &Mover) {
         match (self, old) {
-            (Mover::Three(new), Mover::Three(old)) => new.go_on_from(old),
-            (Mover::Four(new), Mover::Four(old)) => new.go_on_from(old),
+            (Mover::Three(new), Mover::Three(old)) => new.memory = old.memory,
+            (Mover::Four(new), Mover::Four(old)) => new.memory = old.memory,
             _ => {}
         }
     }
@@ -183,12 +183,6 @@ impl<const N: usize> Wheeled<N> {
             wheels: [Observed::default(); N],
             wanted: [0.0; N],
         }
-    }
-
-    fn go_on_from(&mut self, old: &Self) {
-        self.memory = old.memory;
-        self.wheels = old.wheels;
-        self.wanted = old.wanted;
     }
 
     fn observe(&mut self, told: &[Told; MOTORS]) {

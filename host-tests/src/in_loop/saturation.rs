@@ -2,7 +2,7 @@
 //!
 //! The robot is told to go off at 20° to its v axis with an acceleration that the wheels along v cannot give at speed and
 //! those along vn could. What is measured is how far the true acceleration points aside from the wanted direction while
-//! the controller says that not all of it fits.
+//! the controller says that not all of it fits, once the robot moves.
 //!
 //! [`clipped`] is what would have been without headroom: the same controller with a bus without end, each wheel's voltage
 //! then clipped by itself, on the plant of the core under voltages, with wheel speeds that it need not measure.
@@ -31,6 +31,9 @@ const WATCHED: f64 = 0.4;
 /// Largest part of the bus that a motor gets [1], and the length of a turn [s]
 const MAX_DUTY: f64 = firmware::setup::MAX_DUTY as f64;
 const TURN: f64 = 1e-3;
+
+/// Speed from which on directions are compared [m/s]: a start goes aside where friction is not what is believed.
+const STARTED: f64 = 0.2;
 
 /// Over how many turns an acceleration is taken.
 const OVER: usize = 20;
@@ -111,7 +114,8 @@ pub fn clipped<const N: usize>(believed: &Robot<N, f64>, truth: &Robot<N, f64>, 
 /// How far the acceleration points aside, taken over some turns, all of them short of voltage.
 fn aside(moments: &[Moment], short: impl Fn(f64) -> bool) -> Aside {
     let (mut sum, mut n, mut most) = (0.0, 0.0, 0.0_f64);
-    for window in moments.windows(OVER + 1).filter(|w| w.iter().all(|m| short(m.time))) {
+    let started = |m: &Moment| m.twist.v.hypot(m.twist.vn) > STARTED;
+    for window in moments.windows(OVER + 1).filter(|w| w.iter().all(|m| short(m.time) && started(m))) {
         let (from, to) = (window[0].twist, window[OVER].twist);
         let angle = (to.vn - from.vn).atan2(to.v - from.v) - DIRECTION;
         (sum, n, most) = (sum + angle * angle, n + 1.0, most.max(angle.abs()));
