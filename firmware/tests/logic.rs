@@ -5,6 +5,7 @@ mod program;
 use firmware::codes::Codes;
 use firmware::listener::{Heard, Listener};
 use firmware::motion::events;
+use firmware::motor::NO_VOLTAGE;
 use firmware::post::{self, Room};
 use firmware::setup::{MOST_TRIP, Setup};
 use firmware::windings::Told;
@@ -85,7 +86,7 @@ fn a_lost_wheel_opens_in_the_turn_that_sees_it_and_is_named_while_the_others_dri
     let mut program = Program::driving(&four());
     assert_eq!(program.period(&bad_hall(2)).enabled, 0b1111, "once is a glitch");
     let drive = program.period(&bad_hall(2));
-    assert_eq!((drive.enabled, drive.duties[2]), (0b1011, [0.0; 3]));
+    assert_eq!((drive.enabled, drive.duties[2]), (0b1011, NO_VOLTAGE));
     program.drive();
     program.turns(2, &still());
     let last = program.records.last().expect("records");

@@ -102,8 +102,17 @@ fn reciprocal_or_zero<T: Real>(x: T) -> T {
 #[inline]
 pub fn minors<T: Real>(rows: &[[T; 3]; 4]) -> [T; 4] {
     let [a, b, c, d] = *rows;
-    // n_j = (−1)ʲ·det(rows without row j)
-    [determinant3(&[b, c, d]), -determinant3(&[a, c, d]), determinant3(&[a, b, d]), -determinant3(&[a, b, c])]
+    let mut minors = [T::zero(); 4];
+    for (minor, (sign, rest)) in minors.iter_mut().zip([
+        (T::one(), [b, c, d]),
+        (-T::one(), [a, c, d]),
+        (T::one(), [a, b, d]),
+        (-T::one(), [a, b, c]),
+    ]) {
+        // n_j = (−1)ʲ·det(rows without row j)
+        *minor = sign * determinant3(&rest);
+    }
+    minors
 }
 
 /// The left null vector of four rows: nᵀ·rows = 0, |n| = 1; no unit. The zero vector where the rows have rank below 3.
