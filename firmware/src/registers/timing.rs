@@ -5,8 +5,10 @@
 //! take turns: the four ranks of one injected group. Each timer therefore runs one rank behind the one before it, and
 //! every motor is sampled at the centre of its own PWM.
 //!
-//!     rank   = (15 + 12) / 21 MHz = 1.286 µs = 216 counts at 168 MHz
-//!     hold_k = trigger + (3 + 15) / 21 MHz + k · rank  = top of motor k's count
+//! ```text
+//! rank   = (15 + 12) / 21 MHz = 1.286 µs = 216 counts at 168 MHz
+//! hold_k = trigger + (3 + 15) / 21 MHz + k · rank  = top of motor k's count
+//! ```
 //!
 //! | what | cycles of the converters' clock | source |
 //! |---|---|---|
@@ -16,7 +18,9 @@
 //!
 //! Sampling 3 cycles long would make a rank 0.71 µs. The datasheet's formula for the largest source resistance,
 //!
-//!     R_AIN = (k − 0.5) / (f · C_ADC · ln 2^14) − R_ADC
+//! ```text
+//! R_AIN = (k − 0.5) / (f · C_ADC · ln 2^14) − R_ADC
+//! ```
 //!
 //! with k cycles, f = 21 MHz, C_ADC ≤ 7 pF and R_ADC ≤ 6 kΩ, is negative for k = 3 and 4.2 kΩ for k = 15. The second
 //! drives from any sense amplifier through its filter resistor, so it is 15.

@@ -201,7 +201,7 @@ fn the_board_takes_every_pin_of_the_list_for_its_job_and_no_other() {
     // all pins in the order in which the source takes them: `gpioa.pa8`
     let mut taken = Vec::new();
     for (at, _) in source.match_indices("gpio") {
-        let name = source[at + 4..].as_bytes();
+        let name = &source.as_bytes()[at + 4..];
         let [port, b'.', b'p', again, digit, ..] = name else { continue };
         if port == again && digit.is_ascii_digit() {
             let digits = name[4..].iter().take_while(|digit| digit.is_ascii_digit());
