@@ -11,21 +11,12 @@ use model_core::calibration::AdcCode;
 use model_core::halls::HallCode;
 
 use crate::codes::{Codes, MOTORS};
+pub use crate::registers::timing::{TOPS, compare};
 
 /// The name of the file from the image to the host, in QEMU's working folder.
 pub const UP_FILE: &str = "omni-up";
 /// The name of the file from the host to the image.
 pub const DOWN_FILE: &str = "omni-down";
-
-/// Timer counts of half a PWM period, motor by motor: TIM1 and TIM8 count at 168 MHz, TIM3 and TIM4 at 84 MHz.
-pub const TOPS: [u16; MOTORS] = [4200, 4200, 2100, 2100];
-
-/// The compare count of a duty [1], rounded to the nearest and held to the timer's range.
-#[inline]
-pub fn compare(duty: f32, top: u16) -> u16 {
-    // the conversion holds what is negative, too large or NaN to the type's range
-    ((duty * f32::from(top) + 0.5) as u16).min(top)
-}
 
 /// Bytes that the link carries in a period: 2 Mbaud.
 pub const LINK_BYTES: usize = 10;

@@ -20,7 +20,7 @@ use panic_halt as _;
 
 #[rtic::app(device = firmware::board::pac, peripherals = true)]
 mod app {
-    use firmware::board::{Bridges, Dog, Store, Wire};
+    use firmware::board::{Bridges, Dog, Wire};
     use firmware::drivers::roll::RollCall;
     use firmware::inbox::Inbox;
     use firmware::listener::Listener;
@@ -45,7 +45,6 @@ mod app {
         pub bridges: Bridges,
         pub motion_turn: Motion,
         pub listener: Listener,
-        pub store: Store,
         pub sender: Sender,
         pub post: Post,
         pub dog: Dog,
@@ -61,7 +60,7 @@ mod app {
         #[task(binds = EXTI0, priority = 3, local = [motion_turn, sender], shared = [windings, inbox, load, &roll])]
         fn motion(_: motion::Context);
 
-        #[task(binds = EXTI1, priority = 2, local = [listener, store], shared = [inbox, wire, &roll])]
+        #[task(binds = EXTI1, priority = 2, local = [listener], shared = [inbox, wire, &roll])]
         fn listen(_: listen::Context);
 
         #[task(binds = EXTI2, priority = 1, local = [post], shared = [wire, &roll])]

@@ -70,8 +70,6 @@ pub struct Told {
     pub lost: u8,
     /// True once the offsets are known
     pub ready: bool,
-    /// One bit a motor: its bridge was closed over this turn
-    pub driven: u8,
 }
 
 /// What the board is to do in the next period.
@@ -93,7 +91,6 @@ pub struct Windings {
     ask: Ask,
     told: Told,
     period: u32,
-    driven: u8,
 }
 
 impl Windings {
@@ -200,7 +197,6 @@ impl Windings {
                 }
             }
         }
-        self.driven = drive.enabled;
         if self.begins_motion() {
             self.told = self.tell(codes, bus);
         }
@@ -219,7 +215,6 @@ impl Windings {
             lost: self.guard.lost(),
             ready: self.offsets.are_known(),
             offsets: *self.offsets.all(),
-            driven: self.driven,
             ..Told::default()
         };
         for (j, motor) in self.motors.iter_mut().enumerate().take(usize::from(self.setup.wheels)) {

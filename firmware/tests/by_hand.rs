@@ -2,40 +2,23 @@
 #![no_std]
 #![no_main]
 
+mod on_board;
+
 use panic_probe as _;
 
 #[cfg(test)]
 #[embedded_test::tests]
 mod tests {
-    use cortex_m::peripheral::NVIC;
-    use defmt::{assert, assert_eq, info, panic, unwrap};
-    use firmware::board::{self, Parts, pac, pac::Interrupt};
-    use firmware::codes::{Codes, MOTORS, PERIODS_PER_SECOND};
+    use crate::on_board::{self, group, wait};
+    use defmt::{assert, assert_eq, info, panic};
+    use firmware::board::Parts;
+    use firmware::codes::{MOTORS, PERIODS_PER_SECOND};
     use firmware::registers::timing;
     use model_core::halls::Halls;
 
     #[init]
     fn init() -> Parts {
-        let core = unwrap!(cortex_m::Peripherals::take());
-        let device = unwrap!(pac::Peripherals::take());
-        board::take(core, device)
-    }
-
-    /// Waits for the end of the converters' group, and says how many cycles into the period it was seen.
-    fn group(parts: &mut Parts) -> (Codes, u32) {
-        let began = board::ticks();
-        while !NVIC::is_pending(Interrupt::ADC) {
-            assert!(board::ticks().wrapping_sub(began) < 2 * timing::PERIOD, "no end of a group within two periods");
-        }
-        let seen = board::cycles();
-        let codes = parts.bridges.read();
-        cortex_m::asm::dsb();
-        NVIC::unpend(Interrupt::ADC);
-        (codes, seen)
-    }
-
-    fn wait(microseconds: u32) {
-        cortex_m::asm::delay(timing::CORE_HZ / 1_000_000 * microseconds);
+        on_board::parts()
     }
 
     #[test]

@@ -4,14 +4,17 @@
 #![no_std]
 #![no_main]
 
+mod on_board;
+
 use panic_probe as _;
 
 #[cfg(test)]
 #[embedded_test::tests]
 mod tests {
+    use crate::on_board::{self, group, wait};
     use cortex_m::peripheral::NVIC;
     use defmt::{assert, assert_eq, info, unwrap};
-    use firmware::board::{self, Parts, pac, pac::Interrupt};
+    use firmware::board::{self, Parts, pac::Interrupt};
     use firmware::codes::{Codes, MOTORS, PERIODS_PER_SECOND};
     use firmware::guard::Limits;
     use firmware::motion::Turn;
@@ -33,26 +36,7 @@ mod tests {
 
     #[init]
     fn init() -> Parts {
-        let core = unwrap!(cortex_m::Peripherals::take());
-        let device = unwrap!(pac::Peripherals::take());
-        board::take(core, device)
-    }
-
-    /// Waits for the end of the converters' group, and says how many cycles into the period it was seen.
-    fn group(parts: &mut Parts) -> (Codes, u32) {
-        let began = board::ticks();
-        while !NVIC::is_pending(Interrupt::ADC) {
-            assert!(board::ticks().wrapping_sub(began) < 2 * timing::PERIOD, "no end of a group within two periods");
-        }
-        let seen = board::cycles();
-        let codes = parts.bridges.read();
-        cortex_m::asm::dsb();
-        NVIC::unpend(Interrupt::ADC);
-        (codes, seen)
-    }
-
-    fn wait(microseconds: u32) {
-        cortex_m::asm::delay(timing::CORE_HZ / 1_000_000 * microseconds);
+        on_board::parts()
     }
 
     #[test]

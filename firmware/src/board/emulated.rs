@@ -128,15 +128,7 @@ impl Bridges {
             self.next.enabled = 0;
         }
         let mut out = [0; LINK_BYTES];
-        let count = WIRE.with(|wire| {
-            let mut count = 0;
-            while count < LINK_BYTES {
-                let Some(byte) = wire.out.dequeue() else { break };
-                out[count] = byte;
-                count += 1;
-            }
-            count
-        });
+        let count = WIRE.with(|wire| take_from(&mut wire.out, &mut out));
         self.next.link = Bytes::of(&out[..count]);
 
         let sent = self.next.to_bytes();
@@ -171,9 +163,7 @@ impl Bridges {
         self.next.enabled = enabled;
         self.next.cycles = self.spent() as u16;
     }
-}
 
-impl Bridges {
     /// Processor cycles since the codes of this period were there.
     pub fn spent(&self) -> u32 {
         cycles().saturating_sub(self.began)
@@ -193,16 +183,19 @@ impl Wire {
 
     /// Takes the bytes that have come; how many.
     pub fn receive(&mut self, into: &mut [u8]) -> usize {
-        WIRE.with(|wire| {
-            let mut count = 0;
-            for place in into {
-                let Some(byte) = wire.inward.dequeue() else { break };
-                *place = byte;
-                count += 1;
-            }
-            count
-        })
+        WIRE.with(|wire| take_from(&mut wire.inward, into))
     }
+}
+
+/// Moves as many bytes as wait and have room; how many.
+fn take_from(queue: &mut Queue<u8, 1024>, into: &mut [u8]) -> usize {
+    let mut count = 0;
+    for place in into {
+        let Some(byte) = queue.dequeue() else { break };
+        *place = byte;
+        count += 1;
+    }
+    count
 }
 
 impl Dog {

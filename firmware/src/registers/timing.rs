@@ -36,7 +36,6 @@
 //! The tops are those of the timers, the latch is the moment at which the compare registers are written (`board/f405`).
 
 use crate::codes::{MOTORS, PERIODS_PER_SECOND};
-pub use crate::exchange::compare;
 
 /// Clock of the core, of TIM1 and of TIM8 [Hz].
 pub const CORE_HZ: u32 = 168_000_000;
@@ -62,6 +61,13 @@ pub const TOPS: [u16; MOTORS] = {
     }
     tops
 };
+
+/// The compare count of a duty [1], rounded to the nearest and held to the timer's range.
+#[inline]
+pub fn compare(duty: f32, top: u16) -> u16 {
+    // the conversion holds what is negative, too large or NaN to the type's range
+    ((duty * f32::from(top) + 0.5) as u16).min(top)
+}
 
 /// Core cycles in one cycle of the converters.
 const ADC_CYCLE: u32 = CORE_HZ / ADC_HZ;

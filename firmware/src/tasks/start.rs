@@ -17,13 +17,14 @@ pub fn init(cx: app::init::Context<'_>) -> (app::Shared, app::Local) {
     let (sender, post) = post::split(cx.local.room);
     let mut listener = Listener::default();
     let mut inbox = Inbox::default();
-    if let Some(heard) = listener.restore(store.load()) {
+    let kept = store.load();
+    if let Some(heard) = listener.restore(kept) {
         inbox.put(heard);
     }
-    defmt::info!("asleep; bridges open, {} bytes of parameters kept", store.load().len());
+    defmt::info!("asleep; bridges open, {} bytes of parameters kept", kept.len());
     bridges.start();
     (
         app::Shared { windings: Windings::default(), inbox, load: Load::default(), wire, roll: RollCall::new() },
-        app::Local { bridges, motion_turn: Motion::default(), listener, store, sender, post, dog },
+        app::Local { bridges, motion_turn: Motion::default(), listener, sender, post, dog },
     )
 }
