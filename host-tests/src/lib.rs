@@ -14,6 +14,7 @@
 //! - [`real`]: what the diagnosis says of recordings of real robots;
 //! - [`virtual_board`]: what the robot's electronics see, without the robot;
 //! - [`emulator`]: the robot's image in QEMU, driving a virtual board;
+//! - [`golden`]: pages that a program makes and is held to;
 //! - [`costs`]: instructions of the control path, as the emulator counts them;
 //! - [`in_loop`]: the robot's program, a robot that is not what it believes, and somebody who commands it;
 //! - [`image`]: sizes, symbols, reach and stack of the firmware's image.
@@ -31,6 +32,7 @@ pub mod emulator;
 pub mod excite;
 pub mod flow;
 pub mod generated;
+pub mod golden;
 pub mod identification;
 pub mod image;
 pub mod in_loop;

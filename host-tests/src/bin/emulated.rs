@@ -1,13 +1,14 @@
 //! Runs the two images that say something and end: the model's bits are compared with those recorded on the host, and the
 //! instructions of the control path with the golden page and their limits. `BLESS=1` rewrites the page.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
 use host_tests::costs::{Cost, above, differences, page};
 use host_tests::emulator::{Qemu, Trouble};
-use omni_gap::log::write_whole;
+use host_tests::golden;
 
 /// How long an image may run: each takes a few seconds.
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -17,18 +18,11 @@ fn main() -> ExitCode {
         eprintln!("emulated FOLDER: the folder with the images `parity` and `cycles` for the emulator");
         return ExitCode::from(2);
     };
-    match checked(&folder) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(why) => {
-            eprintln!("{why}");
-            ExitCode::FAILURE
-        }
-    }
+    golden::exit(checked(&folder))
 }
 
 /// True if both images say what they should.
-fn checked(folder: &Path) -> Result<bool, Trouble> {
+fn checked(folder: &Path) -> Result<bool, Box<dyn Error>> {
     let (here, there) = (format!("{:016x}", firmware::parity::hash()), said(&folder.join("parity"))?);
     let same = there.trim() == here;
     let verdict = if same { "the same" } else { "NOT the same" };
@@ -39,20 +33,9 @@ fn checked(folder: &Path) -> Result<bool, Trouble> {
     );
 
     let costs = Cost::read(&said(&folder.join("cycles"))?);
-    let broken = above(&costs);
-    broken.iter().for_each(|what| println!("not kept: {what}"));
-    let (path, text) = (Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/cycles.md"), page(&costs));
-    if std::env::var_os("BLESS").is_some() {
-        if let Err(why) = write_whole(&path, text.as_bytes()) {
-            eprintln!("{why}");
-            return Ok(false);
-        }
-        println!("written: host-tests/golden/cycles.md; read the difference before you commit it: git diff");
-        return Ok(same && broken.is_empty());
-    }
-    let differences = differences(&std::fs::read_to_string(&path).unwrap_or_default(), &costs);
-    differences.iter().for_each(|what| println!("not as in host-tests/golden/cycles.md (BLESS=1 rewrites it): {what}"));
-    Ok(same && broken.is_empty() && differences.is_empty())
+    let kept = golden::all_kept(&above(&costs));
+    let page_kept = golden::keeps("cycles.md", &page(&costs), |golden| differences(golden, &costs))?;
+    Ok(same && kept && page_kept)
 }
 
 /// What an image says before it ends.

@@ -2,13 +2,14 @@
 //! environment it rewrites the page. With a word behind the image, only the cases with that word in their title; then
 //! the page is printed and not compared.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use host_tests::emulator::Qemu;
+use host_tests::golden;
 use host_tests::in_loop::faults::{broken, page, results};
-use omni_gap::log::write_whole;
 
 /// How long the image may think about one period: it thinks microseconds, but others use the machine too.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -19,45 +20,20 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let word = std::env::args().nth(2).unwrap_or_default();
-    let begun = Instant::now();
-    let results = match results(&word, || Qemu::start(&image, PATIENCE)) {
-        Ok(results) => results,
-        Err(why) => {
-            eprintln!("{why}");
-            return ExitCode::FAILURE;
-        }
-    };
-    eprintln!("{} cases: {:.0} s", results.played.len() + results.three.len() + 1, begun.elapsed().as_secs_f64());
-    let not_kept = broken(&results);
-    not_kept.iter().for_each(|what| println!("not kept: {what}"));
-
-    let (path, text) = (Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/faults.md"), page(&results));
-    if !word.is_empty() {
-        println!("{text}");
-    } else if std::env::var_os("BLESS").is_some() {
-        if let Err(why) = write_whole(&path, text.as_bytes()) {
-            eprintln!("{why}");
-            return ExitCode::FAILURE;
-        }
-        println!("written: host-tests/golden/faults.md; read the difference before you commit it: git diff");
-    } else {
-        let golden = std::fs::read_to_string(&path).unwrap_or_default();
-        if golden != text {
-            differences(&golden, &text);
-            return ExitCode::FAILURE;
-        }
-    }
-    if not_kept.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    golden::exit(checked(&image, &word))
 }
 
-/// Tells the lines that differ.
-fn differences(golden: &str, found: &str) {
-    println!("host-tests/golden/faults.md differs (BLESS=1 rewrites it):");
-    let (golden, found): (Vec<&str>, Vec<&str>) = (golden.lines().collect(), found.lines().collect());
-    for k in 0..golden.len().max(found.len()) {
-        let (was, is) = (golden.get(k).unwrap_or(&""), found.get(k).unwrap_or(&""));
-        if was != is {
-            println!("line {}\n- {was}\n+ {is}", k + 1);
-        }
+/// True if every promise is kept and the page is as it stands.
+fn checked(image: &Path, word: &str) -> Result<bool, Box<dyn Error>> {
+    let begun = Instant::now();
+    let results = results(word, || Qemu::start(image, PATIENCE))?;
+    eprintln!("{} cases: {:.0} s", results.played.len() + results.three.len() + 1, begun.elapsed().as_secs_f64());
+    let kept = golden::all_kept(&broken(&results));
+    let text = page(&results);
+    if !word.is_empty() {
+        println!("{text}");
+        return Ok(kept);
     }
+    let page_kept = golden::keeps("faults.md", &text, |golden| golden::lines(golden, &text, |a, b| a == b))?;
+    Ok(kept && page_kept)
 }

@@ -1,16 +1,17 @@
 //! Closes the loop on the gap, effect by effect: drive, record, diagnose, correct, drive again. The first effect is driven
 //! by the image in QEMU as well, which must come to the same. `BLESS=1` rewrites the golden page.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
 use host_tests::emulator::{Qemu, Trouble};
+use host_tests::golden;
 use host_tests::in_loop::Software;
 use host_tests::in_loop::gap::{Closed, HIDDEN, close, robot_file};
 use host_tests::in_loop::gap_page::{broken, differences, page};
 use model_core::paper::four_wheels;
-use omni_gap::log::write_whole;
 
 /// The robot that is believed in.
 const NOMINAL: &str = include_str!("../../../examples/feup-4w/robot.toml");
@@ -23,17 +24,10 @@ fn main() -> ExitCode {
         eprintln!("gap IMAGE: the firmware for the emulator, an ELF");
         return ExitCode::from(2);
     };
-    match checked(&image) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(why) => {
-            eprintln!("{why}");
-            ExitCode::FAILURE
-        }
-    }
+    golden::exit(checked(&image))
 }
 
-fn checked(image: &Path) -> Result<bool, Trouble> {
+fn checked(image: &Path) -> Result<bool, Box<dyn Error>> {
     let on_host = |hidden| {
         let folder = tempfile::tempdir().map_err(Trouble::Exchange)?;
         let file = robot_file(NOMINAL, hidden);
@@ -49,18 +43,7 @@ fn checked(image: &Path) -> Result<bool, Trouble> {
     let same = emulated.error == closed[0].error && emulated.causes == closed[0].causes;
     println!("{} in the image: {}", HIDDEN[0].id, if same { "the same, to the last bit" } else { "NOT the same" });
 
-    let not_kept = broken(&closed);
-    not_kept.iter().for_each(|what| println!("not kept: {what}"));
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/gap.md");
-    if std::env::var_os("BLESS").is_some() {
-        if let Err(why) = write_whole(&path, page(&closed).as_bytes()) {
-            eprintln!("{why}");
-            return Ok(false);
-        }
-        println!("written: host-tests/golden/gap.md; read the difference before you commit it: git diff");
-        return Ok(same && not_kept.is_empty());
-    }
-    let differences = differences(&std::fs::read_to_string(&path).unwrap_or_default(), &closed);
-    differences.iter().for_each(|what| println!("not as in host-tests/golden/gap.md (BLESS=1 rewrites it): {what}"));
-    Ok(same && not_kept.is_empty() && differences.is_empty())
+    let kept = golden::all_kept(&broken(&closed));
+    let page_kept = golden::keeps("gap.md", &page(&closed), |golden| differences(golden, &closed))?;
+    Ok(same && kept && page_kept)
 }

@@ -5,8 +5,9 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use host_tests::golden;
 use host_tests::image::elf::Image;
-use host_tests::image::page::{Measured, differences, page};
+use host_tests::image::page::{Measured, Promise, differences, page};
 
 /// How far a figure may have moved since the page was blessed: other compilers lay out code a little differently.
 const SHARE: f64 = 0.05;
@@ -16,35 +17,16 @@ fn main() -> ExitCode {
         eprintln!("which image? image path/to/firmware.elf");
         return ExitCode::FAILURE;
     };
-    match held(Path::new(&path)) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(why) => {
-            eprintln!("{path}: {why}");
-            ExitCode::FAILURE
-        }
-    }
+    golden::exit(held(Path::new(&path)).map_err(|why| format!("{path}: {why}")))
 }
 
 fn held(path: &Path) -> Result<bool, Box<dyn std::error::Error>> {
     let measured = Measured::of(&Image::read(&std::fs::read(path)?)?);
     let text = page(&measured);
     println!("{text}");
-    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/image.md");
-    let mut well = true;
-    for promise in measured.promises().iter().filter(|promise| !promise.kept) {
-        eprintln!("not kept: {}: {}", promise.what, promise.found);
-        well = false;
-    }
-    if std::env::var_os("BLESS").is_some() {
-        std::fs::write(&golden, &text)?;
-        println!("written: host-tests/golden/image.md; read the difference before you commit it: git diff");
-        return Ok(well);
-    }
-    let blessed = std::fs::read_to_string(&golden).unwrap_or_default();
-    let different = differences(&blessed, &text, SHARE);
-    for difference in &different {
-        eprintln!("not as in host-tests/golden/image.md (BLESS=1 rewrites it): {difference}");
-    }
-    Ok(well && different.is_empty())
+    let broken = |promise: &Promise| format!("{}: {}", promise.what, promise.found);
+    let not_kept: Vec<String> = measured.promises().iter().filter(|promise| !promise.kept).map(broken).collect();
+    let kept = golden::all_kept(&not_kept);
+    let page_kept = golden::keeps("image.md", &text, |golden| differences(golden, &text, SHARE))?;
+    Ok(kept && page_kept)
 }

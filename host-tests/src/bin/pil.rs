@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use host_tests::emulator::{Qemu, Trouble};
+use host_tests::golden;
 use host_tests::in_loop::page::{Emulated, Promise, Robot, differences, page};
 use host_tests::in_loop::robots::AnyBlock;
 use host_tests::in_loop::saturation;
@@ -46,14 +47,7 @@ fn main() -> ExitCode {
         eprintln!("which image? pil path/to/firmware.elf (an emulated one)");
         return ExitCode::FAILURE;
     };
-    match held(Path::new(&image)) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(why) => {
-            eprintln!("{image}: {why}");
-            ExitCode::FAILURE
-        }
-    }
+    golden::exit(held(Path::new(&image)).map_err(|why| format!("{image}: {why}")))
 }
 
 fn held(image: &Path) -> Result<bool, Box<dyn std::error::Error>> {
@@ -75,27 +69,15 @@ fn held(image: &Path) -> Result<bool, Box<dyn std::error::Error>> {
     let text = page(&robots, &emulated);
     println!("{text}");
 
-    let mut well = true;
     let same = |run: &Emulated| {
         let why = run.differs.as_deref().unwrap_or_default();
         Promise { what: format!("{}: the image against the host: {why}", run.name), kept: run.differs.is_none() }
     };
     let promises = robots.iter().flat_map(Robot::promises).chain(emulated.iter().map(same));
-    for broken in promises.filter(|promise| !promise.kept) {
-        eprintln!("not kept: {}", broken.what);
-        well = false;
-    }
-    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/in_loop.md");
-    if std::env::var_os("BLESS").is_some() {
-        std::fs::write(&golden, &text)?;
-        println!("written: host-tests/golden/in_loop.md; read the difference before you commit it: git diff");
-        return Ok(well);
-    }
-    let different = differences(&std::fs::read_to_string(&golden).unwrap_or_default(), &text, SHARE);
-    for difference in &different {
-        eprintln!("not as in host-tests/golden/in_loop.md (BLESS=1 rewrites it): {difference}");
-    }
-    Ok(well && different.is_empty())
+    let not_kept: Vec<String> = promises.filter(|promise| !promise.kept).map(|promise| promise.what).collect();
+    let kept = golden::all_kept(&not_kept);
+    let page_kept = golden::keeps("in_loop.md", &text, |golden| differences(golden, &text, SHARE))?;
+    Ok(kept && page_kept)
 }
 
 /// Every scenario with every seed, in software.

@@ -8,6 +8,7 @@ use std::fmt::Write;
 use super::calls::{EXCEPTION_FRAME, Graph, Reach, nested};
 use super::elf::{Image, Section};
 use super::names::{allocates, double_precision, panics};
+use crate::golden;
 
 /// Flash that the image may fill: sectors 0 to 3 [bytes].
 pub const MOST_FLASH: u64 = 64 * 1024;
@@ -225,17 +226,11 @@ pub fn grouped(number: u64) -> String {
 
 /// Where a page differs from the one that was blessed: lines with other words, and numbers off by more than a share.
 pub fn differences(blessed: &str, now: &str, share: f64) -> Vec<String> {
-    let (old, new): (Vec<&str>, Vec<&str>) = (blessed.lines().collect(), now.lines().collect());
-    let mut found = Vec::new();
-    for k in 0..old.len().max(new.len()) {
-        let (old, new) = (old.get(k).copied().unwrap_or(""), new.get(k).copied().unwrap_or(""));
+    golden::lines(blessed, now, |old, new| {
         let ((words, before), (other_words, after)) = (taken_apart(old), taken_apart(new));
         let near = |(a, b): (&f64, &f64)| (a - b).abs() <= share * a.abs();
-        if words != other_words || !before.iter().zip(&after).all(near) {
-            found.push(format!("line {}:\n  - {old}\n  + {new}", k + 1));
-        }
-    }
-    found
+        words == other_words && before.iter().zip(&after).all(near)
+    })
 }
 
 /// The words of a line with its numbers left out, and the numbers.

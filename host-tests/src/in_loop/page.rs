@@ -7,6 +7,7 @@ use super::ramps::{LEVELS, Ramp};
 use super::robots;
 use super::saturation::Aside;
 use super::silence::Silence;
+use crate::golden;
 
 /// Largest error of an acceleration [1]
 pub const ACCELERATION: f64 = 0.03;
@@ -195,16 +196,10 @@ pub fn page(robots: &[Robot], emulated: &[Emulated]) -> String {
 /// Where a page differs from the one that was blessed: other words, or numbers off by more than a share and two of the
 /// last digit: other machines round sines and logarithms differently, and noise goes its own way from there.
 pub fn differences(blessed: &str, now: &str, share: f64) -> Vec<String> {
-    let (old, new): (Vec<&str>, Vec<&str>) = (blessed.lines().collect(), now.lines().collect());
-    let mut found = Vec::new();
-    for k in 0..old.len().max(new.len()) {
-        let (old, new) = (old.get(k).copied().unwrap_or(""), new.get(k).copied().unwrap_or(""));
+    golden::lines(blessed, now, |old, new| {
         let (a, b): (Vec<&str>, Vec<&str>) = (old.split_whitespace().collect(), new.split_whitespace().collect());
-        if a.len() != b.len() || !a.iter().zip(&b).all(|(a, b)| near(a, b, share)) {
-            found.push(format!("line {}:\n  - {old}\n  + {new}", k + 1));
-        }
-    }
-    found
+        a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| near(a, b, share))
+    })
 }
 
 /// The same word, or a number that is near.

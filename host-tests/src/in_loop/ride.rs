@@ -180,43 +180,17 @@ impl<B: Brain, const N: usize> Ride<B, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::in_loop::Software;
+    use crate::in_loop::{Software, robots};
     use crate::virtual_board::Setup;
     use model_core::active::Effects;
-    use model_core::block::{Block, BlockEffects, Limits, Mode};
-    use model_core::hello::Commutation;
     use model_core::paper::four_wheels;
     use model_core::record::Stage;
-
-    fn block() -> Block<4> {
-        Block {
-            robot: four_wheels(),
-            inductance: 0.6e-3,
-            mode: Mode::Current,
-            feedforward: true,
-            commutation: Commutation::FieldOriented,
-            pole_pairs: 8,
-            limits: Limits {
-                current: 4.0,
-                speed: 2.0,
-                acceleration: [3.0, 3.0, 20.0],
-                under_voltage: 8.0,
-                over_voltage: 16.0,
-            },
-            feedback: 0.02,
-            feedback_integral: 0.2,
-            bandwidth: 2000.0,
-            amps_per_count: 0.0049,
-            bus_volts_per_count: 0.00886,
-            effects: BlockEffects::default(),
-        }
-    }
 
     #[test]
     fn a_command_moves_the_robot() {
         let board = VirtualBoard::new(Setup::new(four_wheels(), Effects::default(), 1));
         let mut ride = Ride::new(Software::default(), board);
-        ride.send_block(&Parameters::Four(block()));
+        ride.send_block(&Parameters::Four(robots::block(four_wheels())));
         ride.wait(0.15).expect("software does not fail");
         ride.follow(1.0, |_| BodyTwist { v: 0.5, vn: 0.0, w: 0.0 }).expect("software does not fail");
         let last = ride.taken.moments.last().expect("moments");

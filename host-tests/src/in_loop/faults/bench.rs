@@ -1,12 +1,12 @@
 //! The robots that faults are done to: the paper's, on wheels that can slip.
 
 use model_core::active::Effects;
-use model_core::block::{Block, BlockEffects, Limits, Mode, Parameters};
+use model_core::block::{Block, Limits, Mode, Parameters};
 use model_core::effects::find;
-use model_core::hello::Commutation;
 use model_core::paper::{four_wheels, three_wheels};
 use model_core::robot::Robot;
 
+use crate::in_loop::robots;
 use crate::virtual_board::{Setup, VirtualBoard};
 
 /// Seed of the boards: zeros of the converters, rotor angles, noise.
@@ -32,20 +32,13 @@ pub struct Bench<const N: usize> {
 
 /// The block of a robot.
 pub fn block<const N: usize>(robot: Robot<N, f32>, mode: Mode) -> Block<N> {
+    let believed = robots::block(robot);
     Block {
-        robot,
-        inductance: 0.6e-3,
         mode,
-        feedforward: true,
-        commutation: Commutation::FieldOriented,
-        pole_pairs: 8,
-        limits: Limits { current: 4.0, speed: 2.0, acceleration: ACCELERATION, under_voltage: 8.0, over_voltage: 16.0 },
+        limits: Limits { acceleration: ACCELERATION, ..believed.limits },
         feedback: 0.02,
         feedback_integral: 0.2,
-        bandwidth: 2000.0,
-        amps_per_count: 0.0049,
-        bus_volts_per_count: 0.00886,
-        effects: BlockEffects::default(),
+        ..believed
     }
 }
 

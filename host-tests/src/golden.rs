@@ -1,0 +1,60 @@
+//! # Golden: pages that a program makes and is held to
+//!
+//! With `BLESS=1` in the environment the page is written, otherwise it is compared with the one that stands in `golden/`.
+//! What counts as a difference is the page's own affair; a page of prose and tables is compared line by line.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use omni_gap::error::Result;
+use omni_gap::log::write_whole;
+
+/// Where a page stands.
+pub fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(name)
+}
+
+/// Writes a page if it is to be blessed; otherwise tells what `differences` finds in the one that stands there. True if
+/// the page is as it should be.
+///
+/// # Errors
+/// Where the page cannot be written.
+pub fn keeps(name: &str, page: &str, differences: impl FnOnce(&str) -> Vec<String>) -> Result<bool> {
+    if std::env::var_os("BLESS").is_some_and(|bless| bless == "1") {
+        write_whole(&path(name), page.as_bytes())?;
+        println!("written: host-tests/golden/{name}; read the difference before you commit it: git diff");
+        return Ok(true);
+    }
+    let found = differences(&std::fs::read_to_string(path(name)).unwrap_or_default());
+    found.iter().for_each(|what| println!("not as in host-tests/golden/{name} (BLESS=1 rewrites it): {what}"));
+    Ok(found.is_empty())
+}
+
+/// The lines in which two pages differ, where `same` tells lines that do not.
+pub fn lines(golden: &str, now: &str, same: impl Fn(&str, &str) -> bool) -> Vec<String> {
+    let (old, new): (Vec<&str>, Vec<&str>) = (golden.lines().collect(), now.lines().collect());
+    let line = |k: usize| (old.get(k).copied().unwrap_or(""), new.get(k).copied().unwrap_or(""));
+    (0..old.len().max(new.len()))
+        .filter(|k| !same(line(*k).0, line(*k).1))
+        .map(|k| format!("line {}:\n  - {}\n  + {}", k + 1, line(k).0, line(k).1))
+        .collect()
+}
+
+/// Tells every promise that was not kept; true if there is none.
+pub fn all_kept(not_kept: &[String]) -> bool {
+    not_kept.iter().for_each(|what| println!("not kept: {what}"));
+    not_kept.is_empty()
+}
+
+/// How a program ends that was asked whether all is well.
+pub fn exit(well: std::result::Result<bool, impl Display>) -> ExitCode {
+    match well {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}
