@@ -2,8 +2,8 @@
 //!
 //! One period is 50 µs, one turn of the PWM. All that a board measures in it is here, as it was measured.
 
-use model_core::calibration::AdcCode;
-use model_core::halls::HallCode;
+use model_core::control::calibration::AdcCode;
+use model_core::control::halls::HallCode;
 
 /// The motors that the board has bridges for; a robot of three wheels leaves the last one asleep.
 pub const MOTORS: usize = 4;

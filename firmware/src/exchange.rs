@@ -7,8 +7,8 @@
 //! What an [`Up`] asks for holds over the period that follows, as compare registers that are loaded at the update do; the
 //! codes of a [`Down`] are those of that period's PWM centre.
 
-use model_core::calibration::AdcCode;
-use model_core::halls::HallCode;
+use model_core::control::calibration::AdcCode;
+use model_core::control::halls::HallCode;
 
 use crate::codes::{Codes, MOTORS};
 pub use crate::registers::timing::{TOPS, compare};

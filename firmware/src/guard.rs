@@ -10,8 +10,8 @@
 //! Several periods in a row where one sample may be noise; a short is never waited for. What is seen is latched, whether
 //! it opens all bridges or costs one wheel of four: what cost a wheel is kept apart, because the robot drives on.
 
-use model_core::calibration::AdcCode;
-use model_core::faults::{Fault, Faults};
+use model_core::control::calibration::AdcCode;
+use model_core::link::faults::{Fault, Faults};
 
 use crate::codes::MOTORS;
 

@@ -1,7 +1,7 @@
 //! # Inbox: what the link has brought for the motion turn
 
-use model_core::command::Reply;
-use model_core::frames::BodyTwist;
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::command::Reply;
 
 use crate::listener::{Accepted, Heard};
 

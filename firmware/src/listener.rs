@@ -3,10 +3,10 @@
 //! A parameter block comes in chunks and is looked at as a whole when it is committed; nothing of it is used before, and
 //! where it is refused the parameters in use stay. A frame that is damaged is not answered: its sender hears no reply.
 
-use model_core::block::{self, MAX_BYTES, Parameters, Refused};
-use model_core::command::{Command, Reply};
-use model_core::frames::BodyTwist;
-use model_core::link::{Decoder, Frame, Kind};
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::block::{self, MAX_BYTES, Parameters, Refused};
+use model_core::link::command::{Command, Reply};
+use model_core::link::framing::{Decoder, Frame, Kind};
 
 /// Something that was said.
 // There is one of them at a time, and nothing is allocated.

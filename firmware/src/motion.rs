@@ -14,14 +14,14 @@
 //! was lost comes back, and when other parameters are of another machine; parameters that only retune the same one are
 //! taken on the way.
 
-use model_core::calibration::Calibration;
-use model_core::command::Reply;
-use model_core::faults::{Fault, Faults};
-use model_core::frames::BodyTwist;
-use model_core::hello::{Commutation, Hello, OFFSET_PARTS};
-use model_core::mover::Mover;
-use model_core::observer;
-use model_core::record::Stage;
+use model_core::control::calibration::Calibration;
+use model_core::control::drive::Mover;
+use model_core::control::observer;
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::command::Reply;
+use model_core::link::faults::{Fault, Faults};
+use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
+use model_core::link::record::Stage;
 
 use crate::codes::{PERIODS_PER_SECOND, PERIODS_PER_TURN};
 use crate::inbox::Inbox;

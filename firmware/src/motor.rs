@@ -3,9 +3,9 @@
 //! The halls are followed whether the bridge is closed or not. While the speed is not known the motor commutates in six
 //! steps, by the middle of its sector; once the halls tell where the rotor is between two edges, field-oriented.
 
-use model_core::calibration::AdcCode;
-use model_core::current_loop::{CurrentMemory, CurrentSeen, CurrentWant};
-use model_core::halls::{HallCode, HallFault, Halls, angle_of_code};
+use model_core::control::calibration::AdcCode;
+use model_core::control::current_loop::{CurrentMemory, CurrentSeen, CurrentWant};
+use model_core::control::halls::{HallCode, HallFault, Halls, angle_of_code};
 
 use crate::codes::PERIODS_PER_TURN;
 use crate::setup::Setup;

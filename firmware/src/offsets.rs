@@ -3,7 +3,7 @@
 //! Current amplifiers idle at about half of the converter's range, each a little elsewhere. The mean of
 //! [`PERIODS`] codes with the bridges open is that phase's zero; a mean far from the middle is a broken amplifier.
 
-use model_core::calibration::AdcCode;
+use model_core::control::calibration::AdcCode;
 
 use crate::codes::MOTORS;
 

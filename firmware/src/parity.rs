@@ -3,14 +3,14 @@
 //! The same functions, in single precision, on the host and on the chip: 20,000 results are folded into one number
 //! (FNV-1a over their bits). A test on the host, the image in the emulator and a test on the board compare it.
 
-use model_core::calibration::AdcCode;
-use model_core::compensation::Compensation;
-use model_core::current_loop::{CurrentLoop, CurrentMemory, CurrentSeen, CurrentWant};
-use model_core::frames::{BodyTwist, Pose};
-use model_core::paper;
+use model_core::control::calibration::AdcCode;
+use model_core::control::compensation::Compensation;
+use model_core::control::current_loop::{CurrentLoop, CurrentMemory, CurrentSeen, CurrentWant};
+use model_core::control::motion_controller::{Controller, Memory, Seen, Settings};
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::number::scalar::Real;
+use model_core::plant::paper;
 use model_core::plant::{Input, Plant};
-use model_core::scalar::Real;
-use model_core::tick::{Controller, Memory, Seen, Settings};
 
 /// How many results [`hash`] folds.
 pub const RESULTS: u32 = 20_000;

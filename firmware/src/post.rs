@@ -5,11 +5,11 @@
 //! as it takes.
 
 use heapless::spsc::{Consumer, Producer, Queue};
-use model_core::command::Reply;
-use model_core::faults::Faults;
-use model_core::hello::Hello;
-use model_core::link::{self, Kind, MAX_FRAME};
-use model_core::record::Record;
+use model_core::link::command::Reply;
+use model_core::link::faults::Faults;
+use model_core::link::framing::{self, Kind, MAX_FRAME};
+use model_core::link::hello::Hello;
+use model_core::link::record::Record;
 
 use crate::motion::{Turn, events};
 use crate::windings::Told;
@@ -100,9 +100,9 @@ impl Post {
         if self.sent >= self.len {
             let message = self.queue.dequeue()?;
             let made = match message {
-                Message::Record(record) => link::frame(Kind::Record.code(), &record.to_bytes(), &mut self.frame),
-                Message::Hello(hello) => link::frame(Kind::Hello.code(), &hello.to_bytes(), &mut self.frame),
-                Message::Reply(reply) => link::frame(Kind::Reply.code(), &reply.to_bytes(), &mut self.frame),
+                Message::Record(record) => framing::frame(Kind::Record.code(), &record.to_bytes(), &mut self.frame),
+                Message::Hello(hello) => framing::frame(Kind::Hello.code(), &hello.to_bytes(), &mut self.frame),
+                Message::Reply(reply) => framing::frame(Kind::Reply.code(), &reply.to_bytes(), &mut self.frame),
             };
             self.len = made.map_or(0, <[u8]>::len);
             self.sent = 0;

@@ -1,10 +1,10 @@
 //! # Setup: what the windings' turn needs of the parameters
 
-use model_core::block::{Block, Parameters, VERSION};
-use model_core::calibration::{Calibration, FULL_SCALE};
-use model_core::current_loop::CurrentLoop;
-use model_core::hello::{Commutation, Hello};
-use model_core::record::MOTORS;
+use model_core::control::calibration::{Calibration, FULL_SCALE};
+use model_core::control::current_loop::CurrentLoop;
+use model_core::link::block::{Block, Parameters, VERSION};
+use model_core::link::hello::{Commutation, Hello};
+use model_core::link::record::MOTORS;
 
 use crate::codes::PERIODS_PER_SECOND;
 use crate::guard::Limits;

@@ -10,7 +10,7 @@
 //! the motion it is to follow: it shows where a voltage stands alone and a blocked motor draws little, and where the
 //! halls are stuck at a code that is legal. Two edges net, because a wheel that trembles on an edge crosses it for ever.
 
-use model_core::mover::Moved;
+use model_core::control::drive::Moved;
 
 use crate::codes::MOTORS;
 use crate::motion::TURN;

@@ -13,9 +13,9 @@
 //! A voltage decided in one period holds over the next (compare registers are loaded at the update), so the mean that a
 //! record tells covers exactly the periods from its predecessor's codes to its own.
 
-use model_core::current_loop::CurrentWant;
-use model_core::faults::{Fault, Faults};
-use model_core::halls::HallCode;
+use model_core::control::current_loop::CurrentWant;
+use model_core::control::halls::HallCode;
+use model_core::link::faults::{Fault, Faults};
 
 use crate::codes::{Codes, MOTORS, PERIODS_PER_TURN};
 use crate::guard::Guard;

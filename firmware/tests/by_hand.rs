@@ -14,7 +14,7 @@ mod tests {
     use firmware::board::Parts;
     use firmware::codes::{MOTORS, PERIODS_PER_SECOND};
     use firmware::registers::timing;
-    use model_core::halls::Halls;
+    use model_core::control::halls::Halls;
 
     #[init]
     fn init() -> Parts {

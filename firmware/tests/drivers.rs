@@ -9,7 +9,7 @@ use firmware::drivers::gate::{GateDriver, GateFault};
 use firmware::drivers::halls::HallLines;
 use firmware::drivers::roll::{RollCall, Task};
 use firmware::drivers::store::{HEAD, LONGEST, NotKept, Slot, find, keep};
-use model_core::halls::HallCode;
+use model_core::control::halls::HallCode;
 
 fn broken() -> MockError {
     MockError::Io(std::io::ErrorKind::BrokenPipe)

@@ -23,9 +23,9 @@ mod tests {
     use firmware::registers::timing;
     use firmware::setup::Setup;
     use firmware::windings::{Ask, Windings};
-    use model_core::calibration::{AdcCode, Calibration};
-    use model_core::current_loop::CurrentLoop;
-    use model_core::halls::HallCode;
+    use model_core::control::calibration::{AdcCode, Calibration};
+    use model_core::control::current_loop::CurrentLoop;
+    use model_core::control::halls::HallCode;
 
     /// The hall codes of a rotor that goes forward.
     const FORWARD: [u8; 6] = [1, 3, 2, 6, 4, 5];

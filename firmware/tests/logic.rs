@@ -9,15 +9,15 @@ use firmware::motor::NO_VOLTAGE;
 use firmware::post::{self, Room};
 use firmware::setup::{MOST_TRIP, Setup};
 use firmware::windings::Told;
-use model_core::block::{Parameters, Reason};
-use model_core::calibration::AdcCode;
-use model_core::command::{Command, Reply};
-use model_core::faults::{Fault, Faults};
-use model_core::frames::BodyTwist;
-use model_core::halls::HallCode;
-use model_core::link::{Kind, MAX_FRAME};
-use model_core::paper::{four_wheels, three_wheels};
-use model_core::record::Stage;
+use model_core::control::calibration::AdcCode;
+use model_core::control::halls::HallCode;
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::block::{Parameters, Reason};
+use model_core::link::command::{Command, Reply};
+use model_core::link::faults::{Fault, Faults};
+use model_core::link::framing::{Kind, MAX_FRAME};
+use model_core::link::record::Stage;
+use model_core::plant::paper::{four_wheels, three_wheels};
 use program::{Program, block, bytes, still};
 
 const AHEAD: BodyTwist = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
@@ -147,7 +147,7 @@ fn the_bridge_that_a_robot_of_three_wheels_has_over_may_measure_anything() {
 
 #[test]
 fn a_block_of_another_machine_opens_the_bridges_and_one_that_retunes_does_not() {
-    let retuned = |change: fn(&mut model_core::block::Block<4>)| {
+    let retuned = |change: fn(&mut model_core::link::block::Block<4>)| {
         let mut block = block(four_wheels());
         change(&mut block);
         Parameters::Four(block)
@@ -266,10 +266,10 @@ fn what_finds_no_room_is_counted() {
     }
     sender.turn(&Told::default(), &firmware::motion::Turn::default(), (0, 0));
     sent.extend_from_slice(post.waiting().expect("one more"));
-    let mut decoder = model_core::link::Decoder::new();
+    let mut decoder = model_core::link::framing::Decoder::new();
     let mut records = Vec::new();
     for byte in sent {
-        records.extend(decoder.push(byte).and_then(|f| model_core::record::Record::from_bytes(f.payload)));
+        records.extend(decoder.push(byte).and_then(|f| model_core::link::record::Record::from_bytes(f.payload)));
     }
     // a queue of 8 holds 7
     let told: Vec<(u32, u16)> = records.iter().map(|record| (record.sequence, record.dropped)).collect();

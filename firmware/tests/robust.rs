@@ -4,12 +4,12 @@
 mod program;
 
 use firmware::codes::{Codes, MOTORS};
-use model_core::block::Parameters;
-use model_core::calibration::AdcCode;
-use model_core::command::Command;
-use model_core::halls::HallCode;
-use model_core::link::{MAX_FRAME, MAX_PAYLOAD, frame};
-use model_core::paper::{four_wheels, three_wheels};
+use model_core::control::calibration::AdcCode;
+use model_core::control::halls::HallCode;
+use model_core::link::block::Parameters;
+use model_core::link::command::Command;
+use model_core::link::framing::{MAX_FRAME, MAX_PAYLOAD, frame};
+use model_core::plant::paper::{four_wheels, three_wheels};
 use program::{Program, block, bytes, still};
 
 /// Numbers that look drawn: xorshift of 64 bits.

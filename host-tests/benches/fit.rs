@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use host_tests::catalogue::sessions::truth;
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 use omni_gap::identify::{Free, Prior, Shots, Windows, fit};
 use omni_gap::known_effects;
 use omni_gap::simulate::{Model, Recorded, Slot};

@@ -1,11 +1,11 @@
 //! Plant steps a second, on one core: the plain four-wheel model at 1 kHz, each effect alone, and three together.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use model_core::dual::Dual;
 use model_core::effects;
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::number::dual::Dual;
+use model_core::number::scalar::Real;
 use model_core::plant::{Input, Plant};
-use model_core::scalar::Real;
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
 use omni_gap::simulate::{Carried, Model};
@@ -20,7 +20,7 @@ fn model(effects: &[&str]) -> Model<4> {
     let mut model = Model::nominal(&file, 12.0);
     for id in effects {
         let card = effects::find::<f64>(id).expect("an id of the catalogue").card();
-        let wheel = (card.place == model_core::card::Place::OneWheel).then_some(2);
+        let wheel = (card.place == model_core::effects::card::Place::OneWheel).then_some(2);
         model.carry(Carried::typical(card, wheel));
     }
     model

@@ -1,7 +1,7 @@
 //! # The paper's robots as Rust, from their robot files
 //!
 //! The numbers of Table 3 are written once, in `examples/feup-3w/robot.toml` and `examples/feup-4w/robot.toml`. What the
-//! core ships as `model_core::paper` is made from them here, so that a robot without a file system has them too.
+//! core ships as `model_core::plant::paper` is made from them here, so that a robot without a file system has them too.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ pub const ROBOTS: [(&str, &str); 2] =
     [("examples/feup-3w/robot.toml", "three_wheels"), ("examples/feup-4w/robot.toml", "four_wheels")];
 
 /// Where the source stands, from the top of the tree.
-pub const PLACE: &str = "model-core/src/paper.rs";
+pub const PLACE: &str = "model-core/src/plant/paper.rs";
 
 const HEAD: &str = "\
 //! # The paper's two robots (Table 3)
@@ -24,10 +24,10 @@ const HEAD: &str = "\
 //! Source: Oliveira, Sousa, Moreira, Costa, ICINCO 2008, Table 3, figures 2 and 3. The paper takes K_t = K_v; the bus
 //! voltage is not the paper's.
 
-use crate::kinematics::{Wheel, Wheels};
-use crate::motor::Motor;
-use crate::robot::{Friction, Robot};
-use crate::scalar::Real;
+use crate::geometry::kinematics::{Wheel, Wheels};
+use crate::number::scalar::Real;
+use crate::plant::robot::{Friction, Robot};
+use crate::plant::winding::Motor;
 ";
 
 /// The top of the tree.
@@ -35,7 +35,7 @@ pub fn tree() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("a folder above this crate")
 }
 
-/// The source of `model_core::paper`, as rustfmt leaves it.
+/// The source of `model_core::plant::paper`, as rustfmt leaves it.
 ///
 /// # Panics
 /// If a robot file cannot be read, or states no supply.

@@ -3,8 +3,8 @@
 //! The robots are staged, so their truth is known: whatever effect they have and however wrong their file is, their
 //! recordings are sound and raise nothing. Then faults of recordings are put in, and each must be found and named.
 
-use model_core::card::{Place, Role};
 use model_core::effects;
+use model_core::effects::card::{Place, Role};
 use omni_gap::check::{Fault, check};
 use omni_gap::log::{Channel, Group, RobotFile, Run, Session};
 use omni_gap::simulate::Carried;

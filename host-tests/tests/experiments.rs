@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use host_tests::catalogue::sessions::truth;
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 use omni_gap::identify::experiments::classic;
 use omni_gap::identify::{disagreements, joint};
 use omni_gap::known_effects;

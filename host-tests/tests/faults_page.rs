@@ -8,7 +8,7 @@ use host_tests::in_loop::faults::case::{CASES, is_timed};
 use host_tests::in_loop::faults::dog::Bitten;
 use host_tests::in_loop::faults::three::{LOSSES, go_on};
 use host_tests::in_loop::faults::{Results, broken, page, play::play};
-use model_core::faults::Fault;
+use model_core::link::faults::Fault;
 use rayon::prelude::*;
 
 /// Nobody bites here.

@@ -7,7 +7,7 @@ use host_tests::identification::idle::{Lack, idle};
 use host_tests::identification::missing::{Group, missing};
 use host_tests::identification::promises::{Bar, Promise, read_promises};
 use host_tests::identification::study::studied;
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 use omni_gap::identify::{IDENTIFIED, Refused, Word};
 use omni_gap::simulate::Sensing;
 

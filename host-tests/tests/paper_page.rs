@@ -10,7 +10,7 @@ use host_tests::printed::kinematics::{inverse_four, inverse_of_the_core, inverse
 use host_tests::printed::tables::{FOUR, Printed, R_STEADY, THREE};
 use host_tests::printed::terms::{common_resistance, computed, sources};
 use host_tests::printed::{dynamics, page};
-use model_core::paper::{four_wheels, three_wheels};
+use model_core::plant::paper::{four_wheels, three_wheels};
 use nalgebra::Matrix3;
 
 #[test]

@@ -1,13 +1,13 @@
 //! What robot files may name, as the catalogue's cards say.
 
-use model_core::card::Role;
 use model_core::effects;
+use model_core::effects::card::Role;
 
 use crate::log::{Catalogue, KnownEffect, KnownParam};
 
 /// The effects that this program knows.
 pub fn known_effects() -> Catalogue {
-    let effect = |card: &model_core::card::Card| KnownEffect {
+    let effect = |card: &model_core::effects::card::Card| KnownEffect {
         id: card.id.to_owned(),
         params: card
             .params

@@ -14,15 +14,15 @@ use firmware::motion::Turn;
 use firmware::offsets;
 use firmware::setup::{MAX_DUTY, Setup};
 use firmware::windings::{Ask, Drive, Windings};
-use model_core::block::{Block, Limits, Parameters};
-use model_core::calibration::AdcCode;
-use model_core::compensation::Compensation;
-use model_core::current_loop::{CurrentDecided, CurrentLoop, CurrentMemory, CurrentSeen, CurrentWant};
-use model_core::frames::BodyTwist;
-use model_core::halls::{HallCode, Halls};
-use model_core::paper;
-use model_core::robot::Robot;
-use model_core::tick::{Asked, Controller, Decided, Memory, Seen, Settings};
+use model_core::control::calibration::AdcCode;
+use model_core::control::compensation::Compensation;
+use model_core::control::current_loop::{CurrentDecided, CurrentLoop, CurrentMemory, CurrentSeen, CurrentWant};
+use model_core::control::halls::{HallCode, Halls};
+use model_core::control::motion_controller::{Asked, Controller, Decided, Memory, Seen, Settings};
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::block::{Block, Limits, Parameters};
+use model_core::plant::paper;
+use model_core::plant::robot::Robot;
 use panic_halt as _;
 
 #[entry]

@@ -5,7 +5,7 @@
 //! like a cut cable.
 
 use embedded_hal::digital::InputPin;
-use model_core::halls::HallCode;
+use model_core::control::halls::HallCode;
 
 /// The hall lines of one motor.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use firmware::board::{self, pac::Interrupt};
 use firmware::drivers::roll::Task;
-use model_core::faults::Fault;
+use model_core::link::faults::Fault;
 use rtic::Mutex;
 
 use crate::app;

@@ -7,15 +7,15 @@ use firmware::listener::Listener;
 use firmware::motion::{Motion, Turn};
 use firmware::post::{self, Post, Room, Sender};
 use firmware::windings::{Drive, Windings};
-use model_core::block::{Block, BlockEffects, Limits, MAX_BYTES, Mode, Parameters};
-use model_core::calibration::AdcCode;
-use model_core::command::{Command, MAX_CHUNK};
-use model_core::frames::BodyTwist;
-use model_core::halls::HallCode;
-use model_core::hello::Commutation;
-use model_core::link::{Decoder, Kind, MAX_FRAME};
-use model_core::record::Record;
-use model_core::robot::Robot;
+use model_core::control::calibration::AdcCode;
+use model_core::control::halls::HallCode;
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::block::{Block, BlockEffects, Limits, MAX_BYTES, Mode, Parameters};
+use model_core::link::command::{Command, MAX_CHUNK};
+use model_core::link::framing::{Decoder, Kind, MAX_FRAME};
+use model_core::link::hello::Commutation;
+use model_core::link::record::Record;
+use model_core::plant::robot::Robot;
 
 /// A block for the paper's robot.
 pub fn block<const N: usize>(robot: Robot<N, f32>) -> Block<N> {

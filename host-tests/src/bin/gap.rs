@@ -11,7 +11,7 @@ use host_tests::golden;
 use host_tests::in_loop::Software;
 use host_tests::in_loop::gap::{Closed, HIDDEN, close, robot_file};
 use host_tests::in_loop::gap_page::{broken, differences, page};
-use model_core::paper::four_wheels;
+use model_core::plant::paper::four_wheels;
 
 /// The robot that is believed in.
 const NOMINAL: &str = include_str!("../../../examples/feup-4w/robot.toml");

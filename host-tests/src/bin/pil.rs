@@ -13,8 +13,8 @@ use host_tests::in_loop::page::{Emulated, Promise, Robot, differences, page};
 use host_tests::in_loop::robots::AnyBlock;
 use host_tests::in_loop::saturation;
 use host_tests::in_loop::study::{Believed, Came, Run, SEEDS, Scenario, difference, load};
-use model_core::block::Block;
-use model_core::paper::{four_wheels, three_wheels};
+use model_core::link::block::Block;
+use model_core::plant::paper::{four_wheels, three_wheels};
 use rayon::prelude::*;
 
 /// How far a figure may have moved since the page was blessed.
@@ -95,7 +95,7 @@ where
     let mut robot = Robot { name, ..Robot::default() };
     for seed in SEEDS {
         let truth = believed.board(seed).robot;
-        let ratio = |f: fn(&model_core::kinematics::Wheel<f64>) -> f64| {
+        let ratio = |f: fn(&model_core::geometry::kinematics::Wheel<f64>) -> f64| {
             f(&truth.wheels.wheels()[0]) / f(&believed.host.wheels.wheels()[0]) - 1.0
         };
         robot.geometry.push([ratio(|w| w.radius), ratio(|w| w.distance)]);

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use model_core::card::Place;
 use model_core::effects;
+use model_core::effects::card::Place;
 use omni_gap::error::Result;
 use omni_gap::known_effects;
 use omni_gap::log::Session;

@@ -3,13 +3,13 @@
 use std::collections::VecDeque;
 
 use firmware::exchange::{Bytes, LINK_BYTES};
-use model_core::command::Command;
-use model_core::link::{Decoder, MAX_FRAME};
+use model_core::link::command::Command;
+use model_core::link::framing::{Decoder, MAX_FRAME};
 
 /// A frame that has come from the robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// Its kind, see `model_core::link::Kind`
+    /// Its kind, see `model_core::link::framing::Kind`
     pub kind: u8,
     /// What it carries
     pub payload: Vec<u8>,
@@ -74,8 +74,8 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use model_core::frames::BodyTwist;
-    use model_core::link::{Kind, frame};
+    use model_core::geometry::frames::BodyTwist;
+    use model_core::link::framing::{Kind, frame};
 
     #[test]
     fn a_command_leaves_in_pieces_of_a_period_and_comes_whole() {

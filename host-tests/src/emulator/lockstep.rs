@@ -96,9 +96,9 @@ mod tests {
     use super::*;
     use crate::virtual_board::Setup;
     use firmware::exchange::{Bytes, TOPS};
-    use model_core::active::Effects;
-    use model_core::halls::HallCode;
-    use model_core::paper::four_wheels;
+    use model_core::control::halls::HallCode;
+    use model_core::effects::active::Effects;
+    use model_core::plant::paper::four_wheels;
 
     /// Drives motor 0 by six steps without looking at currents, and sends back what comes over the link.
     #[derive(Debug, Default)]

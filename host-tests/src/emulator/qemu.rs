@@ -191,8 +191,8 @@ mod tests {
     use super::*;
     use firmware::codes::Codes;
     use firmware::exchange::Bytes;
-    use model_core::calibration::AdcCode;
-    use model_core::halls::HallCode;
+    use model_core::control::calibration::AdcCode;
+    use model_core::control::halls::HallCode;
 
     fn down() -> Down {
         let phases = [[AdcCode(2048); 3]; 4];

@@ -1,6 +1,6 @@
 //! What is believed of a robot before it is identified: its true file, wrong by what is stated of each number.
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 use omni_gap::identify::IDENTIFIED;
 use omni_gap::log::RobotFile;
 use omni_gap::simulate::NominalKey;

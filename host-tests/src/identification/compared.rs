@@ -1,6 +1,6 @@
 //! The estimators of one number side by side.
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 use omni_gap::identify::IDENTIFIED;
 
 use super::believed::NUMBERS;

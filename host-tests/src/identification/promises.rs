@@ -1,6 +1,6 @@
 //! What was promised of the identification, and how far it is kept.
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 use omni_gap::report::num;
 use omni_gap::simulate::Sensing;
 

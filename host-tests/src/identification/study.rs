@@ -3,7 +3,7 @@
 //! Each seed draws what is believed beforehand and the noise, plays all experiments, and asks the paper's estimators and
 //! the joint one.
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 use omni_gap::identify::IDENTIFIED;
 use omni_gap::identify::experiments::{Estimate, classic};
 use omni_gap::log::RobotFile;

@@ -50,7 +50,7 @@ mod tests {
         ] {
             assert!(panics(name), "{name}");
         }
-        assert!(!panics("model_core::current_loop::CurrentLoop::field_oriented") && !panics("ADC"));
+        assert!(!panics("model_core::control::current_loop::CurrentLoop::field_oriented") && !panics("ADC"));
         for name in ["__aeabi_dadd", "__aeabi_dcmplt", "__aeabi_d2f", "__aeabi_f2d", "__adddf3", "__extendsfdf2"] {
             assert!(double_precision(name), "{name}");
         }

@@ -258,7 +258,10 @@ mod tests {
     #[test]
     fn numbers_are_grouped_and_names_cut() {
         assert_eq!([0, 999, 1000, 65_536, 1_234_567].map(grouped), ["0", "999", "1,000", "65,536", "1,234,567"]);
-        assert_eq!(short("model_core::current_loop::CurrentLoop<f32>::field_oriented"), "CurrentLoop::field_oriented");
+        assert_eq!(
+            short("model_core::control::current_loop::CurrentLoop<f32>::field_oriented"),
+            "CurrentLoop::field_oriented"
+        );
         assert_eq!(short("<firmware::windings::Windings as core::fmt::Debug>::fmt"), "fmt");
         assert_eq!(short("ADC"), "ADC");
     }

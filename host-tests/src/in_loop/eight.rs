@@ -12,7 +12,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use model_core::frames::BodyTwist;
+use model_core::geometry::frames::BodyTwist;
 
 use super::{Moment, Ride};
 use crate::emulator::{Brain, Trouble};

@@ -7,10 +7,10 @@
 
 use std::path::{Path, PathBuf};
 
-use model_core::active::Effects;
+use model_core::effects::active::Effects;
 use model_core::effects::catalogue;
-use model_core::frames::BodyTwist;
-use model_core::robot::Robot;
+use model_core::geometry::frames::BodyTwist;
+use model_core::plant::robot::Robot;
 use omni_gap::diagnosis::{Diagnosis, Options};
 use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, Session, write_whole, write_whole_with};

@@ -5,8 +5,8 @@
 //! squares, over the middle half of the time that the ramp is to take. Rotation is asked for with the same accelerations
 //! at the wheels' rims, a = d·dω/dt.
 
-use model_core::block::Block;
-use model_core::frames::BodyTwist;
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::block::Block;
 
 use super::robots::AnyBlock;
 use super::{Moment, Ride};

@@ -1,12 +1,12 @@
 //! # Ride: one run with a robot, from the block to the last record
 
 use firmware::exchange::Up;
-use model_core::block::{MAX_BYTES, Parameters};
-use model_core::command::{Command, MAX_CHUNK, Reply};
-use model_core::frames::{BodyTwist, Pose};
-use model_core::hello::Hello;
-use model_core::link::Kind;
-use model_core::record::Record;
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::link::block::{MAX_BYTES, Parameters};
+use model_core::link::command::{Command, MAX_CHUNK, Reply};
+use model_core::link::framing::Kind;
+use model_core::link::hello::Hello;
+use model_core::link::record::Record;
 
 use crate::emulator::{Brain, Lockstep, Trouble};
 use crate::virtual_board::VirtualBoard;
@@ -182,9 +182,9 @@ mod tests {
     use super::*;
     use crate::in_loop::{Software, robots};
     use crate::virtual_board::Setup;
-    use model_core::active::Effects;
-    use model_core::paper::four_wheels;
-    use model_core::record::Stage;
+    use model_core::effects::active::Effects;
+    use model_core::link::record::Stage;
+    use model_core::plant::paper::four_wheels;
 
     #[test]
     fn a_command_moves_the_robot() {

@@ -13,12 +13,12 @@
 //! truth = belief·e^(σ·n), n ~ N(0, 1). Besides, the battery sags, the converters have offsets and noise, and the hall
 //! switches sit up to 5° (electrical) off their places.
 
-use model_core::active::Effects;
-use model_core::block::{Block, BlockEffects, Limits, Mode, Parameters};
 use model_core::effects;
-use model_core::hello::Commutation;
-use model_core::kinematics::Wheels;
-use model_core::robot::Robot;
+use model_core::effects::active::Effects;
+use model_core::geometry::kinematics::Wheels;
+use model_core::link::block::{Block, BlockEffects, Limits, Mode, Parameters};
+use model_core::link::hello::Commutation;
+use model_core::plant::robot::Robot;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -7,13 +7,13 @@
 //! [`clipped`] is what would have been without headroom: the same controller with a bus without end, each wheel's voltage
 //! then clipped by itself, on the plant of the core under voltages, with wheel speeds that it need not measure.
 
-use model_core::active::Effects;
-use model_core::block::Block;
-use model_core::compensation::Compensation;
-use model_core::frames::{BodyTwist, Pose};
+use model_core::control::compensation::Compensation;
+use model_core::control::motion_controller::{Controller, Memory, Seen, Settings};
+use model_core::effects::active::Effects;
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::link::block::Block;
+use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
-use model_core::robot::Robot;
-use model_core::tick::{Controller, Memory, Seen, Settings};
 
 use super::robots::AnyBlock;
 use super::{Moment, Ride};

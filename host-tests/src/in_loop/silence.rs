@@ -3,10 +3,10 @@
 //! At 1 m/s the commands end. The robot is to open its bridges on its own, and to stay like that until the fault is
 //! cleared and somebody commands again.
 
-use model_core::command::Command;
-use model_core::faults::Fault;
-use model_core::frames::BodyTwist;
-use model_core::record::Stage;
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::command::Command;
+use model_core::link::faults::Fault;
+use model_core::link::record::Stage;
 
 use super::Ride;
 use crate::emulator::{Brain, Trouble};

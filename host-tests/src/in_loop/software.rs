@@ -13,7 +13,7 @@ use firmware::listener::Listener;
 use firmware::motion::Motion;
 use firmware::post::{self, Post, Room, Sender};
 use firmware::windings::Windings;
-use model_core::faults::Faults;
+use model_core::link::faults::Faults;
 
 use crate::emulator::{Brain, Trouble};
 

@@ -3,10 +3,10 @@
 //! The same [`play`] runs on either brain. What the image leaves behind must be, bit for bit, what the library called on
 //! the host leaves; only load and jitter, which take a clock, may differ.
 
-use model_core::block::Block;
-use model_core::frames::Pose;
-use model_core::record::{Record, Stage};
-use model_core::robot::Robot;
+use model_core::geometry::frames::Pose;
+use model_core::link::block::Block;
+use model_core::link::record::{Record, Stage};
+use model_core::plant::robot::Robot;
 
 use super::eight::{self, Path, Tracked};
 use super::ramps::{self, Ramp};

@@ -5,7 +5,7 @@
 //! record tells to a period.
 
 use firmware::exchange::{Down, Up};
-use model_core::faults::Faults;
+use model_core::link::faults::Faults;
 
 use super::software::Software;
 use crate::emulator::{Brain, Trouble};

@@ -12,11 +12,11 @@
 //! A = 2/Δt·(G − 1)·(G + 1)⁻¹,   B = (1 − ½·Δt·A)·H/Δt,   K·sign(x) = (1 − ½·Δt·A)·(x⁺ − G·x − H·u)/Δt
 //! ```
 
-use model_core::active::Effects;
-use model_core::dual::Dual;
-use model_core::frames::{BodyTwist, Pose};
+use model_core::effects::active::Effects;
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::number::dual::Dual;
+use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
-use model_core::robot::Robot;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::matrices::{Drive, Matrices};

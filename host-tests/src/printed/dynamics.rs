@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use model_core::paper::{four_wheels, three_wheels};
+use model_core::plant::paper::{four_wheels, three_wheels};
 use nalgebra::Matrix3;
 
 use super::core::of_the_core;

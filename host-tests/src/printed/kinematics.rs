@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use model_core::paper::{four_wheels, three_wheels};
-use model_core::robot::Robot;
+use model_core::plant::paper::{four_wheels, three_wheels};
+use model_core::plant::robot::Robot;
 use nalgebra::{Matrix3, SMatrix};
 
 use crate::matrices::Matrices;

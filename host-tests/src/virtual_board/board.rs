@@ -16,13 +16,13 @@
 
 use firmware::codes::{Codes, MOTORS};
 use firmware::exchange::TOPS;
-use model_core::active::{Active, Effects};
-use model_core::calibration::AdcCode;
-use model_core::card::Seam;
-use model_core::frames::{BodyTwist, Pose};
-use model_core::halls::HallCode;
+use model_core::control::calibration::AdcCode;
+use model_core::control::halls::HallCode;
+use model_core::effects::active::{Active, Effects};
+use model_core::effects::card::Seam;
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant, State};
-use model_core::robot::Robot;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use model_core::effects::find;
-use model_core::paper::{four_wheels, three_wheels};
+use model_core::plant::paper::{four_wheels, three_wheels};
 
 /// What a program that knows the rotor's angle and the nominal supply would write, DC-equivalent voltages [V] in the
 /// axes of the middle.

@@ -2,9 +2,9 @@
 //!
 //! Faults are injected one by one and stay until they are healed.
 
-use model_core::card::{Card, Place, Seam};
 use model_core::effects::Effect;
-use model_core::seams::{At, Gear};
+use model_core::effects::card::{Card, Place, Seam};
+use model_core::effects::seams::{At, Gear};
 
 /// Something that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The parameter block names the effects by numbers that never change, and knows every card.
 
-use model_core::block::KNOWN;
 use model_core::effects;
+use model_core::link::block::KNOWN;
 
 /// What stands in blocks that robots keep: a number may be added, none may ever change.
 const GIVEN_OUT: [(u8, &str); 13] = [

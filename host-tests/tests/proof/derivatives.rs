@@ -5,14 +5,14 @@
 //! nature (see the page of `dual`), and differences straddle a kink. For the same reason the two delays are taken a
 //! little longer than typical: at a whole number of steps they have a kink.
 
-use model_core::active::Effects;
-use model_core::card::{Role, Seam};
-use model_core::dual::Dual;
+use model_core::effects::active::Effects;
+use model_core::effects::card::{Role, Seam};
 use model_core::effects::catalogue;
-use model_core::frames::BodyTwist;
+use model_core::geometry::frames::BodyTwist;
+use model_core::number::dual::Dual;
+use model_core::number::scalar::Real;
+use model_core::plant::robot::{Nominal, Robot};
 use model_core::plant::{Input, Plant, Reading};
-use model_core::robot::{Nominal, Robot};
-use model_core::scalar::Real;
 
 use crate::fixture::{Run, core_robot, four, plain, three, typical, usual_seat};
 

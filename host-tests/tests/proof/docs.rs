@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use model_core::card::{Card, Place, Role};
+use model_core::effects::card::{Card, Place, Role};
 use model_core::effects::catalogue;
 
 use crate::golden;

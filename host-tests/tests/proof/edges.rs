@@ -3,11 +3,11 @@
 use host_tests::excite::{Dice, voltages};
 use host_tests::paper::FOUR_WHEELS;
 use host_tests::reference::Reference;
-use model_core::active::Effects;
+use model_core::effects::active::Effects;
 use model_core::effects::catalogue;
+use model_core::number::scalar::Real;
+use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant, Reading};
-use model_core::robot::Robot;
-use model_core::scalar::Real;
 
 use crate::fixture::{Run, four, gap, plain, three, typical, usual_seat, with_effect};
 
@@ -27,7 +27,7 @@ fn models<const N: usize, T: Real>(robot: Robot<N, T>) -> Vec<(String, Plant<N, 
 }
 
 fn finite<const N: usize, T: Real>(run: &Run<N, T>, reading: &Reading<N, T>) -> bool {
-    let pose = |p: model_core::frames::Pose<T>| [p.x, p.y, p.theta];
+    let pose = |p: model_core::geometry::frames::Pose<T>| [p.x, p.y, p.theta];
     let mut all = vec![run.state.time, run.state.bus, reading.gyro];
     all.extend(run.state.twist.to_array());
     all.extend(pose(run.state.pose));

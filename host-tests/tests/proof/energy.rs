@@ -1,12 +1,12 @@
 //! Energy: friction takes it and never gives it, turning forces do no work, and what sticks stays.
 
 use host_tests::excite::voltages;
-use model_core::active::Effects;
-use model_core::card::Role;
+use model_core::effects::active::Effects;
+use model_core::effects::card::Role;
 use model_core::effects::catalogue;
+use model_core::number::scalar::Real;
+use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
-use model_core::robot::Robot;
-use model_core::scalar::Real;
 
 use crate::fixture::{Run, effect, four, gap, larger, plain, seats, three, typical, with_effect};
 

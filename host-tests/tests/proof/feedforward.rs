@@ -2,9 +2,9 @@
 
 use host_tests::excite::{Dice, random_rig};
 use host_tests::matrices::Rig;
-use model_core::frames::BodyTwist;
+use model_core::geometry::frames::BodyTwist;
 use model_core::plant::Input;
-use model_core::robot::Robot;
+use model_core::plant::robot::Robot;
 
 use crate::fixture::{Run, core_robot, four, gap, plain, three};
 

@@ -3,15 +3,15 @@
 use host_tests::excite::Hold;
 use host_tests::matrices::Rig;
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
-use model_core::active::Effects;
-use model_core::card::{Card, Place};
+use model_core::effects::active::Effects;
+use model_core::effects::card::{Card, Place};
 use model_core::effects::{Effect, find};
-use model_core::frames::{BodyTwist, Pose};
-use model_core::kinematics::{Wheel, Wheels};
-use model_core::motor::Motor;
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::geometry::kinematics::{Wheel, Wheels};
+use model_core::number::scalar::Real;
+use model_core::plant::robot::{Friction, Robot};
+use model_core::plant::winding::Motor;
 use model_core::plant::{Input, Plant, Reading, State};
-use model_core::robot::{Friction, Robot};
-use model_core::scalar::Real;
 
 /// Bus voltage that commands refer to [V]
 pub const SUPPLY: f64 = 12.0;

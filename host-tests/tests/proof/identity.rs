@@ -2,9 +2,9 @@
 
 use host_tests::excite::voltages;
 use model_core::effects::catalogue;
+use model_core::number::scalar::Real;
+use model_core::plant::robot::Robot;
 use model_core::plant::{Plant, Reading, State};
-use model_core::robot::Robot;
-use model_core::scalar::Real;
 
 use crate::fixture::{Run, absent, four, plain, seats, three, typical, with_effect};
 
@@ -27,7 +27,7 @@ impl Bits for f64 {
 
 /// All that a step leaves behind. The wheels' angles are not kept up without effects, so they are left out.
 fn bits<const N: usize, T: Bits>(state: &State<N, T>, reading: &Reading<N, T>) -> Vec<u64> {
-    let pose = |p: model_core::frames::Pose<T>| [p.x, p.y, p.theta];
+    let pose = |p: model_core::geometry::frames::Pose<T>| [p.x, p.y, p.theta];
     let mut all = vec![state.time.bits(), state.bus.bits(), reading.gyro.bits()];
     all.extend(pose(state.pose).iter().chain(&pose(reading.pose)).chain(&state.twist.to_array()).map(|x| x.bits()));
     for wheels in [state.wheel_speed, state.current, reading.current, reading.wheel_speed] {
@@ -46,8 +46,8 @@ fn run<const N: usize, T: Bits>(plant: Plant<N, T>) -> Vec<Vec<u64>> {
 }
 
 /// Parameters at which there is no effect: all absent, and only those that size it, with the others typical.
-fn ways_to_be_absent(card: &model_core::card::Card) -> Vec<Vec<f64>> {
-    use model_core::card::Role;
+fn ways_to_be_absent(card: &model_core::effects::card::Card) -> Vec<Vec<f64>> {
+    use model_core::effects::card::Role;
     let shaped: Vec<f64> =
         card.params.iter().map(|p| if p.role == Role::Shape { p.typical } else { p.absent }).collect();
     vec![absent(card), shaped]

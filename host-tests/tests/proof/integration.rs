@@ -5,10 +5,10 @@
 use std::fmt::Write;
 
 use host_tests::excite::{Hold, voltages};
-use model_core::active::Effects;
+use model_core::effects::active::Effects;
 use model_core::effects::catalogue;
+use model_core::plant::robot::Robot;
 use model_core::plant::{Plant, Reading};
-use model_core::robot::Robot;
 
 use crate::fixture::{Run, effect, four, gap, larger, plain, three, typical, usual_seat, with_effect};
 use crate::golden::{self, two_digits};

@@ -2,10 +2,10 @@
 
 use std::cell::RefCell;
 
-use model_core::card::{Card, Param, Place, Role, Seam};
 use model_core::effects::Effect;
-use model_core::scalar::Real;
-use model_core::seams::{At, Body, Contact, Drive, Gear, Sense, Supply, Turn, Winding};
+use model_core::effects::card::{Card, Param, Place, Role, Seam};
+use model_core::effects::seams::{At, Body, Contact, Drive, Gear, Sense, Supply, Turn, Winding};
+use model_core::number::scalar::Real;
 
 const PARAM: Param =
     Param { key: "x", symbol: "x", unit: "1", absent: 0.0, typical: 1.0, within: (0.0, 1e3), role: Role::Size };

@@ -1,11 +1,11 @@
 //! The mechanism carries effects with memory, by wheel angle, heading, world position, battery and time, on one wheel
 //! and on all.
 
-use model_core::active::Effects;
 use model_core::effects::Effect;
+use model_core::effects::active::Effects;
+use model_core::effects::seams::At;
+use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
-use model_core::robot::Robot;
-use model_core::seams::At;
 
 use crate::fixture::{Run, effect, four, gap, larger, plain, three, with_effect};
 use crate::invented::{
@@ -76,7 +76,7 @@ fn an_effect_by_world_position_begins_where_it_lies() {
 #[test]
 fn an_effect_by_heading_is_fixed_in_the_world() {
     let tilt = 0.05_f64;
-    let force = four::<f64>().mass * model_core::seams::STANDARD_GRAVITY * tilt.sin();
+    let force = four::<f64>().mass * model_core::effects::seams::STANDARD_GRAVITY * tilt.sin();
     let mut wind = Run::from(with_effect(four::<f64>(), &Wind, None, &[force]), [0.0; 3], [0.5, 0.0, 4.0]);
     let mut tilted =
         Run::from(with_effect(four::<f64>(), effect("floor_tilt"), None, &[tilt, 0.0]), [0.0; 3], [0.5, 0.0, 4.0]);

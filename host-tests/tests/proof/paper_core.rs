@@ -10,8 +10,8 @@
 use host_tests::excite::voltages;
 use host_tests::paper::{FOUR_WHEELS, THREE_WHEELS};
 use host_tests::reference::Reference;
-use model_core::robot::Robot;
-use model_core::scalar::Real;
+use model_core::number::scalar::Real;
+use model_core::plant::robot::Robot;
 
 use crate::fixture::{Run, four, gap, larger, plain, three};
 

@@ -4,8 +4,8 @@ use host_tests::generated::{PLACE, paper_source, tree};
 use host_tests::matrices::Matrices;
 use host_tests::paper::{self, FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
 use host_tests::printed::of_the_core;
-use model_core::paper::{four_wheels, three_wheels};
-use model_core::robot::Robot;
+use model_core::plant::paper::{four_wheels, three_wheels};
+use model_core::plant::robot::Robot;
 
 use crate::golden;
 

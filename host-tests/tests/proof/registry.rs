@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use model_core::active::MAX_EFFECTS;
-use model_core::card::{Card, MAX_PARAMS, Place, Role, Seam};
+use model_core::effects::active::MAX_EFFECTS;
+use model_core::effects::card::{Card, MAX_PARAMS, Place, Role, Seam};
 use model_core::effects::{catalogue, find};
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 
 /// Units that parameters may have, and the suffix of a key that has it.
 const UNITS: [(&str, &str); 24] = [
@@ -87,7 +87,7 @@ fn ids_are_unique_and_found() {
 #[test]
 fn all_number_types_have_the_same_catalogue() {
     let single: Vec<_> = catalogue::<f32>().iter().map(|effect| effect.card().id).collect();
-    let dual: Vec<_> = catalogue::<model_core::dual::Dual<8>>().iter().map(|effect| effect.card().id).collect();
+    let dual: Vec<_> = catalogue::<model_core::number::dual::Dual<8>>().iter().map(|effect| effect.card().id).collect();
     let double: Vec<_> = cards().iter().map(|card| card.id).collect();
     assert_eq!(double, single);
     assert_eq!(double, dual);
@@ -219,7 +219,7 @@ fn an_effect_of_the_body_or_the_battery_sits_on_the_robot() {
 
 #[test]
 fn a_set_of_effects_refuses_seats_that_the_card_does_not_allow() {
-    use model_core::active::{Effects, Refused};
+    use model_core::effects::active::{Effects, Refused};
     for effect in catalogue::<f64>() {
         let card = effect.card();
         let params = crate::fixture::typical(card);

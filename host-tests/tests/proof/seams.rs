@@ -1,10 +1,10 @@
 //! An effect touches the seams that its card lists, and no other.
 
 use host_tests::excite::Dice;
-use model_core::card::Seam;
+use model_core::effects::card::Seam;
+use model_core::effects::seams::{At, Body, Contact, Drive, Gear, Sense, Supply, Turn, Winding};
 use model_core::effects::{Effect, catalogue};
-use model_core::frames::{BodyTwist, Pose};
-use model_core::seams::{At, Body, Contact, Drive, Gear, Sense, Supply, Turn, Winding};
+use model_core::geometry::frames::{BodyTwist, Pose};
 
 use crate::fixture::typical;
 

@@ -5,10 +5,10 @@
 //! one viscosity for both; ω keeps its own.
 
 use host_tests::excite::{Hold, voltages};
-use model_core::active::Effects;
+use model_core::effects::active::Effects;
 use model_core::effects::catalogue;
 use model_core::plant::Plant;
-use model_core::robot::Robot;
+use model_core::plant::robot::Robot;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::fixture::{Run, effect, four, gap, plain, three, typical, wrapped};

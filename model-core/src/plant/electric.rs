@@ -9,11 +9,13 @@
 //! does not depend on the current here and the answer stands, bit for bit. Otherwise Newton's rule goes on from there;
 //! its last step is taken in the full number type, so that a dual number carries the derivative of the solution.
 
-use super::{Plant, Source, State};
-use crate::card::Seam;
-use crate::motor::Motor;
-use crate::scalar::Real;
-use crate::seams::{At, Contact, Drive, Supply, Winding};
+use super::model::Plant;
+use super::state::State;
+use super::step::Source;
+use crate::effects::card::Seam;
+use crate::effects::seams::{At, Contact, Drive, Supply, Winding};
+use crate::number::scalar::Real;
+use crate::plant::winding::Motor;
 
 /// What a motor does in a step.
 #[derive(Clone, Copy)]

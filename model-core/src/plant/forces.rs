@@ -1,10 +1,12 @@
 //! Forces to motion: everything that acts on the body, and one linearly implicit step of it.
 
-use super::{Plant, Push, State};
-use crate::body::{Mobility, spend};
-use crate::card::Seam;
-use crate::scalar::Real;
-use crate::seams::{At, Body};
+use super::model::Plant;
+use super::state::State;
+use super::step::Push;
+use crate::effects::card::Seam;
+use crate::effects::seams::{At, Body};
+use crate::number::scalar::Real;
+use crate::plant::body::{Mobility, spend};
 
 impl<const N: usize, T: Real> Plant<N, T> {
     /// Everything that acts on the body, and the twist at the end of the step.

@@ -1,10 +1,12 @@
 //! Sensors, forwards and backwards, and what the effects remember of a step.
 
-use super::{Plant, Reading, Source, State};
-use crate::card::Seam;
-use crate::frames::BodyTwist;
-use crate::scalar::Real;
-use crate::seams::{At, Sense, Turn};
+use super::model::Plant;
+use super::state::{Reading, State};
+use super::step::Source;
+use crate::effects::card::Seam;
+use crate::effects::seams::{At, Sense, Turn};
+use crate::geometry::frames::BodyTwist;
+use crate::number::scalar::Real;
 
 impl<const N: usize, T: Real> Plant<N, T> {
     /// What the sensors make of the truth.

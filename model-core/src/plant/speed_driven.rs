@@ -3,11 +3,13 @@
 //! A body on rigid wheels has no choice: its twist is the least-squares twist of the rim speeds. Where contacts creep
 //! or slip, the floor's force follows from the slip, and the body moves by its dynamics.
 
+use super::model::Plant;
+use super::state::{Reading, State};
+use super::step::{Push, Source};
 use super::traction::floor_force;
-use super::{Plant, Push, Reading, Source, State};
-use crate::frames::BodyTwist;
-use crate::scalar::Real;
-use crate::small::{accumulate_outer, dot};
+use crate::geometry::frames::BodyTwist;
+use crate::number::linalg::{accumulate_outer, dot};
+use crate::number::scalar::Real;
 
 impl<const N: usize, T: Real> Plant<N, T> {
     pub(super) fn step_speed_driven(

@@ -10,10 +10,12 @@
 //! The shaft's own dry friction is spent with the body's, as if it passed through a rigid contact.
 
 use super::electric::Electric;
-use super::{Plant, Source, State};
+use super::model::Plant;
+use super::state::State;
+use super::step::Source;
 use crate::effects::contact::wheel_slip::traction;
-use crate::scalar::Real;
-use crate::seams::{At, Contact, Gear};
+use crate::effects::seams::{At, Contact, Gear};
+use crate::number::scalar::Real;
 
 /// No wheel turns faster [rad/s].
 const FASTEST: f64 = 1e6;

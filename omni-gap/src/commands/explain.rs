@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use model_core::card::{Card, Place, Role};
 use model_core::effects;
+use model_core::effects::card::{Card, Place, Role};
 use omni_gap::log::nearest;
 use omni_gap::report::num;
 use omni_gap::simulate::NOMINAL_KEYS;

@@ -4,7 +4,7 @@ mod by_experiment;
 
 use std::path::PathBuf;
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 use omni_gap::check::check;
 use omni_gap::identify::{Asked, Fit, Prior, Shots, Windows, fit_tempered, nominal_free};
 use omni_gap::log::{RobotFile, corrected, write_whole};

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use model_core::hello::Hello;
+use model_core::link::hello::Hello;
 use omni_gap::Error;
 use omni_gap::error::Result;
 use omni_gap::known_effects;

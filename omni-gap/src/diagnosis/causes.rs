@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use model_core::card::Card;
 use model_core::effects;
-use model_core::robot::Nominal;
+use model_core::effects::card::Card;
+use model_core::plant::robot::Nominal;
 
 use crate::identify::Fit;
 use crate::log::{Change, EffectEntry, RobotFile};

@@ -1,6 +1,6 @@
 //! Where: the links' shares, told further by stage, wheel, axis and regime.
 
-use model_core::frames::BodyTwist;
+use model_core::geometry::frames::BodyTwist;
 
 use super::causes::stage_of;
 use crate::identify::Prior;

@@ -2,7 +2,7 @@
 
 pub(super) mod model;
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 
 use super::disagree::{Disagreement, disagreements};
 use super::experiments::{Classic, Estimate, classic};

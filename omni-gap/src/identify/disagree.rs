@@ -7,7 +7,7 @@
 //! The paper's own robot is the example: its steady motors say R = 3.70 Ω, its driven steps 4.31 Ω, and the inertia of
 //! four wheels is 0.016 kg·m² by coasting and 0.0288 by steps. One number cannot be both.
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 
 use super::experiments::classic;
 use super::joint::{IDENTIFIED, joint};

@@ -13,7 +13,7 @@ use super::prior::Prior;
 use super::shoot::{Piece, Shots, Starts, first_starts, run_some_windows};
 use super::whiten::Whitener;
 use crate::simulate::{Model, Recorded, Slot};
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
 
 /// A number of the model that the fit may change.
 #[derive(Clone, Copy, Debug)]

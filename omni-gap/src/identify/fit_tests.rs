@@ -1,4 +1,4 @@
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 
 use super::super::shoot::Windows;
 use super::super::staged::{Staging, robot, staged};

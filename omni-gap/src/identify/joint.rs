@@ -12,7 +12,7 @@
 //! Where the model cannot follow whole runs, something is missing in it; then the short windows' numbers are kept, with
 //! an uncertainty that holds under errors that go on through a window.
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 use nalgebra::DMatrix;
 
 use super::driven::by_input;

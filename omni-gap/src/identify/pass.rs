@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use model_core::dual::Dual;
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::number::dual::Dual;
 
 use super::shoot::{Starts, Windows, run_some_windows};
 use super::whiten::Whitener;

@@ -5,7 +5,7 @@
 //! constant are stated each on its own, so the factor that they share and their ratio are known together only as well
 //! as the file says of each.
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 
 use crate::log::RobotFile;
 use crate::simulate::{Model, Slot};

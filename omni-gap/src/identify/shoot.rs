@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::number::scalar::Real;
 use model_core::plant::Plant;
-use model_core::scalar::Real;
 
 use crate::simulate::{MAX_CHANNELS, Model, Recorded, restart_rows, start_at};
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::Input;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

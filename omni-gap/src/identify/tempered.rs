@@ -3,7 +3,7 @@
 //! The first fit trusts what was stated and lets the data pull only gently; then the temper is brought, step by step, to
 //! what the errors that are left say it should be.
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 
 use super::fit::{Fit, Free, fit, profile};
 use super::prior::Prior;

@@ -1,6 +1,6 @@
 //! What runs say of a number: in a word, and where it is known only together with others.
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 use nalgebra::DMatrix;
 
 /// A relative uncertainty up to which a number counts as known.

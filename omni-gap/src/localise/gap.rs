@@ -1,6 +1,6 @@
 //! The gap: errors of free runs restarted every horizon, in units of the sensors' sigma.
 
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::Plant;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

@@ -6,7 +6,7 @@
 //! substitution takes off the free run's error, averaged over all orders in which the links can be substituted
 //! (Shapley), so that the shares add up to the whole.
 
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::{Input, Plant};
 use rayon::prelude::*;
 

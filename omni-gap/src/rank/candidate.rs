@@ -1,8 +1,8 @@
 //! What can be the cause: every effect, on every wheel where it can sit on one, and every nominal parameter.
 
-use model_core::card::{Card, Param, Place, Role};
 use model_core::effects;
-use model_core::robot::Nominal;
+use model_core::effects::card::{Card, Param, Place, Role};
+use model_core::plant::robot::Nominal;
 
 use crate::identify::{Prior, Release};
 use crate::simulate::Carried;

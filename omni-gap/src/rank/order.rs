@@ -1,6 +1,6 @@
 //! From candidates to an order: fit the best, judge them on runs that no fit has seen.
 
-use model_core::card::Role;
+use model_core::effects::card::Role;
 use rayon::prelude::*;
 
 use super::candidate::{Cause, candidates, releases};

@@ -7,7 +7,7 @@
 //!
 //! The gain is the drop of Σ error²/φ that the best multiple of s would bring.
 
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::Plant;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -113,7 +113,7 @@ fn scaled(candidate: &Candidate, trial: &Carried, amplitude: f64) -> Carried {
     let by = amplitude.signum() * amplitude.abs().clamp(0.5, 1.5);
     let mut from = trial.clone();
     for (p, x) in candidate.card.params.iter().zip(&mut from.params) {
-        if p.role == model_core::card::Role::Size && (by > 0.0 || p.within.0 < p.absent) {
+        if p.role == model_core::effects::card::Role::Size && (by > 0.0 || p.within.0 < p.absent) {
             *x = (p.absent + by * (*x - p.absent)).clamp(p.within.0, p.within.1);
         }
     }

@@ -1,6 +1,6 @@
 //! The verdict: which causes a corrected model needs, and when to say that nothing known explains the gap.
 
-use model_core::card::Role;
+use model_core::effects::card::Role;
 
 use super::candidate::Cause;
 use super::order::{Data, ENOUGH, Ranked, Ranking, Scored, explain};

@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn stages_are_called_what_the_cards_call_them() {
-        for stage in model_core::card::Stage::ALL {
+        for stage in model_core::effects::card::Stage::ALL {
             assert_eq!(serde_json::to_value(Stage::from(stage)).unwrap(), stage.name());
         }
     }

@@ -4,7 +4,7 @@
 //! single-axis tests. A script here is a sequence of pieces: the voltages jump or ramp to a new combination of the
 //! three axes, hold, now and then rest; each run begins and ends at rest.
 
-use model_core::kinematics::Wheels;
+use model_core::geometry::kinematics::Wheels;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -72,7 +72,7 @@ fn voltages<const N: usize>(wheels: &Wheels<N, f64>, axes: [f64; 3], limit: f64)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use model_core::kinematics::Wheel;
+    use model_core::geometry::kinematics::Wheel;
 
     #[test]
     fn a_script_starts_and_ends_at_rest_keeps_its_limit_and_its_seed() {

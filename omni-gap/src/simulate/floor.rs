@@ -1,6 +1,6 @@
 //! How much floor a script takes: where the robot of a file goes when it plays it.
 
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
 
 use super::model::Model;
 use super::script::Script;

@@ -1,6 +1,6 @@
 //! The keys of a robot file's nominal numbers, and what a model's factors make of them.
 
-use model_core::robot::Nominal;
+use model_core::plant::robot::Nominal;
 
 use crate::log::{Change, RobotFile};
 

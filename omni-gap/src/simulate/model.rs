@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use model_core::active::{Effects, Refused};
-use model_core::card::Card;
 use model_core::effects;
-use model_core::kinematics::{Wheel, Wheels};
-use model_core::motor::Motor;
+use model_core::effects::active::{Effects, Refused};
+use model_core::effects::card::Card;
+use model_core::geometry::kinematics::{Wheel, Wheels};
+use model_core::number::scalar::Real;
 use model_core::plant::Plant;
-use model_core::robot::{Friction, Nominal, Robot};
-use model_core::scalar::Real;
+use model_core::plant::robot::{Friction, Nominal, Robot};
+use model_core::plant::winding::Motor;
 
 use crate::log::RobotFile;
 

@@ -3,7 +3,7 @@
 //! Every horizon H the run restarts from the smoothed measurement; in between it is driven by the recorded input alone.
 //! Pose and velocity restart; what is hidden (wheel angles, delay lines, currents) runs on from the start of the run.
 
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::Plant;
 
 use super::recorded::{MAX_CHANNELS, Recorded, Row};

@@ -1,6 +1,6 @@
 //! A recording of a robot that is not there: a plant, its sensors, their noise and their gaps.
 
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::{Input, Plant, Reading};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -1,7 +1,7 @@
 //! A recording, laid out row by row for the plant: what drives the model, and what it is compared with.
 
+use model_core::number::scalar::Real;
 use model_core::plant::{Input, Plant, Reading, State};
-use model_core::scalar::Real;
 
 use crate::log::{Group, RobotFile, Run, Sampled};
 

@@ -10,9 +10,9 @@
 //! Every run begins and ends at rest and comes back to where it began. An experiment is told by the name of its runs:
 //! `coast-vn-1` belongs to experiment 2.
 
-use model_core::kinematics::Wheels;
+use model_core::geometry::kinematics::Wheels;
 use model_core::plant::Input;
-use model_core::robot::Robot;
+use model_core::plant::robot::Robot;
 
 use super::terms::terms;
 use crate::log::{Channel, Group, Missing, Run};

@@ -11,11 +11,11 @@
 //! the number. The derivatives are those of the plant's own steps, carried along by dual numbers; the instant at which an
 //! effect switches counts as fixed.
 
-use model_core::dual::Dual;
-use model_core::frames::{BodyTwist, Pose};
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::number::dual::Dual;
+use model_core::number::scalar::Real;
+use model_core::plant::robot::{Nominal, Robot};
 use model_core::plant::{Input, Plant, State};
-use model_core::robot::{Nominal, Robot};
-use model_core::scalar::Real;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 

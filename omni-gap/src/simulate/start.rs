@@ -3,7 +3,7 @@
 //! A line is fitted by least squares to the samples around the restart, ±50 ms of wheel speeds and yaw rate, ±100 ms of
 //! the pose, and read at the restart itself. A window with fewer than two samples is widened, up to four times.
 
-use model_core::frames::{BodyTwist, Pose, WorldTwist};
+use model_core::geometry::frames::{BodyTwist, Pose, WorldTwist};
 use model_core::plant::{Plant, Reading, State};
 
 use super::recorded::Recorded;

@@ -4,8 +4,8 @@
 //! dv/dt = drive − (back-EMF + viscous)·v − coulomb·sign(v)
 //! ```
 
-use model_core::frames::BodyTwist;
-use model_core::robot::Robot;
+use model_core::geometry::frames::BodyTwist;
+use model_core::plant::robot::Robot;
 use serde::Serialize;
 
 /// What pushes and brakes one axis of the plain model, other axes at rest.

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use model_core::block::{
+use model_core::control::compensation::Compensation;
+use model_core::effects;
+use model_core::geometry::kinematics::{Wheel, Wheels};
+use model_core::link::block::{
     Block, BlockEffect, BlockEffects, Field, Known, Limits, MAX_BYTES, Mode, Refused, USABLE_COUNTS, checksum,
 };
-use model_core::compensation::Compensation;
-use model_core::effects;
-use model_core::hello::Commutation;
-use model_core::kinematics::{Wheel, Wheels};
+use model_core::link::hello::Commutation;
 
 use crate::error::{Error, Result};
 use crate::log::{ControllerFile, EffectEntry, RobotFile};
@@ -156,7 +156,7 @@ fn refusal(path: &Path, why: Refused) -> Error {
 mod tests {
     use super::*;
     use crate::known_effects;
-    use model_core::block::Parameters;
+    use model_core::link::block::Parameters;
 
     const FOUR: &str = include_str!("../../../examples/feup-4w/robot.toml");
     const THREE: &str = include_str!("../../../examples/feup-3w/robot.toml");
@@ -170,9 +170,9 @@ mod tests {
     fn the_papers_robots_arrive_as_they_stand_in_their_files() {
         let Ok(Parameters::Four(four)) = Parameters::decode(&exported(FOUR).unwrap().bytes) else { panic!("four") };
         let Ok(Parameters::Three(three)) = Parameters::decode(&exported(THREE).unwrap().bytes) else { panic!("three") };
-        assert_eq!(four.robot.wheels, model_core::paper::four_wheels().wheels);
-        assert_eq!(three.robot.wheels, model_core::paper::three_wheels().wheels);
-        assert_eq!(four.robot.motor, model_core::paper::four_wheels::<f32>().motor);
+        assert_eq!(four.robot.wheels, model_core::plant::paper::four_wheels().wheels);
+        assert_eq!(three.robot.wheels, model_core::plant::paper::three_wheels().wheels);
+        assert_eq!(four.robot.motor, model_core::plant::paper::four_wheels::<f32>().motor);
         assert_eq!((three.robot.mass, three.pole_pairs, three.mode), (1.944, 8, Mode::Current));
     }
 

@@ -1,8 +1,8 @@
 //! From bytes to records, and how many did not arrive.
 
-use model_core::hello::Hello;
-use model_core::link::{Decoder, Kind};
-use model_core::record::Record;
+use model_core::link::framing::{Decoder, Kind};
+use model_core::link::hello::Hello;
+use model_core::link::record::Record;
 
 use super::source::Progress;
 

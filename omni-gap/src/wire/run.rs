@@ -14,11 +14,11 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use model_core::calibration::{AdcCode, Calibration, FULL_SCALE};
-use model_core::faults::Fault;
-use model_core::hello::{Commutation, Hello, OFFSET_PARTS};
-use model_core::phases::{Rotation, SIX_STEPS, Stationary, dc_current};
-use model_core::record::{Record, Stage};
+use model_core::control::calibration::{AdcCode, Calibration, FULL_SCALE};
+use model_core::control::phases::{Rotation, SIX_STEPS, Stationary, dc_current};
+use model_core::link::faults::Fault;
+use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
+use model_core::link::record::{Record, Stage};
 
 use super::capture::Capture;
 use super::source::Source;

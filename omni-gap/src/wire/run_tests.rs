@@ -1,7 +1,7 @@
 use super::*;
 use crate::wire::source::Progress;
-use model_core::link::{Kind, MAX_FRAME, frame};
-use model_core::phases::q_current;
+use model_core::control::phases::q_current;
+use model_core::link::framing::{Kind, MAX_FRAME, frame};
 
 /// What the robot says of itself; its zeros are not in the middle.
 fn hello(wheels: u8) -> Hello {
@@ -38,7 +38,7 @@ fn record(k: u32) -> Record {
         record.angle[wheel] = (k * 997 + 20_000 * wheel as u32) as u16;
         let angle = f64::from(record.angle[wheel]) / 65_536.0 * TAU;
         let q = q_current(shown(k));
-        let phases = Rotation::of_angle(angle).to_stationary(model_core::phases::Rotor { d: 0.0, q }).phases();
+        let phases = Rotation::of_angle(angle).to_stationary(model_core::control::phases::Rotor { d: 0.0, q }).phases();
         let calibration = calibration(&hello(4));
         for (phase, x) in phases.into_iter().enumerate() {
             let zero = f64::from(hello(4).offsets[wheel][phase]) / 16.0;

@@ -13,7 +13,7 @@
 
 use std::f64::consts::TAU;
 
-use model_core::record::Record;
+use model_core::link::record::Record;
 
 /// The shortest interval that is told [s]
 const SHORTEST_S: f64 = 4e-3;

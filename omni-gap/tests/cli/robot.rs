@@ -1,11 +1,11 @@
 //! What goes to a robot and what comes back: `export` and `record`.
 
 use crate::bench::{Bench, ROBOT, table};
-use model_core::block::Parameters;
-use model_core::calibration::{AdcCode, Calibration};
-use model_core::hello::{Commutation, Hello};
-use model_core::link::{Kind, MAX_FRAME, frame};
-use model_core::record::{Record, Stage};
+use model_core::control::calibration::{AdcCode, Calibration};
+use model_core::link::block::Parameters;
+use model_core::link::framing::{Kind, MAX_FRAME, frame};
+use model_core::link::hello::{Commutation, Hello};
+use model_core::link::record::{Record, Stage};
 
 /// A bench with a robot file and frames of a robot that turns slowly.
 fn bench() -> Bench {

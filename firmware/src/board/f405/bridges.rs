@@ -5,7 +5,7 @@ use core::sync::atomic::{AtomicBool, AtomicU8, AtomicU16, Ordering, compiler_fen
 
 use cortex_m::peripheral::NVIC;
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
-use model_core::calibration::AdcCode;
+use model_core::control::calibration::AdcCode;
 use stm32f4xx_hal::gpio::{Input, Output, PA11, PA12, PA15, PB3, PB4, PB5, PB9, PB10, PB11, PB12, PB13, PB14, PB15};
 use stm32f4xx_hal::gpio::{PC9, PC12, PC13, PD2};
 use stm32f4xx_hal::pac::{self, Interrupt, adc1, interrupt};

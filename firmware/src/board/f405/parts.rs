@@ -5,7 +5,7 @@
 //! can do that.
 
 use cortex_m::asm;
-use model_core::calibration::AdcCode;
+use model_core::control::calibration::AdcCode;
 use stm32f4xx_hal::gpio::alt::{SerialAsync, TimCPin};
 use stm32f4xx_hal::gpio::{PinPull, PinSpeed, PinState, Pull, PushPull, Speed};
 use stm32f4xx_hal::hal_02::adc::Channel;

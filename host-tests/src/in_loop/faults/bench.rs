@@ -1,10 +1,10 @@
 //! The robots that faults are done to: the paper's, on wheels that can slip.
 
-use model_core::active::Effects;
-use model_core::block::{Block, Limits, Mode, Parameters};
+use model_core::effects::active::Effects;
 use model_core::effects::find;
-use model_core::paper::{four_wheels, three_wheels};
-use model_core::robot::Robot;
+use model_core::link::block::{Block, Limits, Mode, Parameters};
+use model_core::plant::paper::{four_wheels, three_wheels};
+use model_core::plant::robot::Robot;
 
 use crate::in_loop::robots;
 use crate::virtual_board::{Setup, VirtualBoard};

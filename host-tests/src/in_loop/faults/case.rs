@@ -1,7 +1,7 @@
 //! What is done to the robot, and what it is to be called.
 
-use model_core::block::{Mode, Reason};
-use model_core::faults::Fault;
+use model_core::link::block::{Mode, Reason};
+use model_core::link::faults::Fault;
 
 use crate::virtual_board::Fault as Broken;
 

@@ -3,9 +3,9 @@
 //! The dog of the emulator is the emulated board's own: it counts exchanges and opens the bridges for good. The chip's
 //! dog counts by its own oscillator and restarts the chip; that is for a board to show.
 
-use model_core::block::Mode;
-use model_core::command::Command;
-use model_core::frames::BodyTwist;
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::block::Mode;
+use model_core::link::command::Command;
 
 use super::bench;
 use crate::emulator::{Brain, Trouble};

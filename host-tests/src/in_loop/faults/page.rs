@@ -1,8 +1,8 @@
 //! The golden page of the faults: what a person judges, and what it must keep.
 
-use model_core::block::{Mode, Reason};
-use model_core::command::Refused;
-use model_core::link::Kind;
+use model_core::link::block::{Mode, Reason};
+use model_core::link::command::Refused;
+use model_core::link::framing::Kind;
 
 use super::Results;
 use super::bench::ACCELERATION;

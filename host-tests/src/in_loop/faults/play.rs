@@ -1,12 +1,12 @@
 //! One case, from the start to the robot driving again.
 
 use firmware::offsets;
-use model_core::block::{MAX_BYTES, Parameters, checksum};
-use model_core::command::{Command, MAX_CHUNK, Reply};
-use model_core::faults::{Fault, Faults};
-use model_core::frames::BodyTwist;
-use model_core::link::Kind;
-use model_core::record::{Record, Stage};
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::block::{MAX_BYTES, Parameters, checksum};
+use model_core::link::command::{Command, MAX_CHUNK, Reply};
+use model_core::link::faults::{Fault, Faults};
+use model_core::link::framing::Kind;
+use model_core::link::record::{Record, Stage};
 
 use super::bench::{self, Bench};
 use super::case::{Case, Cause, Spoilt, is_timed};

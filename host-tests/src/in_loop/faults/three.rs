@@ -1,9 +1,9 @@
 //! A robot of four wheels that goes on with three: whether it follows, and within which limits.
 
-use model_core::block::Mode;
-use model_core::faults::{Fault, Faults};
-use model_core::frames::BodyTwist;
-use model_core::record::Stage;
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::block::Mode;
+use model_core::link::faults::{Fault, Faults};
+use model_core::link::record::Stage;
 
 use super::bench;
 use crate::emulator::{Brain, Trouble};

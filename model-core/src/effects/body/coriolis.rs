@@ -20,11 +20,11 @@
 //! How to measure it: drive a curve at constant heading speed: v and vn swing in quadrature.
 //! Source: derivative of a vector in a turning frame; catalogue note B1.
 
-use crate::card::{Card, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::frames::BodyTwist;
-use crate::scalar::Real;
-use crate::seams::{At, Body};
+use crate::effects::card::{Card, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Body};
+use crate::geometry::frames::BodyTwist;
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {
@@ -86,7 +86,7 @@ impl<T: Real> Effect<T> for Coriolis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frames::{Pose, WorldTwist};
+    use crate::geometry::frames::{Pose, WorldTwist};
 
     const TWIST: BodyTwist<f64> = BodyTwist { v: 0.7, vn: -0.4, w: 3.1 };
 

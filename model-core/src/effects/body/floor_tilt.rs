@@ -23,10 +23,10 @@
 //! How to measure it: lay a spirit level on the floor; or drive the same way in both directions and compare.
 //! Source: gravity on an inclined plane; size from catalogue note B5 (0.2–2°).
 
-use crate::card::{Card, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Body, STANDARD_GRAVITY};
+use crate::effects::card::{Card, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Body, STANDARD_GRAVITY};
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {
@@ -107,7 +107,7 @@ impl<T: Real> Effect<T> for FloorTilt {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frames::{BodyTwist, Pose};
+    use crate::geometry::frames::{BodyTwist, Pose};
     use core::f64::consts::PI;
 
     fn pulled(p: [f64; 2], theta: f64, force: [f64; 3]) -> [f64; 3] {

@@ -17,10 +17,10 @@
 //! How to measure it: pull the robot with a weight over a pulley at steady speed, and compare wheels with camera.
 //! Source: brush model at small slip; size from catalogue note C5 (0.005–0.05 (m/s)/N).
 
-use crate::card::{Card, LookAlike, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Contact};
+use crate::effects::card::{Card, LookAlike, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Contact};
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {

@@ -23,10 +23,10 @@
 //! How to measure it: hold the robot with a spring balance, raise the current until a wheel spins, divide by its load.
 //! Source: Pacejka, Tire and Vehicle Dynamics; size from catalogue notes C6 and C7 (μ 0.2–0.8).
 
-use crate::card::{Card, LookAlike, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Contact};
+use crate::effects::card::{Card, LookAlike, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Contact};
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {

@@ -22,10 +22,10 @@
 //! How to measure it: drive up to speed and brake with the same current: the two accelerations differ.
 //! Source: definition of efficiency in both directions; size from catalogue note D1 (0.75–0.95).
 
-use crate::card::{Card, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Gear};
+use crate::effects::card::{Card, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Gear};
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {

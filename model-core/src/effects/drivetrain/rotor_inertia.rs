@@ -20,10 +20,10 @@
 //! How to measure it: lift the robot, step the voltage and time the run-up of the wheels.
 //! Source: kinetic energy of the turning parts; size from catalogue note D9 (3e-5 to 2e-4 kg·m²).
 
-use crate::card::{Card, LookAlike, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Gear};
+use crate::effects::card::{Card, LookAlike, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Gear};
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {

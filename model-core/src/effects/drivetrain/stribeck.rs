@@ -20,10 +20,10 @@
 //! How to measure it: raise the voltage slowly until the robot moves, lower it slowly until it stops: the two differ.
 //! Source: curve after Stribeck in the form of Bo and Pavelescu; sizes from catalogue note D3 (20–100 %, a = 1–2).
 
-use crate::card::{Card, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Gear};
+use crate::effects::card::{Card, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Gear};
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {

@@ -24,10 +24,10 @@
 //! How to measure it: step the voltage with the wheels locked and count the time until the current rises.
 //! Source: held input behind a pure delay; size from catalogue note E13 (1–10 ms over radio).
 
-use crate::card::{Card, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Drive, Turn};
+use crate::effects::card::{Card, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Drive, Turn};
+use crate::number::scalar::Real;
 
 /// Changes of command that are remembered.
 const SLOTS: u8 = 32;

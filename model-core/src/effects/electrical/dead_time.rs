@@ -18,10 +18,10 @@
 //! How to measure it: locked wheel, slow ramp of voltage: the current stays near zero up to V_d, then rises with 1/R.
 //! Source: size from catalogue note E2 (0.05–0.6 V); the paper sees it as part of R (section 5.4).
 
-use crate::card::{Card, LookAlike, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Drive};
+use crate::effects::card::{Card, LookAlike, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Drive};
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {

@@ -20,10 +20,10 @@
 //! lock the wheels: it draws another current (ρ).
 //! Source: equations of the DC motor; sizes from catalogue notes E8 (−5 to −30 %) and E9 (+5 to +50 %).
 
-use crate::card::{Card, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Winding};
+use crate::effects::card::{Card, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Winding};
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {

@@ -21,10 +21,10 @@
 //! How to measure it: read the bus voltage with all wheels at rest, and again with all of them held at full command.
 //! Source: voltage source behind a resistance; size from catalogue note E3 (0.05–0.3 Ω).
 
-use crate::card::{Card, LookAlike, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Supply};
+use crate::effects::card::{Card, LookAlike, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Supply};
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {

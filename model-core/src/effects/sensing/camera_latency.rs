@@ -22,11 +22,11 @@
 //! How to measure it: spin the robot up and stop it: the camera sees the stop late by t_d.
 //! Source: pure delay; size from catalogue note S1 (20–90 ms; one camera frame is 40 ms).
 
-use crate::card::{Card, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::frames::Pose;
-use crate::scalar::Real;
-use crate::seams::{At, Sense, Turn};
+use crate::effects::card::{Card, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Sense, Turn};
+use crate::geometry::frames::Pose;
+use crate::number::scalar::Real;
 
 /// Poses that are remembered.
 const SLOTS: u8 = 48;
@@ -149,7 +149,7 @@ impl<T: Real> Effect<T> for CameraLatency {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frames::BodyTwist;
+    use crate::geometry::frames::BodyTwist;
 
     const STRAIGHT: BodyTwist<f64> = BodyTwist { v: 0.9, vn: -0.5, w: 0.0 };
     const CURVE: BodyTwist<f64> = BodyTwist { v: 1.5, vn: 0.0, w: 6.0 };

@@ -15,10 +15,10 @@
 //! How to measure it: read the current with the bridge off.
 //! Source: zero error of a shunt amplifier; size from catalogue note S9 (10–100 mA).
 
-use crate::card::{Card, Param, Place, Role, Seam};
 use crate::effects::Effect;
-use crate::scalar::Real;
-use crate::seams::{At, Sense};
+use crate::effects::card::{Card, Param, Place, Role, Seam};
+use crate::effects::seams::{At, Sense};
+use crate::number::scalar::Real;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {

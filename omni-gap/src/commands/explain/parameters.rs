@@ -83,7 +83,7 @@ pub const PARAMETERS: [Parameter; 9] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use model_core::robot::Nominal;
+    use model_core::plant::robot::Nominal;
 
     #[test]
     fn every_parameter_that_can_be_a_cause_is_explained() {

@@ -3,8 +3,8 @@
 //! The mean velocity between two frames is exact however the robot moved: it is the way over the time. Where wheels are
 //! measured they tell it better; their samples are averaged over the same stretches.
 
-use model_core::frames::{BodyTwist, Pose, WorldTwist};
-use model_core::kinematics::Wheels;
+use model_core::geometry::frames::{BodyTwist, Pose, WorldTwist};
+use model_core::geometry::kinematics::Wheels;
 
 use crate::simulate::Recorded;
 

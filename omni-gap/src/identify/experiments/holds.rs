@@ -1,6 +1,6 @@
 //! Where a run is steady: a voltage held so long that the robot has come to its final speed.
 
-use model_core::kinematics::Wheels;
+use model_core::geometry::kinematics::Wheels;
 
 use super::bins::{bins, mean_of};
 use crate::simulate::Recorded;

@@ -23,7 +23,7 @@ pub use spin::spin;
 pub use step::{Method, Stepped, step};
 
 use crate::simulate::{Experiment, Model, Recorded, Slot};
-use model_core::robot::{Nominal, Robot};
+use model_core::plant::robot::{Nominal, Robot};
 
 /// What the experiments say, each on its own, and their average.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

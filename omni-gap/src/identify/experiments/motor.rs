@@ -7,7 +7,7 @@
 use super::holds::holds;
 use super::regress::{Estimate, Rows, jackknife};
 use crate::simulate::{Model, Recorded};
-use model_core::frames::BodyTwist;
+use model_core::geometry::frames::BodyTwist;
 
 /// Below this share of the speed at which back-EMF would balance the voltage a motor counts as stalled.
 const SLOWEST: f64 = 0.15;

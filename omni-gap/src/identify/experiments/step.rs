@@ -17,8 +17,8 @@
 use super::bins::{Bin, bins};
 use super::regress::{Estimate, Rows, jackknife};
 use crate::simulate::{AXES, Model, Recorded, Slot};
-use model_core::frames::{BodyTwist, Pose};
-use model_core::robot::{Nominal, Robot};
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::plant::robot::{Nominal, Robot};
 
 /// Length of a stretch over which a velocity is taken [s]: by a camera, by wheel speeds
 const STRETCH: (f64, f64) = (0.12, 0.04);

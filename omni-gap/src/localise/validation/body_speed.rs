@@ -2,8 +2,8 @@
 //!
 //! Measured and simulated speeds go through the same function, so that what it smooths is smoothed alike in both.
 
-use model_core::frames::{Pose, WorldTwist};
-use model_core::kinematics::Wheels;
+use model_core::geometry::frames::{Pose, WorldTwist};
+use model_core::geometry::kinematics::Wheels;
 
 use super::model::SpeedsFrom;
 use crate::simulate::{Recorded, start_at};

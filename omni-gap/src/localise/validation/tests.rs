@@ -1,6 +1,6 @@
 //! Whole free runs against recordings whose truth is known.
 
-use model_core::kinematics::Wheels;
+use model_core::geometry::kinematics::Wheels;
 use model_core::plant::Input;
 
 use super::*;

@@ -53,14 +53,14 @@ impl Stage {
     pub const ALL: [Stage; 5] = [Stage::Electrical, Stage::Drivetrain, Stage::Contact, Stage::Body, Stage::Sensing];
 }
 
-impl From<model_core::card::Stage> for Stage {
-    fn from(stage: model_core::card::Stage) -> Stage {
+impl From<model_core::effects::card::Stage> for Stage {
+    fn from(stage: model_core::effects::card::Stage) -> Stage {
         match stage {
-            model_core::card::Stage::Electrical => Stage::Electrical,
-            model_core::card::Stage::Drivetrain => Stage::Drivetrain,
-            model_core::card::Stage::Contact => Stage::Contact,
-            model_core::card::Stage::Body => Stage::Body,
-            model_core::card::Stage::Sensing => Stage::Sensing,
+            model_core::effects::card::Stage::Electrical => Stage::Electrical,
+            model_core::effects::card::Stage::Drivetrain => Stage::Drivetrain,
+            model_core::effects::card::Stage::Contact => Stage::Contact,
+            model_core::effects::card::Stage::Body => Stage::Body,
+            model_core::effects::card::Stage::Sensing => Stage::Sensing,
         }
     }
 }

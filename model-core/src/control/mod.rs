@@ -1,0 +1,32 @@
+//! # Control: from a wanted motion to switched bridges
+//!
+//! Two loops. At 20 kHz a motor's currents: three phases seen as one DC-equivalent motor ([`phases`]), codes of the
+//! converter as amperes and volts ([`calibration`]), the rotor's angle from its halls ([`halls`]), the
+//! [`current_loop`]. At 1 kHz the robot's motion: wheel speeds from hall edges ([`observer`]), a limited
+//! [`reference`](mod@reference), the volts that it takes ([`feedforward`]), whether there is room for them ([`headroom`]),
+//! effects undone ([`compensation`]), all of it in the [`motion_controller`], for a robot of three wheels or of four in
+//! [`drive`].
+
+// 20 kHz: the currents of a motor
+pub mod phases;
+
+pub mod calibration;
+
+pub mod halls;
+
+pub mod current_loop;
+
+// 1 kHz: the motion of the robot
+pub mod observer;
+
+pub mod reference;
+
+pub mod headroom;
+
+pub mod compensation;
+
+pub mod feedforward;
+
+pub mod motion_controller;
+
+pub mod drive;

@@ -1,0 +1,166 @@
+//! # Seams: what an effect sees and may change, one struct a seam
+//!
+//! The signal path of the robot is a chain of elements. Before the plant takes a step it describes every element with
+//! one of these structs, filled with what the nominal model says; the effects that act at that seam change the
+//! description; then the plant solves what is described. So an effect never integrates anything and never has to know
+//! which other effects are there.
+
+use crate::geometry::frames::{BodyTwist, Pose};
+use crate::number::scalar::Real;
+
+/// Standard gravity [m/s²].
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// Where and when an effect is asked.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct At<T> {
+    /// Time since the start of the run [s]
+    pub time: T,
+    /// Length of the step that is about to be taken [s]
+    pub dt: T,
+    /// The wheel, for an effect of wheels; 0 otherwise
+    pub wheel: usize,
+    /// Angle of that wheel since the start of the run [rad]
+    pub wheel_angle: T,
+    /// Speed of that wheel at the wheel shaft [rad/s]
+    pub wheel_speed: T,
+    /// Speed of that wheel's rim over the floor if it rolls [m/s]
+    pub rim_speed: T,
+    /// Pose in the world frame; at the body seam the heading is that of the middle of the step
+    pub pose: Pose<T>,
+    /// Velocity in the body frame
+    pub twist: BodyTwist<T>,
+    /// Bus voltage that the nominal model assumes [V]
+    pub nominal_supply: T,
+}
+
+/// Battery: bus current in, bus voltage out.
+#[derive(Clone, Copy, Debug)]
+pub struct Supply<T> {
+    /// Current that all bridges together draw from the battery [A]
+    pub current: T,
+    /// Bus voltage [V]
+    pub voltage: T,
+}
+
+/// Bridge: commanded voltage in, terminal voltage out.
+#[derive(Clone, Copy, Debug)]
+pub struct Drive<T> {
+    /// Mean voltage that the controller commands [V]
+    pub command: T,
+    /// Bus voltage [V]
+    pub bus: T,
+    /// Motor current [A]
+    pub current: T,
+    /// Mean voltage across the motor over this step [V]
+    pub voltage: T,
+    /// Voltage across the motor at the instant at which the current is sampled, just after the step's beginning [V]
+    pub sampled: T,
+}
+
+/// Winding: terminal voltage in, shaft torque out. Constants are those of the wheel shaft, the gear ratio included.
+#[derive(Clone, Copy, Debug)]
+pub struct Winding<T> {
+    /// Motor current [A]
+    pub current: T,
+    /// Speed that the back-EMF sees, at the wheel shaft [rad/s]
+    pub speed: T,
+    /// Resistance [Ω]
+    pub resistance: T,
+    /// Inductance [H]; zero: the current follows at once
+    pub inductance: T,
+    /// Back-EMF over wheel speed, l·K_v [V/(rad/s)]
+    pub emf_constant: T,
+    /// Wheel torque over current, l·K_t [N·m/A]
+    pub torque_constant: T,
+}
+
+/// Gear: motor torque in, wheel torque out. All at the wheel shaft.
+#[derive(Clone, Copy, Debug)]
+pub struct Gear<T> {
+    /// Torque of the motor before any loss [N·m]
+    pub motor_torque: T,
+    /// This wheel's share of the body's Coulomb friction, as a torque [N·m]
+    pub coulomb_share: T,
+    /// Torque that goes on to the wheel [N·m]
+    pub torque: T,
+    /// Dry friction that the shaft can hold [N·m]: a budget, spent by the plant
+    pub budget: T,
+    /// Viscous friction [N·m·s]
+    pub damping: T,
+    /// Inertia that turns with the wheel [kg·m²]
+    pub inertia: T,
+}
+
+/// Contact: wheel torque in, force on the floor out.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact<T> {
+    /// Rim speed over body twist: (cos α, sin α, d) [1, 1, m]
+    pub row: [T; 3],
+    /// Wheel radius [m]
+    pub radius: T,
+    /// 1/radius [1/m]; the plant works it out again after the effects
+    pub per_radius: T,
+    /// Normal force [N]
+    pub load: T,
+    /// Slip speed per traction, of a contact that creeps [(m/s)/N]; zero: it rolls rigidly
+    pub creep: T,
+    /// Friction coefficient of a contact that can slip; zero: it holds any force
+    pub grip: T,
+    /// Stiffness of the slip curve [1/(m/s)]
+    pub stiffness: T,
+    /// Shape of the slip curve: 1 rises to the limit, above 1 falls after a peak
+    pub shape: T,
+}
+
+impl<T: Real> Contact<T> {
+    /// True if the wheel rolls rigidly: whatever the force, its rim is as fast as the floor passes by.
+    #[inline]
+    pub fn rolls(&self) -> bool {
+        self.grip <= T::zero() && self.creep <= T::zero()
+    }
+}
+
+/// Body: forces in, acceleration out. Axes are those of the body: (v, vn, ω).
+#[derive(Clone, Copy, Debug)]
+pub struct Body<T> {
+    /// Mass [kg]
+    pub mass: T,
+    /// Moment of inertia [kg·m²]
+    pub inertia: T,
+    /// Force that is not friction and not from the wheels [N, N, N·m]
+    pub force: [T; 3],
+    /// −∂force/∂twist: damping, and the rate of turning forces
+    pub rate: [[T; 3]; 3],
+    /// Dry friction that the floor can hold [N, N, N·m]: a budget, spent by the plant
+    pub budget: [T; 3],
+}
+
+/// Sensors: truth in, reading out. An effect of wheels gets its wheel's current and speed; one of the robot the rest.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sense<T> {
+    /// Motor current [A]
+    pub current: T,
+    /// Wheel speed at the wheel shaft [rad/s]
+    pub wheel_speed: T,
+    /// Pose in the world frame
+    pub pose: Pose<T>,
+    /// Yaw rate [rad/s]
+    pub gyro: T,
+}
+
+/// What happened in a step, for effects that remember. An effect of wheels gets its own wheel's numbers; one of the
+/// robot the supply's, with `command`, `current` and `wheel_speed` zero.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Turn<T> {
+    /// Commanded voltage [V]
+    pub command: T,
+    /// Motor current [A]
+    pub current: T,
+    /// Wheel speed at the wheel shaft [rad/s]
+    pub wheel_speed: T,
+    /// Current drawn from the battery [A]
+    pub bus_current: T,
+    /// Bus voltage [V]
+    pub bus: T,
+}

@@ -1,0 +1,271 @@
+use super::*;
+use crate::plant::paper;
+
+/// A sound block of the paper's robot.
+fn four() -> Block<4> {
+    with(paper::four_wheels())
+}
+
+fn with<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
+    let mut effects = BlockEffects::default();
+    effects.push(BlockEffect::new("stribeck", None, &[0.4, 0.05, 1.0]).unwrap()).unwrap();
+    effects.push(BlockEffect::new("motor_mismatch", Some(2), &[0.88, 1.1]).unwrap()).unwrap();
+    effects.push(BlockEffect::new("coriolis", None, &[1.0]).unwrap()).unwrap();
+    Block {
+        feedforward: true,
+        robot,
+        inductance: 0.5e-3,
+        mode: Mode::Current,
+        commutation: Commutation::SixStep,
+        pole_pairs: 8,
+        limits: Limits {
+            current: 3.0,
+            speed: 1.5,
+            acceleration: [3.0, 2.5, 30.0],
+            under_voltage: 9.0,
+            over_voltage: 15.0,
+        },
+        feedback: 0.2,
+        feedback_integral: 1.0,
+        bandwidth: 4000.0,
+        amps_per_count: 0.0049,
+        bus_volts_per_count: 0.00886,
+        effects,
+    }
+}
+
+fn encoded<const N: usize>(block: &Block<N>) -> ([u8; MAX_BYTES], usize) {
+    let mut bytes = [0xff; MAX_BYTES];
+    let length = block.encode(&mut bytes).expect("a sound block");
+    (bytes, length)
+}
+
+/// The same bytes with a checksum that fits them.
+fn resealed(mut bytes: [u8; MAX_BYTES], length: usize) -> [u8; MAX_BYTES] {
+    let check = CHECK.checksum(&bytes[..length - 4]).to_le_bytes();
+    bytes[length - 4..length].copy_from_slice(&check);
+    bytes
+}
+
+fn refusal(bytes: &[u8]) -> Refused {
+    Parameters::decode(bytes).map(|_| ()).expect_err("to be refused")
+}
+
+#[test]
+fn a_block_comes_back_as_it_was_written() {
+    let (bytes, length) = encoded(&four());
+    // header, four wheels, scalars, three effects with six parameters, checksum
+    assert_eq!(length, HEADER + 48 + 104 + 1 + 3 * 2 + 6 * 4 + 4);
+    let Ok(Parameters::Four(block)) = Parameters::decode(&bytes[..length]) else { panic!("four wheels") };
+    assert_eq!(encoded(&block), (bytes, length));
+    assert_eq!(block.robot.wheels, paper::four_wheels().wheels);
+    assert_eq!((block.limits, block.mode, block.pole_pairs), (four().limits, Mode::Current, 8));
+    assert_eq!((block.robot.motor, block.robot.friction), (four().robot.motor, four().robot.friction));
+    let effects: [_; 3] =
+        core::array::from_fn(|k| block.effects.iter().nth(k).map(|e| (e.id(), e.wheel(), e.params())));
+    let expected: [(&str, Option<u8>, &[f32]); 3] =
+        [("stribeck", None, &[0.4, 0.05, 1.0]), ("motor_mismatch", Some(2), &[0.88, 1.1]), ("coriolis", None, &[1.0])];
+    assert_eq!(effects, expected.map(Some));
+
+    let three = Block { mode: Mode::Voltage, commutation: Commutation::FieldOriented, ..with(paper::three_wheels()) };
+    let (bytes, length) = encoded(&three);
+    let Ok(Parameters::Three(block)) = Parameters::decode(&bytes[..length]) else { panic!("three wheels") };
+    assert_eq!(encoded(&block), (bytes, length));
+    assert_eq!((block.mode, block.commutation), (Mode::Voltage, Commutation::FieldOriented));
+}
+
+#[test]
+fn what_stands_behind_a_block_does_not_matter_and_its_checksum_is_found() {
+    let (bytes, length) = encoded(&four());
+    assert!(Parameters::decode(&bytes).is_ok());
+    assert_eq!(checksum(&bytes), Some(u32::from_le_bytes(bytes[length - 4..length].try_into().unwrap())));
+    assert_eq!((checksum(&[0xff; 64]), checksum(&bytes[..length - 1]), checksum(b"OMNI")), (None, None, None));
+}
+
+#[test]
+fn every_single_bit_that_flips_is_refused() {
+    let (bytes, length) = encoded(&four());
+    for bit in 0..8 * length {
+        let mut hurt = bytes;
+        hurt[bit / 8] ^= 1 << (bit % 8);
+        assert!(Parameters::decode(&hurt).is_err(), "bit {bit}");
+        assert!(Parameters::decode(&hurt[..length]).is_err(), "bit {bit}");
+    }
+}
+
+#[test]
+fn every_shorter_block_is_refused() {
+    let (bytes, length) = encoded(&four());
+    for shorter in 0..length {
+        assert!(Parameters::decode(&bytes[..shorter]).is_err(), "{shorter} bytes");
+    }
+    // and so is one that says it is shorter, or longer, even with a checksum that fits
+    for said in (0..=MAX_BYTES).filter(|said| *said != length) {
+        let mut changed = bytes;
+        changed[6..8].copy_from_slice(&(said as u16).to_le_bytes());
+        let changed = if said >= HEADER { resealed(changed, said) } else { changed };
+        assert_eq!(refusal(&changed).reason, Reason::Length, "{said} bytes");
+    }
+}
+
+#[test]
+fn flash_that_was_erased_is_no_block() {
+    assert_eq!(refusal(&[0xff; MAX_BYTES]).reason, Reason::Magic);
+    assert_eq!(refusal(&[0; MAX_BYTES]).reason, Reason::Magic);
+    assert_eq!(refusal(&[]).reason, Reason::Magic);
+}
+
+#[test]
+fn another_version_is_refused_as_newer_or_older() {
+    let (bytes, length) = encoded(&four());
+    for (version, reason) in [(0_u16, Reason::Older), (VERSION + 1, Reason::Newer), (u16::MAX, Reason::Newer)] {
+        let mut changed = bytes;
+        changed[4..6].copy_from_slice(&version.to_le_bytes());
+        let told = refusal(&resealed(changed, length));
+        assert_eq!((told.reason, told.value), (reason, f32::from(version)));
+    }
+}
+
+#[test]
+fn ways_of_driving_and_numbers_of_wheels_that_do_not_exist_are_refused() {
+    let (bytes, length) = encoded(&four());
+    for (at, value, reason) in [
+        (8, 2, Reason::Wheels),
+        (8, 5, Reason::Wheels),
+        (9, 2, Reason::Mode),
+        (10, 2, Reason::Mode),
+        (11, 2, Reason::Mode),
+    ] {
+        let mut changed = bytes;
+        changed[at] = value;
+        assert_eq!(refusal(&resealed(changed, length)).reason, reason, "byte {at} = {value}");
+    }
+    let mut changed = bytes;
+    changed[8] = 3;
+    assert!(Parameters::decode(&resealed(changed, length)).is_err(), "a wheel too many");
+}
+
+#[test]
+fn every_number_is_held_to_its_bounds_on_both_sides() {
+    let (bytes, length) = encoded(&four());
+    let wheels = (0..4).flat_map(|_| bounds::WHEEL);
+    for (k, field) in wheels.chain(bounds::SCALARS).enumerate() {
+        let at = HEADER + 4 * k;
+        let (low, high) = field.within;
+        let out = [low - 0.01 * low.abs() - 1e-6, high + 0.01 * high.abs(), -f32::MAX, f32::MAX];
+        for (x, reason) in out
+            .map(|x| (x, Reason::OutOfBounds))
+            .into_iter()
+            .chain([f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(|x| (x, Reason::NotFinite)))
+        {
+            let mut changed = bytes;
+            changed[at..at + 4].copy_from_slice(&x.to_le_bytes());
+            let told = refusal(&resealed(changed, length));
+            assert_eq!((told.reason, told.field), (reason, field.key), "{x}");
+            assert!(told.value == x || x.is_nan());
+        }
+    }
+    for pole_pairs in [0, 51, 255] {
+        let mut changed = bytes;
+        changed[12] = pole_pairs;
+        let told = refusal(&resealed(changed, length));
+        assert_eq!((told.reason, told.field), (Reason::OutOfBounds, "pole_pairs"));
+    }
+}
+
+#[test]
+fn the_host_cannot_write_what_the_robot_would_refuse() {
+    let mut bytes = [0; MAX_BYTES];
+    for k in 0..bounds::SCALARS.len() {
+        for x in [f32::NAN, f32::INFINITY, 1e9, -1.0] {
+            let mut block = four();
+            *block.scalars()[k] = x;
+            assert_eq!(block.encode(&mut bytes).unwrap_err().field, bounds::SCALARS[k].key);
+        }
+    }
+    assert_eq!(bytes, [0; MAX_BYTES], "nothing is written");
+    assert!(Block::<4>::default().check().is_err());
+}
+
+#[test]
+fn numbers_that_contradict_each_other_are_refused() {
+    let change = |change: fn(&mut Block<4>)| {
+        let mut block = four();
+        change(&mut block);
+        block.check().expect_err("to be refused")
+    };
+    assert_eq!(change(|b| b.limits.under_voltage = 12.5).field, "under_voltage_V");
+    assert_eq!(change(|b| b.limits.over_voltage = 11.5).field, "over_voltage_V");
+    // 4095 · 8.86 mV = 36.3 V is the most that the converter can tell
+    assert_eq!(change(|b| b.limits.over_voltage = 37.0).field, "over_voltage_V");
+    // 1500 · 4.9 mA = 7.35 A likewise
+    assert_eq!(change(|b| b.limits.current = 7.4).field, "current_A");
+    let along_one_line = |b: &mut Block<4>| {
+        b.robot.wheels = Wheels::new(b.robot.wheels.wheels().map(|wheel| Wheel { drive_angle: 0.0, ..wheel }));
+    };
+    assert_eq!(change(along_one_line).reason, Reason::Wheels);
+}
+
+#[test]
+fn effects_are_held_to_the_catalogue() {
+    let (bytes, length) = encoded(&four());
+    let at = HEADER + 48 + 104;
+    let changed = |changes: &[(usize, u8)]| {
+        let mut changed = bytes;
+        changes.iter().for_each(|(k, value)| changed[at + k] = *value);
+        refusal(&resealed(changed, length)).reason
+    };
+    assert_eq!(changed(&[(1, 0)]), Reason::UnknownEffect);
+    assert_eq!(changed(&[(1, 14)]), Reason::UnknownEffect);
+    // stribeck on a wheel that is not there; motor_mismatch on none; coriolis on one
+    assert_eq!(changed(&[(2, 4)]), Reason::EffectWheel);
+    assert_eq!(changed(&[(16, EVERY)]), Reason::EffectWheel);
+    assert_eq!(changed(&[(26, 1)]), Reason::EffectWheel);
+    assert_eq!(changed(&[(0, 2)]), Reason::Length);
+    assert_eq!(changed(&[(0, 4)]), Reason::Length);
+
+    for known in &KNOWN {
+        let wheel = (known.place == crate::effects::card::Place::OneWheel).then_some(0);
+        for (k, field) in known.fields().iter().enumerate() {
+            let (low, high) = field.within;
+            for (x, good) in [(low, true), (high, true), (low - 1.0, false), (high + 1.0, false), (f32::NAN, false)] {
+                let mut params = [0.0; MAX_PARAMS];
+                params.iter_mut().zip(known.fields()).for_each(|(p, f)| *p = f.within.0);
+                params[k] = x;
+                let mut block = Block { effects: BlockEffects::default(), ..four() };
+                let effect = BlockEffect::new(known.id, wheel, &params[..known.fields().len()]).unwrap();
+                block.effects.push(effect).unwrap();
+                assert_eq!(block.check().is_ok(), good, "{} {} = {x}", known.id, field.key);
+            }
+        }
+    }
+}
+
+const EVERY: u8 = effects::EVERY_WHEEL;
+
+#[test]
+fn there_is_room_for_twelve_effects_each_once_and_the_longest_block_fits() {
+    let mut effects = BlockEffects::default();
+    let stribeck = |wheel| BlockEffect::new("stribeck", wheel, &[0.4, 0.05, 1.0]).unwrap();
+    for wheel in [None, Some(0), Some(1), Some(2)] {
+        effects.push(stribeck(wheel)).unwrap();
+        effects.push(BlockEffect::new("dead_time", wheel, &[0.3, 0.05]).unwrap()).unwrap();
+        effects.push(BlockEffect::new("wheel_slip", wheel, &[0.5, 10.0, 1.2]).unwrap()).unwrap();
+    }
+    assert_eq!(effects.push(stribeck(Some(1))).unwrap_err().reason, Reason::EffectTwice);
+    assert_eq!(effects.push(stribeck(Some(3))).unwrap_err().reason, Reason::TooManyEffects);
+    assert_eq!(effects.len(), MAX_EFFECTS);
+    let (bytes, length) = encoded(&Block { effects, ..four() });
+    assert!(length <= LONGEST && Parameters::decode(&bytes[..length]).is_ok(), "{length}");
+    assert_eq!(BlockEffect::new("creep", None, &[]).unwrap_err().reason, Reason::Length);
+    assert_eq!(BlockEffect::new("gremlins", None, &[]).unwrap_err().reason, Reason::UnknownEffect);
+}
+
+#[test]
+fn reasons_have_codes_and_words_of_their_own() {
+    for (k, reason) in Reason::ALL.into_iter().enumerate() {
+        assert_eq!(usize::from(reason.code()), k + 1);
+        assert_eq!(Reason::from_code(reason.code()), Some(reason));
+        assert!(Reason::ALL.into_iter().skip(k + 1).all(|other| other.text() != reason.text()));
+    }
+}

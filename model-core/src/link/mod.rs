@@ -1,0 +1,19 @@
+//! # Link: what robot and host tell each other
+//!
+//! Frames on a serial line ([`framing`]); in them commands and their replies ([`command`]), a record of every turn
+//! ([`record`]), who the robot is ([`hello`]), which faults it has ([`faults`]), and the parameters that it drives with
+//! ([`block`]). All numbers are little-endian.
+
+mod bytes;
+
+pub mod framing;
+
+pub mod command;
+
+pub mod record;
+
+pub mod hello;
+
+pub mod faults;
+
+pub mod block;

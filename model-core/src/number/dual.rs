@@ -1,0 +1,262 @@
+//! # Dual: a number that carries its derivatives
+//!
+//! ```text
+//! x = re + ε·ẋ,  ε² = 0        ẋ = (∂x/∂p₁ … ∂x/∂p_K)
+//! f(x, y) = f(re x, re y) + ε·(∂f/∂x·ẋ + ∂f/∂y·ẏ)
+//! ```
+//!
+//! An equation written over [`Real`] and evaluated on dual numbers gives its value and its exact derivatives with respect
+//! to K parameters at once: no second copy of the equation, no step width.
+//!
+//! Conventions:
+//! - Comparison looks at `re` alone, equality too, so that a dual number takes the branch of its value, and what comes
+//!   out is the derivative of that branch. At a kink that is one of the two one-sided derivatives.
+//! - Where a function has a value but no finite slope (√ at 0, xʸ at x = 0, the angle of the origin) the slope counts as
+//!   0, so that a finite value never has a derivative of NaN.
+//!
+//! Fails when: the branch itself depends on a parameter (the moment at which something slips); the derivative through
+//! such a switch leaves out that the switch moves.
+//!
+//! Source: forward-mode differentiation, Griewank and Walther, *Evaluating Derivatives*, 2008, chapter 3.
+
+use core::cmp::Ordering;
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use crate::number::scalar::Real;
+
+/// A value and its derivatives with respect to K parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct Dual<const K: usize> {
+    /// The value, in its own unit.
+    pub re: f64,
+    /// Its derivatives: its own unit per unit of the k-th parameter.
+    pub eps: [f64; K],
+}
+
+impl<const K: usize> Dual<K> {
+    /// A number that depends on no parameter; `x` in its own unit.
+    #[inline]
+    pub const fn constant(x: f64) -> Self {
+        Self { re: x, eps: [0.0; K] }
+    }
+
+    /// The k-th parameter itself, with value `x` in its own unit; a constant where `k` is not below K.
+    #[inline]
+    pub fn variable(x: f64, k: usize) -> Self {
+        let mut eps = [0.0; K];
+        if let Some(e) = eps.get_mut(k) {
+            *e = 1.0;
+        }
+        Self { re: x, eps }
+    }
+
+    /// A function of one number, of which the value and the slope at `self.re` are known.
+    #[inline]
+    fn chain(self, value: f64, slope: f64) -> Self {
+        // f(x)˙ = f′(x)·ẋ;  no finite slope counts as none
+        let slope = if f64::is_finite(slope) { slope } else { 0.0 };
+        let mut eps = self.eps;
+        for e in &mut eps {
+            *e *= slope;
+        }
+        Self { re: value, eps }
+    }
+
+    /// A function of two numbers, of which the value and both slopes are known.
+    #[inline]
+    fn chain2(self, other: Self, value: f64, slope: f64, other_slope: f64) -> Self {
+        // f(x, y)˙ = ∂f/∂x·ẋ + ∂f/∂y·ẏ;  no finite slope counts as none
+        let slope = if f64::is_finite(slope) { slope } else { 0.0 };
+        let other_slope = if f64::is_finite(other_slope) { other_slope } else { 0.0 };
+        let mut eps = self.eps;
+        for (e, o) in eps.iter_mut().zip(&other.eps) {
+            *e = slope * *e + other_slope * o;
+        }
+        Self { re: value, eps }
+    }
+}
+
+impl<const K: usize> Default for Dual<K> {
+    #[inline]
+    fn default() -> Self {
+        Self::constant(0.0)
+    }
+}
+
+impl<const K: usize> PartialEq for Dual<K> {
+    #[inline]
+    fn eq(&self, other: &Self) -> bool {
+        self.re == other.re
+    }
+}
+
+impl<const K: usize> PartialOrd for Dual<K> {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.re.partial_cmp(&other.re)
+    }
+    #[inline]
+    fn lt(&self, other: &Self) -> bool {
+        self.re < other.re
+    }
+    #[inline]
+    fn le(&self, other: &Self) -> bool {
+        self.re <= other.re
+    }
+    #[inline]
+    fn gt(&self, other: &Self) -> bool {
+        self.re > other.re
+    }
+    #[inline]
+    fn ge(&self, other: &Self) -> bool {
+        self.re >= other.re
+    }
+}
+
+impl<const K: usize> Add for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn add(mut self, other: Self) -> Self {
+        self += other;
+        self
+    }
+}
+
+impl<const K: usize> Sub for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn sub(mut self, other: Self) -> Self {
+        self -= other;
+        self
+    }
+}
+
+impl<const K: usize> Mul for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn mul(mut self, other: Self) -> Self {
+        self *= other;
+        self
+    }
+}
+
+impl<const K: usize> Div for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn div(mut self, other: Self) -> Self {
+        self /= other;
+        self
+    }
+}
+
+impl<const K: usize> Neg for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn neg(mut self) -> Self {
+        self.re = -self.re;
+        for e in &mut self.eps {
+            *e = -*e;
+        }
+        self
+    }
+}
+
+impl<const K: usize> AddAssign for Dual<K> {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        // (x + y)˙ = ẋ + ẏ
+        self.re += other.re;
+        for (e, o) in self.eps.iter_mut().zip(&other.eps) {
+            *e += o;
+        }
+    }
+}
+
+impl<const K: usize> SubAssign for Dual<K> {
+    #[inline]
+    fn sub_assign(&mut self, other: Self) {
+        // (x − y)˙ = ẋ − ẏ
+        self.re -= other.re;
+        for (e, o) in self.eps.iter_mut().zip(&other.eps) {
+            *e -= o;
+        }
+    }
+}
+
+impl<const K: usize> MulAssign for Dual<K> {
+    #[inline]
+    fn mul_assign(&mut self, other: Self) {
+        // (x·y)˙ = ẋ·y + x·ẏ
+        for (e, o) in self.eps.iter_mut().zip(&other.eps) {
+            *e = *e * other.re + self.re * o;
+        }
+        self.re *= other.re;
+    }
+}
+
+impl<const K: usize> DivAssign for Dual<K> {
+    #[inline]
+    fn div_assign(&mut self, other: Self) {
+        // q = x/y,  q̇ = (ẋ − q·ẏ)/y
+        self.re /= other.re;
+        let inverse = 1.0 / other.re;
+        for (e, o) in self.eps.iter_mut().zip(&other.eps) {
+            *e = (*e - self.re * o) * inverse;
+        }
+    }
+}
+
+impl<const K: usize> Real for Dual<K> {
+    #[inline]
+    fn lit(x: f64) -> Self {
+        Self::constant(x)
+    }
+    #[inline]
+    fn value(self) -> Self {
+        Self::constant(self.re)
+    }
+    #[inline]
+    fn index(self) -> usize {
+        self.re.index()
+    }
+    #[inline]
+    fn is_finite(self) -> bool {
+        f64::is_finite(self.re) && self.eps.iter().all(|e| f64::is_finite(*e))
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        // (√x)˙ = ẋ/(2·√x)
+        let root = self.re.sqrt();
+        self.chain(root, 0.5 / root)
+    }
+    #[inline]
+    fn exp(self) -> Self {
+        // (eˣ)˙ = eˣ·ẋ
+        let power = self.re.exp();
+        self.chain(power, power)
+    }
+    #[inline]
+    fn pow(self, y: Self) -> Self {
+        let power = self.re.pow(y.re);
+        // (xʸ)˙ = y·xʸ⁻¹·ẋ + xʸ·ln x·ẏ;  at x = 0 both slopes count as 0
+        if self.re == 0.0 {
+            return Self::constant(power);
+        }
+        self.chain2(y, power, y.re * self.re.pow(y.re - 1.0), power * libm::log(self.re))
+    }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        // (sin x)˙ = cos x·ẋ,  (cos x)˙ = −sin x·ẋ
+        let (sin, cos) = self.re.sin_cos();
+        (self.chain(sin, cos), self.chain(cos, -sin))
+    }
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        // φ = atan2(y, x),  φ̇ = (x·ẏ − y·ẋ)/(x² + y²)
+        let square = x.re * x.re + self.re * self.re;
+        self.chain2(x, self.re.atan2(x.re), x.re / square, -self.re / square)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,15 @@
+//! # Number: what the equations compute with
+//!
+//! One trait, [`Real`](scalar::Real), for three kinds of number: `f32` on the robot, `f64` on the host and
+//! [`Dual`](dual::Dual) where a derivative is wanted. Sine, cosine and square root are written here, so that every
+//! machine computes the same bits; vectors and matrices of three are arrays.
+
+pub mod scalar;
+
+pub mod trig;
+
+pub mod root;
+
+pub mod dual;
+
+pub mod linalg;

@@ -1,0 +1,46 @@
+//! What goes into a step of the plant, what it goes on from, and what the sensors say.
+
+use crate::geometry::frames::{BodyTwist, Pose};
+
+/// What drives the robot during a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Input<const N: usize, T> {
+    /// Mean voltage commanded to each motor [V]
+    Voltage([T; N]),
+    /// Current in each motor [A]; all zero is the bridge open
+    Current([T; N]),
+    /// Speed of each wheel at its shaft [rad/s], imposed by a drive that follows it exactly
+    Speed([T; N]),
+}
+
+/// Where the robot is in its motion.
+#[derive(Clone, Copy, Debug)]
+pub struct State<const N: usize, T> {
+    /// Time since the start of the run [s]
+    pub time: T,
+    /// Pose in the world frame
+    pub pose: Pose<T>,
+    /// Velocity in the body frame
+    pub twist: BodyTwist<T>,
+    /// Speed of each wheel at its shaft as last solved for [rad/s]
+    pub wheel_speed: [T; N],
+    /// Angle that each wheel has turned through [rad]; kept up only while the model has effects
+    pub wheel_angle: [T; N],
+    /// Current in each motor at the end of the last step [A]
+    pub current: [T; N],
+    /// Bus voltage of the last step [V]
+    pub bus: T,
+}
+
+/// What the sensors say at the beginning of a step, just after its input has been applied.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading<const N: usize, T> {
+    /// Motor currents [A]
+    pub current: [T; N],
+    /// Wheel speeds at the wheel shafts [rad/s]
+    pub wheel_speed: [T; N],
+    /// Pose in the world frame
+    pub pose: Pose<T>,
+    /// Yaw rate [rad/s]
+    pub gyro: T,
+}
