@@ -11,6 +11,8 @@ mod finding;
 mod manifest;
 #[path = "walls/needles.rs"]
 mod needles;
+#[path = "walls/notation.rs"]
+mod notation;
 #[path = "walls/rooms.rs"]
 mod rooms;
 #[path = "walls/tree.rs"]
@@ -50,6 +52,14 @@ fn the_core_depends_on_libm_and_crc_alone() {
 #[test]
 fn doors_between_the_rooms_open_one_way() {
     none(in_all(&rust_below(rooms::HOUSE), rooms::backward_doors));
+}
+
+#[test]
+fn every_name_of_the_notation_is_in_the_core_with_its_unit() {
+    let found = sources(&["md"]);
+    let table = found.iter().find(|source| source.path == notation::TABLE).expect("the table of notation");
+    assert!(notation::names(table) >= 50, "only {} names are found in {}", notation::names(table), notation::TABLE);
+    none(notation::untrue(table, &rust_below("model-core/src/")));
 }
 
 #[test]

@@ -3,6 +3,8 @@
 //! Six folders, in reading order: what the equations compute with ([`number`]), where things are and how fast they move
 //! ([`geometry`]), the robot and its motion ([`plant`]), what the plain model leaves out ([`effects`]), the loops that
 //! move the robot ([`control`]), and what robot and host tell each other ([`link`]).
+//!
+#![doc = include_str!("notation.md")]
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
