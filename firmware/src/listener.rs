@@ -4,9 +4,9 @@
 //! where it is refused the parameters in use stay. A frame that is damaged is not answered: its sender hears no reply.
 
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::{self, MAX_BYTES, Parameters, Refused};
+use model_core::link::block::{self, BlockError, MAX_BYTES, Parameters};
 use model_core::link::command::{Command, Reply};
-use model_core::link::framing::{Decoder, Frame, Kind};
+use model_core::link::framing::{Frame, FrameDecoder, FrameKind};
 
 /// Something that was said.
 // There is one of them at a time, and nothing is allocated.
@@ -42,7 +42,7 @@ pub struct Accepted {
 }
 
 impl Accepted {
-    fn of(block: &[u8]) -> Result<Self, Refused> {
+    fn of(block: &[u8]) -> Result<Self, BlockError> {
         let parameters = Parameters::decode(block)?;
         Ok(Self { parameters, check: block::checksum(block).unwrap_or_default() })
     }
@@ -51,13 +51,13 @@ impl Accepted {
 /// What has been heard of a frame and of a block.
 #[derive(Clone, Debug)]
 pub struct Listener {
-    decoder: Decoder,
+    decoder: FrameDecoder,
     block: [u8; MAX_BYTES],
 }
 
 impl Default for Listener {
     fn default() -> Self {
-        Self { decoder: Decoder::default(), block: [0; MAX_BYTES] }
+        Self { decoder: FrameDecoder::default(), block: [0; MAX_BYTES] }
     }
 }
 
@@ -101,7 +101,9 @@ impl Listener {
         }
         Some(match Accepted::of(kept) {
             Ok(accepted) => Heard::Parameters(accepted, None),
-            Err(why) => Heard::BadBlock(Reply { to: Kind::Commit.code(), taken: false, reason: why.reason.code() }),
+            Err(why) => {
+                Heard::BadBlock(Reply { to: FrameKind::Commit.code(), taken: false, reason: why.reason.code() })
+            }
         })
     }
 }

@@ -15,13 +15,13 @@
 //! taken on the way.
 
 use model_core::control::calibration::Calibration;
-use model_core::control::drive::Mover;
+use model_core::control::drive::RobotDrive;
 use model_core::control::observer;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::command::Reply;
 use model_core::link::faults::{Fault, Faults};
 use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
-use model_core::link::record::Stage;
+use model_core::link::record::OperatingState;
 
 use crate::codes::{PERIODS_PER_SECOND, PERIODS_PER_TURN};
 use crate::inbox::Inbox;
@@ -48,7 +48,7 @@ pub struct Turn {
     /// True: latched faults are to be forgotten
     pub clear: bool,
     /// What the robot is doing
-    pub stage: Stage,
+    pub stage: OperatingState,
     /// The motion that is being followed
     pub reference: BodyTwist,
     /// Share of the wanted acceleration that the voltage had room for [1]
@@ -78,9 +78,9 @@ pub mod events {
 /// The motion turn and its memory.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Motion {
-    mover: Option<Mover>,
+    mover: Option<RobotDrive>,
     hello: Option<Hello>,
-    stage: Stage,
+    stage: OperatingState,
     commands: u32,
     silent: u16,
     stalls: Stalls,
@@ -93,11 +93,11 @@ impl Motion {
     fn swap(&mut self, accepted: &Accepted, turn: &mut Turn) -> bool {
         let parameters = &accepted.parameters;
         let setup = Setup::of(parameters);
-        let mut mover = Mover::of(parameters, MAX_DUTY, TURN);
+        let mut mover = RobotDrive::new(parameters, MAX_DUTY, TURN);
         if let Some(old) = &self.mover {
-            mover.go_on_from(old);
+            mover.take_over(old);
         }
-        mover.lose(self.lost);
+        mover.exclude_motors(self.lost);
         self.mover = Some(mover);
         let hello = setup.hello(parameters, accepted.check);
         let same = self.hello.is_some_and(|before| machine(&before) == machine(&hello));
@@ -128,7 +128,7 @@ impl Motion {
         let fresh = inbox.commands != self.commands;
         self.commands = inbox.commands;
         self.silent = if fresh { 0 } else { self.silent.saturating_add(1) };
-        if self.stage == Stage::Driving && self.silent >= SILENT_TURNS {
+        if self.stage == OperatingState::Driving && self.silent >= SILENT_TURNS {
             turn.faults.add(Fault::CommandSilent);
         }
         self.hello = self.hello.map(|hello| with_offsets(hello, told));
@@ -137,34 +137,34 @@ impl Motion {
         let before = self.stage;
         let faulty = !told.faults.is_empty() || !turn.faults.is_empty();
         self.stage = match before {
-            _ if faulty => Stage::Faulted,
-            _ if self.mover.is_none() => Stage::Asleep,
-            _ if !told.ready => Stage::Calibrating,
-            Stage::Asleep | Stage::Calibrating | Stage::Faulted => Stage::Open,
-            Stage::Open if fresh && !opens => Stage::Driving,
-            Stage::Driving if opens => Stage::Open,
+            _ if faulty => OperatingState::Faulted,
+            _ if self.mover.is_none() => OperatingState::Asleep,
+            _ if !told.ready => OperatingState::Calibrating,
+            OperatingState::Asleep | OperatingState::Calibrating | OperatingState::Faulted => OperatingState::Open,
+            OperatingState::Open if fresh && !opens => OperatingState::Driving,
+            OperatingState::Driving if opens => OperatingState::Open,
             stage => stage,
         };
         turn.stage = self.stage;
         let Some(mover) = &mut self.mover else { return turn };
         if told.lost != self.lost {
             self.lost = told.lost;
-            mover.lose(self.lost);
+            mover.exclude_motors(self.lost);
         }
         if self.lost != 0 {
             turn.events |= events::WHEEL_LOST;
         }
-        if self.stage != Stage::Driving {
-            mover.rest();
+        if self.stage != OperatingState::Driving {
+            mover.reset();
             self.stalls = Stalls::default();
             return turn;
         }
-        let wheels = core::array::from_fn(|j| observer::Told {
+        let wheels = core::array::from_fn(|j| observer::HallReading {
             edges: told.edges[j],
             since_edge: told.since_edge[j],
             speed: told.wheel_speed[j],
         });
-        let moved = mover.turn(&wheels, told.bus, inbox.twist);
+        let moved = mover.tick(&wheels, told.bus, inbox.twist);
         turn.reference = moved.reference;
         turn.headroom = moved.headroom;
         if moved.headroom < 1.0 {

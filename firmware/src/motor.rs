@@ -4,8 +4,8 @@
 //! steps, by the middle of its sector; once the halls tell where the rotor is between two edges, field-oriented.
 
 use model_core::control::calibration::AdcCode;
-use model_core::control::current_loop::{CurrentMemory, CurrentSeen, CurrentWant};
-use model_core::control::halls::{HallCode, HallFault, Halls, angle_of_code};
+use model_core::control::current_loop::{CurrentMeasurement, CurrentMemory, CurrentSetpoint};
+use model_core::control::halls::{HallCode, HallDecoder, HallFault, angle_of_code};
 
 use crate::codes::PERIODS_PER_TURN;
 use crate::setup::Setup;
@@ -32,7 +32,7 @@ pub struct Sensed {
 /// One motor's memory.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Motor {
-    halls: Option<Halls>,
+    halls: Option<HallDecoder>,
     memory: CurrentMemory<f32>,
     /// Electrical angle of this period [2⁻¹⁶ turn]
     angle: u16,
@@ -51,8 +51,8 @@ impl Motor {
     #[inline]
     pub fn follow(&mut self, code: HallCode) -> Result<(), HallFault> {
         match &mut self.halls {
-            Some(halls) => halls.turn(code)?,
-            None => self.halls = Some(Halls::new(code)?),
+            Some(halls) => halls.update(code)?,
+            None => self.halls = Some(HallDecoder::new(code)?),
         }
         Ok(())
     }
@@ -72,13 +72,13 @@ impl Motor {
 
     /// Duties of the next period [1]; those of no voltage where the bridge is to be open.
     #[inline]
-    pub fn decide(&mut self, setup: &Setup, sensed: &Sensed, want: &CurrentWant, closed: bool) -> [f32; 3] {
+    pub fn decide(&mut self, setup: &Setup, sensed: &Sensed, want: &CurrentSetpoint, closed: bool) -> [f32; 3] {
         let sector = self.sector(setup.six_step);
-        let seen = CurrentSeen {
+        let seen = CurrentMeasurement {
             codes: sensed.codes,
             offsets: sensed.offsets,
             angle: angle_of_code(self.angle),
-            ahead: self.halls.as_ref().map_or(0.0, Halls::ahead),
+            ahead: self.halls.as_ref().map_or(0.0, HallDecoder::ahead),
             bus: sensed.bus,
             per_bus: sensed.per_bus,
         };
@@ -110,7 +110,7 @@ impl Motor {
 
     /// The rotor, once a legal code was seen.
     #[inline]
-    pub fn halls(&self) -> Option<&Halls> {
+    pub fn halls(&self) -> Option<&HallDecoder> {
         self.halls.as_ref()
     }
 

@@ -5,8 +5,8 @@
 
 use model_core::control::calibration::AdcCode;
 use model_core::control::compensation::Compensation;
-use model_core::control::current_loop::{CurrentLoop, CurrentMemory, CurrentSeen, CurrentWant};
-use model_core::control::motion_controller::{Controller, Memory, Seen, Settings};
+use model_core::control::current_loop::{CurrentLoop, CurrentMeasurement, CurrentMemory, CurrentSetpoint};
+use model_core::control::motion_controller::{Controller, Measurement, Memory, Settings};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::paper;
@@ -58,7 +58,7 @@ pub fn hash() -> u64 {
     let mut four_state = four.start(0.0, rest, BodyTwist::from_array([0.0; 3]));
     let controller = Controller::new(&Settings {
         robot: paper::four_wheels(),
-        undo: Compensation::none(),
+        compensation: Compensation::none(),
         acceleration: [3.0, 3.0, 20.0],
         current_limit: 2.5,
         max_duty: 0.9,
@@ -76,8 +76,8 @@ pub fn hash() -> u64 {
 
         let twist = BodyTwist::from_array([draws.next(), draws.next(), 5.0 * draws.next()]);
         let acceleration = BodyTwist::from_array([3.0 * draws.next(), 3.0 * draws.next(), 10.0 * draws.next()]);
-        fold.add_all(three.robot().demand(twist, acceleration).voltage);
-        fold.add_all(four.robot().demand(twist, acceleration).voltage);
+        fold.add_all(three.robot().inverse_dynamics(twist, acceleration).voltage);
+        fold.add_all(four.robot().inverse_dynamics(twist, acceleration).voltage);
 
         let volts = [12.0 * draws.next(), 12.0 * draws.next(), 12.0 * draws.next(), 12.0 * draws.next()];
         let [a, b, c, _] = volts;
@@ -85,12 +85,13 @@ pub fn hash() -> u64 {
         fold.add_all(four.step(&mut four_state, &mut [], &Input::Voltage(volts), 1.0e-3).current);
         fold.add_all(four_state.twist.to_array());
 
-        let seen = Seen { wheel_speed: volts, bus: 12.0 };
+        let seen = Measurement { wheel_speed: volts, bus: 12.0 };
         fold.add_all(controller.tick(&mut motion, &seen, twist).voltage);
         let codes = [a, b, c].map(|x| AdcCode((2048.0 + 20.0 * x) as u16));
         let angle = 3.0 + 3.0 * draws.next();
-        let seen = CurrentSeen { codes, offsets: [2048.0; 3], angle, ahead: 0.02, bus: 12.0, per_bus: 1.0 / 12.0 };
-        let want = CurrentWant { current: draws.next(), voltage: a, closed: true };
+        let seen =
+            CurrentMeasurement { codes, offsets: [2048.0; 3], angle, ahead: 0.02, bus: 12.0, per_bus: 1.0 / 12.0 };
+        let want = CurrentSetpoint { current: draws.next(), voltage: a, closed: true };
         fold.add_all(current_loop.field_oriented(&mut winding, &seen, &want).duties);
     }
     fold.hash

@@ -7,9 +7,9 @@
 use heapless::spsc::{Consumer, Producer, Queue};
 use model_core::link::command::Reply;
 use model_core::link::faults::Faults;
-use model_core::link::framing::{self, Kind, MAX_FRAME};
+use model_core::link::framing::{self, FrameKind, MAX_FRAME};
 use model_core::link::hello::Hello;
-use model_core::link::record::Record;
+use model_core::link::record::TelemetryRecord;
 
 use crate::motion::{Turn, events};
 use crate::windings::Told;
@@ -18,7 +18,7 @@ use crate::windings::Told;
 #[derive(Clone, Copy, Debug)]
 pub enum Message {
     /// What a motion turn leaves behind
-    Record(Record),
+    Record(TelemetryRecord),
     /// How to read the records
     Hello(Hello),
     /// An answer to a command
@@ -58,10 +58,10 @@ pub fn split(room: &'static mut Room) -> (Sender, Post) {
 impl Sender {
     /// What this turn leaves behind; `load` is (load [‰], jitter [cycles]).
     pub fn turn(&mut self, told: &Told, turn: &Turn, (load, jitter): (u16, u16)) {
-        let record = Record {
+        let record = TelemetryRecord {
             sequence: self.sequence,
             time: told.period,
-            stage: turn.stage,
+            state: turn.stage,
             enabled: turn.ask.enabled,
             events: turn.events,
             faults: Faults::from_bits(told.faults.bits() | told.costs.bits() | turn.faults.bits()),
@@ -100,9 +100,15 @@ impl Post {
         if self.sent >= self.len {
             let message = self.queue.dequeue()?;
             let made = match message {
-                Message::Record(record) => framing::frame(Kind::Record.code(), &record.to_bytes(), &mut self.frame),
-                Message::Hello(hello) => framing::frame(Kind::Hello.code(), &hello.to_bytes(), &mut self.frame),
-                Message::Reply(reply) => framing::frame(Kind::Reply.code(), &reply.to_bytes(), &mut self.frame),
+                Message::Record(record) => {
+                    framing::encode_frame(FrameKind::Record.code(), &record.to_bytes(), &mut self.frame)
+                }
+                Message::Hello(hello) => {
+                    framing::encode_frame(FrameKind::Hello.code(), &hello.to_bytes(), &mut self.frame)
+                }
+                Message::Reply(reply) => {
+                    framing::encode_frame(FrameKind::Reply.code(), &reply.to_bytes(), &mut self.frame)
+                }
             };
             self.len = made.map_or(0, <[u8]>::len);
             self.sent = 0;

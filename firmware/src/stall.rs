@@ -10,7 +10,7 @@
 //! the motion it is to follow: it shows where a voltage stands alone and a blocked motor draws little, and where the
 //! halls are stuck at a code that is legal. Two edges net, because a wheel that trembles on an edge crosses it for ever.
 
-use model_core::control::drive::Moved;
+use model_core::control::drive::DriveOutput;
 
 use crate::codes::MOTORS;
 use crate::motion::TURN;
@@ -48,7 +48,7 @@ pub struct Stalls([Stall; MOTORS]);
 impl Stalls {
     /// One turn; one bit a motor that is stalled. `limit` is the motors' current limit [A], `edge` the angle of the
     /// wheel from one hall edge to the next [rad].
-    pub fn turn(&mut self, told: &Told, moved: &Moved, limit: f32, edge: f32) -> u8 {
+    pub fn turn(&mut self, told: &Told, moved: &DriveOutput, limit: f32, edge: f32) -> u8 {
         let mut stalled = 0;
         for j in 0..MOTORS {
             let stall = &mut self.0[j];
@@ -83,7 +83,7 @@ mod tests {
         let mut stalls = Stalls::default();
         (1..=turns).find(|turn| {
             let mut told = Told::default();
-            let mut moved = Moved::default();
+            let mut moved = DriveOutput::default();
             (told.current[1], told.edges[1], moved.wheel_speed[1]) = (current, edges(*turn), speed);
             stalls.turn(&told, &moved, LIMIT, EDGE) == 0b0010
         })
@@ -120,6 +120,6 @@ mod tests {
         let mut stalls = Stalls::default();
         let mut told = Told { lost: 0b0010, ..Told::default() };
         told.current[1] = 4.0;
-        assert!((0..1000).all(|_| stalls.turn(&told, &Moved::default(), LIMIT, EDGE) == 0));
+        assert!((0..1000).all(|_| stalls.turn(&told, &DriveOutput::default(), LIMIT, EDGE) == 0));
     }
 }

@@ -13,7 +13,7 @@
 //! A voltage decided in one period holds over the next (compare registers are loaded at the update), so the mean that a
 //! record tells covers exactly the periods from its predecessor's codes to its own.
 
-use model_core::control::current_loop::CurrentWant;
+use model_core::control::current_loop::CurrentSetpoint;
 use model_core::control::halls::HallCode;
 use model_core::link::faults::{Fault, Faults};
 
@@ -181,7 +181,7 @@ impl Windings {
                 continue;
             }
             let sensed = Sensed { codes: codes.phases[j], offsets: self.offsets.of(j), bus, per_bus };
-            let want = CurrentWant { current: ask.current[j], voltage: ask.voltage[j], closed: ask.closed };
+            let want = CurrentSetpoint { current: ask.current[j], voltage: ask.voltage[j], closed: ask.closed };
             let place = Place { motor: j, ready, closed: may >> j & 1 != 0 };
             drive.duties[j] = turn_of(motor, &mut self.guard, &self.setup, &place, codes.halls[j], &sensed, &want);
         }
@@ -250,7 +250,7 @@ fn turn_of(
     place: &Place,
     hall: HallCode,
     sensed: &Sensed,
-    want: &CurrentWant,
+    want: &CurrentSetpoint,
 ) -> [f32; 3] {
     match motor.follow(hall) {
         Ok(()) => guard.good_hall(place.motor),

@@ -14,7 +14,7 @@ mod tests {
     use firmware::board::Parts;
     use firmware::codes::{MOTORS, PERIODS_PER_SECOND};
     use firmware::registers::timing;
-    use model_core::control::halls::Halls;
+    use model_core::control::halls::HallDecoder;
 
     #[init]
     fn init() -> Parts {
@@ -27,13 +27,13 @@ mod tests {
         parts.bridges.start();
         info!("turn one wheel forward, at least two turns of the motor, within a minute");
         let (first, _) = group(&mut parts);
-        let mut halls = first.halls.map(|code| Halls::new(code).ok());
+        let mut halls = first.halls.map(|code| HallDecoder::new(code).ok());
         let mut last = first.halls;
         for _ in 0..60 * PERIODS_PER_SECOND {
             let (codes, _) = group(&mut parts);
             for motor in 0..MOTORS {
                 let Some(followed) = &mut halls[motor] else { continue };
-                assert!(followed.turn(codes.halls[motor]).is_ok(), "motor {}: a code out of sequence", motor);
+                assert!(followed.update(codes.halls[motor]).is_ok(), "motor {}: a code out of sequence", motor);
                 if codes.halls[motor] != last[motor] {
                     last[motor] = codes.halls[motor];
                     info!("motor {}: code {}, {} edges", motor, last[motor].0, followed.edges());

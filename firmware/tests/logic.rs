@@ -12,11 +12,11 @@ use firmware::windings::Told;
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::{Parameters, Reason};
+use model_core::link::block::{BlockErrorKind, Parameters};
 use model_core::link::command::{Command, Reply};
 use model_core::link::faults::{Fault, Faults};
-use model_core::link::framing::{Kind, MAX_FRAME};
-use model_core::link::record::Stage;
+use model_core::link::framing::{FrameKind, MAX_FRAME};
+use model_core::link::record::OperatingState;
 use model_core::plant::paper::{four_wheels, three_wheels};
 use program::{Program, block, bytes, still};
 
@@ -43,7 +43,7 @@ fn without_parameters_nothing_is_driven() {
     program.turns(100, &still());
     program.drive();
     assert_eq!(program.turns(20, &still()).enabled, 0);
-    assert_eq!(program.turn.stage, Stage::Asleep);
+    assert_eq!(program.turn.stage, OperatingState::Asleep);
 }
 
 #[test]
@@ -54,12 +54,12 @@ fn only_a_fresh_command_closes_the_bridges_of_the_motors_that_the_robot_has() {
         // heard before anything is ready, and not kept for later
         program.drive();
         assert_eq!(program.turns(100, &still()).enabled, 0);
-        assert_eq!(program.turn.stage, Stage::Open);
+        assert_eq!(program.turn.stage, OperatingState::Open);
         program.drive();
         assert_eq!(program.turns(2, &still()).enabled, motors);
         program.command(&Command::Open);
         assert_eq!(program.turns(2, &still()).enabled, 0);
-        assert_eq!(program.turn.stage, Stage::Open);
+        assert_eq!(program.turn.stage, OperatingState::Open);
     }
 }
 
@@ -76,7 +76,10 @@ fn a_command_does_not_restart_a_robot_with_a_fault_and_a_clear_does_not_drive_it
     program.drive();
     program.command(&Command::Clear);
     assert_eq!(program.turns(20, &still()).enabled, 0);
-    assert_eq!((program.turn.stage, program.records.last().map(|r| r.faults)), (Stage::Open, Some(Faults::NONE)));
+    assert_eq!(
+        (program.turn.stage, program.records.last().map(|r| r.faults)),
+        (OperatingState::Open, Some(Faults::NONE))
+    );
     program.drive();
     assert_eq!(program.turns(2, &still()).enabled, 0b1111);
 }
@@ -91,7 +94,7 @@ fn a_lost_wheel_opens_in_the_turn_that_sees_it_and_is_named_while_the_others_dri
     program.turns(2, &still());
     let last = program.records.last().expect("records");
     assert!(last.faults.iter().eq([Fault::HallCode]) && last.events & events::WHEEL_LOST != 0);
-    assert_eq!((last.stage, last.enabled), (Stage::Driving, 0b1011));
+    assert_eq!((last.state, last.enabled), (OperatingState::Driving, 0b1011));
 }
 
 #[test]
@@ -100,7 +103,7 @@ fn a_second_wheel_stops_the_robot() {
     program.turns(1, &bad_hall(2));
     assert_eq!(program.turns(1, &bad_hall(0)).enabled, 0);
     program.turns(1, &still());
-    assert_eq!(program.turn.stage, Stage::Faulted);
+    assert_eq!(program.turn.stage, OperatingState::Faulted);
 }
 
 #[test]
@@ -109,7 +112,7 @@ fn a_clear_while_three_wheels_drive_opens_all_and_waits_for_a_command() {
     program.turns(2, &bad_hall(1));
     program.command(&Command::Clear);
     assert_eq!(program.turns(2, &still()).enabled, 0);
-    assert_eq!(program.turn.stage, Stage::Open);
+    assert_eq!(program.turn.stage, OperatingState::Open);
     program.drive();
     assert_eq!(program.turns(2, &still()).enabled, 0b1111);
 }
@@ -130,7 +133,7 @@ fn halls_that_are_wrong_from_the_start_never_drive() {
     program.turns(100, &bad_hall(0));
     program.drive();
     assert_eq!(program.turns(5, &bad_hall(0)).enabled, 0);
-    assert_eq!(program.turn.stage, Stage::Faulted);
+    assert_eq!(program.turn.stage, OperatingState::Faulted);
 }
 
 #[test]
@@ -210,7 +213,7 @@ fn a_command_that_is_only_repeated_is_silence() {
         program.turns(10, &still());
     }
     let last = program.records.last().expect("records");
-    assert!(last.faults.has(Fault::CommandSilent) && last.stage == Stage::Faulted);
+    assert!(last.faults.has(Fault::CommandSilent) && last.state == OperatingState::Faulted);
 }
 
 #[test]
@@ -222,14 +225,14 @@ fn a_block_is_made_of_its_own_chunks_alone() {
         program.command(&commit);
         program.inbox.reply.expect("an answer")
     };
-    let answer = |reason: Reason| Reply { to: Kind::Commit.code(), taken: false, reason: reason.code() };
-    assert_eq!(refused(&mut program), answer(Reason::Magic));
+    let answer = |reason: BlockErrorKind| Reply { to: FrameKind::Commit.code(), taken: false, reason: reason.code() };
+    assert_eq!(refused(&mut program), answer(BlockErrorKind::Magic));
     program.send_block(&block);
     assert!(program.inbox.reply.is_some_and(|reply| reply.taken));
     // nothing was sent since
-    assert_eq!(refused(&mut program), answer(Reason::Magic));
+    assert_eq!(refused(&mut program), answer(BlockErrorKind::Magic));
     program.command(&Command::Chunk { offset: 0, bytes: &block[..128] });
-    assert_eq!(refused(&mut program), answer(Reason::Checksum));
+    assert_eq!(refused(&mut program), answer(BlockErrorKind::Checksum));
     // a chunk that would not fit leaves no trace
     program.command(&Command::Chunk { offset: 511, bytes: &[1, 2] });
     program.command(&Command::Chunk { offset: u16::MAX, bytes: &[1] });
@@ -246,7 +249,7 @@ fn a_block_that_was_kept_is_taken_and_a_spoilt_one_is_a_fault() {
     let mut program = Program::new();
     program.inbox.put(Listener::default().restore(&kept).expect("something was kept"));
     program.turns(60, &still());
-    assert_eq!(program.turn.stage, Stage::Faulted);
+    assert_eq!(program.turn.stage, OperatingState::Faulted);
     assert!(program.records.last().is_some_and(|last| last.faults.has(Fault::BadBlock)));
 }
 
@@ -266,10 +269,11 @@ fn what_finds_no_room_is_counted() {
     }
     sender.turn(&Told::default(), &firmware::motion::Turn::default(), (0, 0));
     sent.extend_from_slice(post.waiting().expect("one more"));
-    let mut decoder = model_core::link::framing::Decoder::new();
+    let mut decoder = model_core::link::framing::FrameDecoder::new();
     let mut records = Vec::new();
     for byte in sent {
-        records.extend(decoder.push(byte).and_then(|f| model_core::link::record::Record::from_bytes(f.payload)));
+        records
+            .extend(decoder.push(byte).and_then(|f| model_core::link::record::TelemetryRecord::from_bytes(f.payload)));
     }
     // a queue of 8 holds 7
     let told: Vec<(u32, u16)> = records.iter().map(|record| (record.sequence, record.dropped)).collect();

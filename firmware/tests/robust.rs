@@ -8,7 +8,7 @@ use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
 use model_core::link::block::Parameters;
 use model_core::link::command::Command;
-use model_core::link::framing::{MAX_FRAME, MAX_PAYLOAD, frame};
+use model_core::link::framing::{MAX_FRAME, MAX_PAYLOAD, encode_frame};
 use model_core::plant::paper::{four_wheels, three_wheels};
 use program::{Program, block, bytes, still};
 
@@ -46,7 +46,7 @@ impl Dice {
         let payload: Vec<u8> = (0..self.below(1 + MAX_PAYLOAD as u64)).map(|_| self.byte()).collect();
         let length = [0, 2, 14, payload.len(), payload.len()][self.below(5) as usize].min(payload.len());
         let mut room = [0; MAX_FRAME];
-        frame(self.byte() % 10, &payload[..length], &mut room).expect("it fits").to_vec()
+        encode_frame(self.byte() % 10, &payload[..length], &mut room).expect("it fits").to_vec()
     }
 }
 

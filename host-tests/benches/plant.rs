@@ -20,7 +20,7 @@ fn model(effects: &[&str]) -> Model<4> {
     let mut model = Model::nominal(&file, 12.0);
     for id in effects {
         let card = effects::find::<f64>(id).expect("an id of the catalogue").card();
-        let wheel = (card.place == model_core::effects::card::Place::OneWheel).then_some(2);
+        let wheel = (card.scope == model_core::effects::card::Scope::OneWheel).then_some(2);
         model.carry(Carried::typical(card, wheel));
     }
     model

@@ -4,7 +4,7 @@
 //! recordings are sound and raise nothing. Then faults of recordings are put in, and each must be found and named.
 
 use model_core::effects;
-use model_core::effects::card::{Place, Role};
+use model_core::effects::card::{Role, Scope};
 use omni_gap::check::{Fault, check};
 use omni_gap::log::{Channel, Group, RobotFile, Run, Session};
 use omni_gap::simulate::Carried;
@@ -32,10 +32,10 @@ fn effects_at(times: f64, wheels: usize) -> Vec<Carried> {
     let mut all = Vec::new();
     for effect in effects::catalogue::<f64>() {
         let card = effect.card();
-        let places = match card.place {
-            Place::Robot => vec![None],
-            Place::Wheels => vec![None, Some(wheels - 1)],
-            Place::OneWheel => vec![Some(0), Some(wheels - 1)],
+        let places = match card.scope {
+            Scope::Robot => vec![None],
+            Scope::Wheels => vec![None, Some(wheels - 1)],
+            Scope::OneWheel => vec![Some(0), Some(wheels - 1)],
         };
         for place in places {
             let mut carried = Carried::typical(card, place);

@@ -16,9 +16,11 @@ use firmware::setup::{MAX_DUTY, Setup};
 use firmware::windings::{Ask, Drive, Windings};
 use model_core::control::calibration::AdcCode;
 use model_core::control::compensation::Compensation;
-use model_core::control::current_loop::{CurrentDecided, CurrentLoop, CurrentMemory, CurrentSeen, CurrentWant};
-use model_core::control::halls::{HallCode, Halls};
-use model_core::control::motion_controller::{Asked, Controller, Decided, Memory, Seen, Settings};
+use model_core::control::current_loop::{
+    CurrentLoop, CurrentMeasurement, CurrentMemory, CurrentOutput, CurrentSetpoint,
+};
+use model_core::control::halls::{HallCode, HallDecoder};
+use model_core::control::motion_controller::{Controller, Demand, Measurement, Memory, Output, Settings};
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{Block, Limits, Parameters};
 use model_core::plant::paper;
@@ -44,12 +46,12 @@ fn say(name: &str, detail: &str, instructions: u32) {
 // The motion turn
 
 #[inline(never)]
-fn tick<const N: usize>(c: &Controller<N>, memory: &mut Memory, seen: &Seen<N>, want: &BodyTwist) -> Decided<N> {
+fn tick<const N: usize>(c: &Controller<N>, memory: &mut Memory, seen: &Measurement<N>, want: &BodyTwist) -> Output<N> {
     c.tick(memory, seen, *want)
 }
 
 #[inline(never)]
-fn feedforward(c: &Controller<4>, twist: &BodyTwist, acceleration: &BodyTwist) -> Asked<4> {
+fn feedforward(c: &Controller<4>, twist: &BodyTwist, acceleration: &BodyTwist) -> Demand<4> {
     c.feedforward(*twist, *acceleration, 0.3)
 }
 
@@ -60,7 +62,7 @@ const FAR: BodyTwist = BodyTwist { v: 1.4, vn: 0.6, w: -1.5 };
 fn settings<const N: usize>(robot: Robot<N>, undo: Compensation<N>) -> Settings<N> {
     Settings {
         robot,
-        undo,
+        compensation: undo,
         acceleration: [3.0, 3.0, 20.0],
         current_limit: 4.0,
         max_duty: MAX_DUTY,
@@ -75,7 +77,7 @@ fn settings<const N: usize>(robot: Robot<N>, undo: Compensation<N>) -> Settings<
 fn tick_costs<const N: usize>(watch: &mut Stopwatch, settings: &Settings<N>, want: BodyTwist, bus: f32) -> u32 {
     let controller = Controller::new(settings);
     let start = Memory { reference: MOVING, heading: 0.3, integral: [0.1, -0.1, 0.01] };
-    let seen = Seen { wheel_speed: core::array::from_fn(|j| 8.0 - 5.0 * j as f32), bus };
+    let seen = Measurement { wheel_speed: core::array::from_fn(|j| 8.0 - 5.0 * j as f32), bus };
     let (controller, seen, want) = (black_box(controller), black_box(seen), black_box(want));
     watch.cost(|| start, |memory| tick(&controller, memory, &seen, &want))
 }
@@ -117,12 +119,23 @@ fn undone(watch: &mut Stopwatch) {
 // The current turn
 
 #[inline(never)]
-fn field_oriented(l: &CurrentLoop, m: &mut CurrentMemory, s: &CurrentSeen, w: &CurrentWant) -> CurrentDecided {
+fn field_oriented(
+    l: &CurrentLoop,
+    m: &mut CurrentMemory,
+    s: &CurrentMeasurement,
+    w: &CurrentSetpoint,
+) -> CurrentOutput {
     l.field_oriented(m, s, w)
 }
 
 #[inline(never)]
-fn six_step(l: &CurrentLoop, m: &mut CurrentMemory, s: &CurrentSeen, sector: u8, w: &CurrentWant) -> CurrentDecided {
+fn six_step(
+    l: &CurrentLoop,
+    m: &mut CurrentMemory,
+    s: &CurrentMeasurement,
+    sector: u8,
+    w: &CurrentSetpoint,
+) -> CurrentOutput {
     l.six_step(m, s, sector, w)
 }
 
@@ -130,11 +143,11 @@ fn currents(watch: &mut Stopwatch) {
     let current_loop = black_box(CurrentLoop::new(4.3, 0.6e-3, 0.0049, 2000.0, 50.0e-6, MAX_DUTY));
     let codes = [AdcCode(2100), AdcCode(2000), AdcCode(2044)];
     let offsets = [2048.0, 2047.5, 2049.1];
-    let seen = black_box(CurrentSeen { codes, offsets, angle: 2.0, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 });
+    let seen = black_box(CurrentMeasurement { codes, offsets, angle: 2.0, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 });
     let wants = [
-        ("", CurrentWant { current: 0.3, voltage: 3.0, closed: true }),
-        (", voltage at its limit", CurrentWant { current: 2.0, voltage: 20.0, closed: true }),
-        (", voltage alone", CurrentWant { current: 0.0, voltage: 3.0, closed: false }),
+        ("", CurrentSetpoint { current: 0.3, voltage: 3.0, closed: true }),
+        (", voltage at its limit", CurrentSetpoint { current: 2.0, voltage: 20.0, closed: true }),
+        (", voltage alone", CurrentSetpoint { current: 0.0, voltage: 3.0, closed: false }),
     ];
     // integrals as they are found, so that the case stays what it is
     let found = || (CurrentMemory { d: 0.02, q: 0.5 }, 1_u8);
@@ -149,12 +162,14 @@ fn currents(watch: &mut Stopwatch) {
 }
 
 #[inline(never)]
-fn hall_turn(halls: &mut Halls, code: HallCode) -> bool {
-    halls.turn(code).is_ok()
+fn hall_turn(halls: &mut HallDecoder, code: HallCode) -> bool {
+    halls.update(code).is_ok()
 }
 
 fn halls(watch: &mut Stopwatch) {
-    let Ok(mut halls) = Halls::new(HallCode::of_sector(0)) else { board::fail(format_args!("sector 0 is legal")) };
+    let Ok(mut halls) = HallDecoder::new(HallCode::of_sector(0)) else {
+        board::fail(format_args!("sector 0 is legal"))
+    };
     let cost = watch.cost(|| HallCode::of_sector(0), |code| hall_turn(&mut halls, *code));
     say("halls, no edge", "", cost);
     let mut sector = 0;

@@ -10,11 +10,11 @@ use firmware::windings::{Drive, Windings};
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::{Block, BlockEffects, Limits, MAX_BYTES, Mode, Parameters};
+use model_core::link::block::{Block, BlockEffects, ControlMode, Limits, MAX_BYTES, Parameters};
 use model_core::link::command::{Command, MAX_CHUNK};
-use model_core::link::framing::{Decoder, Kind, MAX_FRAME};
+use model_core::link::framing::{FrameDecoder, FrameKind, MAX_FRAME};
 use model_core::link::hello::Commutation;
-use model_core::link::record::Record;
+use model_core::link::record::TelemetryRecord;
 use model_core::plant::robot::Robot;
 
 /// A block for the paper's robot.
@@ -22,7 +22,7 @@ pub fn block<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
     Block {
         robot,
         inductance: 0.6e-3,
-        mode: Mode::Current,
+        mode: ControlMode::Current,
         feedforward: true,
         commutation: Commutation::FieldOriented,
         pole_pairs: 8,
@@ -67,8 +67,8 @@ pub struct Program {
     pub listener: Listener,
     sender: Sender,
     post: Post,
-    decoder: Decoder,
-    pub records: Vec<Record>,
+    decoder: FrameDecoder,
+    pub records: Vec<TelemetryRecord>,
     /// What the last motion turn decided
     pub turn: Turn,
     sequence: u16,
@@ -84,7 +84,7 @@ impl Program {
             listener: Listener::default(),
             sender,
             post,
-            decoder: Decoder::new(),
+            decoder: FrameDecoder::new(),
             records: Vec::new(),
             turn: Turn::default(),
             sequence: 0,
@@ -147,9 +147,9 @@ impl Program {
                 let count = bytes.len();
                 for byte in bytes {
                     if let Some(frame) = self.decoder.push(*byte)
-                        && frame.kind == Kind::Record.code()
+                        && frame.kind == FrameKind::Record.code()
                     {
-                        self.records.extend(Record::from_bytes(frame.payload));
+                        self.records.extend(TelemetryRecord::from_bytes(frame.payload));
                     }
                 }
                 self.post.sent(count);

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use model_core::effects;
-use model_core::effects::card::Place;
+use model_core::effects::card::Scope;
 use omni_gap::error::Result;
 use omni_gap::known_effects;
 use omni_gap::log::Session;
@@ -92,7 +92,7 @@ pub struct Case {
 pub fn cases() -> Vec<Case> {
     let effects = effects::catalogue::<f64>().iter().map(|effect| {
         let card = effect.card();
-        Hidden::Effect(Carried::typical(card, (card.place == Place::OneWheel).then_some(THE_WHEEL)))
+        Hidden::Effect(Carried::typical(card, (card.scope == Scope::OneWheel).then_some(THE_WHEEL)))
     });
     let nothing = std::iter::repeat_n(Hidden::Nothing, NOTHING_EACH);
     let all = effects.chain(nothing).chain(WRONG.map(Hidden::Parameter));

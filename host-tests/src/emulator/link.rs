@@ -4,12 +4,12 @@ use std::collections::VecDeque;
 
 use firmware::exchange::{Bytes, LINK_BYTES};
 use model_core::link::command::Command;
-use model_core::link::framing::{Decoder, MAX_FRAME};
+use model_core::link::framing::{FrameDecoder, MAX_FRAME};
 
 /// A frame that has come from the robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// Its kind, see `model_core::link::framing::Kind`
+    /// Its kind, see `model_core::link::framing::FrameKind`
     pub kind: u8,
     /// What it carries
     pub payload: Vec<u8>,
@@ -19,7 +19,7 @@ pub struct Frame {
 #[derive(Clone, Debug, Default)]
 pub struct Line {
     waiting: VecDeque<u8>,
-    decoder: Decoder,
+    decoder: FrameDecoder,
     frames: Vec<Frame>,
     /// Every byte that has come, as a recorder would keep it
     received: Vec<u8>,
@@ -75,7 +75,7 @@ impl Line {
 mod tests {
     use super::*;
     use model_core::geometry::frames::BodyTwist;
-    use model_core::link::framing::{Kind, frame};
+    use model_core::link::framing::{FrameKind, encode_frame};
 
     #[test]
     fn a_command_leaves_in_pieces_of_a_period_and_comes_whole() {
@@ -99,11 +99,11 @@ mod tests {
     #[test]
     fn a_frame_between_broken_ones_is_found() {
         let mut room = [0; MAX_FRAME];
-        let whole = frame(Kind::Reply.code(), &[1, 2, 3], &mut room).expect("it fits").to_vec();
+        let whole = encode_frame(FrameKind::Reply.code(), &[1, 2, 3], &mut room).expect("it fits").to_vec();
         let mut line = Line::default();
         for piece in [&[9, 9, 0][..], &whole, &[4, 1, 0]].concat().chunks(LINK_BYTES) {
             line.take(&Bytes::of(piece));
         }
-        assert_eq!(line.frames(), [Frame { kind: Kind::Reply.code(), payload: vec![1, 2, 3] }]);
+        assert_eq!(line.frames(), [Frame { kind: FrameKind::Reply.code(), payload: vec![1, 2, 3] }]);
     }
 }

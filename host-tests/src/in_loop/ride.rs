@@ -4,9 +4,9 @@ use firmware::exchange::Up;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::link::block::{MAX_BYTES, Parameters};
 use model_core::link::command::{Command, MAX_CHUNK, Reply};
-use model_core::link::framing::Kind;
+use model_core::link::framing::FrameKind;
 use model_core::link::hello::Hello;
-use model_core::link::record::Record;
+use model_core::link::record::TelemetryRecord;
 
 use crate::emulator::{Brain, Lockstep, Trouble};
 use crate::virtual_board::VirtualBoard;
@@ -37,7 +37,7 @@ pub struct Taken {
     /// The truth, a thousand times a second
     pub moments: Vec<Moment>,
     /// What the robot said of its turns
-    pub records: Vec<Record>,
+    pub records: Vec<TelemetryRecord>,
     /// How to read them
     pub hellos: Vec<Hello>,
     /// What it answered
@@ -167,10 +167,10 @@ impl<B: Brain, const N: usize> Ride<B, N> {
     fn read(&mut self) {
         for frame in self.lockstep.line.frames() {
             let payload = &frame.payload;
-            match Kind::from_code(frame.kind) {
-                Some(Kind::Record) => self.taken.records.extend(Record::from_bytes(payload)),
-                Some(Kind::Hello) => self.taken.hellos.extend(Hello::from_bytes(payload)),
-                Some(Kind::Reply) => self.taken.replies.extend(Reply::from_bytes(payload)),
+            match FrameKind::from_code(frame.kind) {
+                Some(FrameKind::Record) => self.taken.records.extend(TelemetryRecord::from_bytes(payload)),
+                Some(FrameKind::Hello) => self.taken.hellos.extend(Hello::from_bytes(payload)),
+                Some(FrameKind::Reply) => self.taken.replies.extend(Reply::from_bytes(payload)),
                 _ => {}
             }
         }
@@ -183,7 +183,7 @@ mod tests {
     use crate::in_loop::{Software, robots};
     use crate::virtual_board::Setup;
     use model_core::effects::active::Effects;
-    use model_core::link::record::Stage;
+    use model_core::link::record::OperatingState;
     use model_core::plant::paper::four_wheels;
 
     #[test]
@@ -195,6 +195,6 @@ mod tests {
         ride.follow(1.0, |_| BodyTwist { v: 0.5, vn: 0.0, w: 0.0 }).expect("software does not fail");
         let last = ride.taken.moments.last().expect("moments");
         assert!((last.twist.v - 0.5).abs() < 0.02, "{:?}", last.twist);
-        assert_eq!(ride.taken.records.last().map(|record| record.stage), Some(Stage::Driving));
+        assert_eq!(ride.taken.records.last().map(|record| record.state), Some(OperatingState::Driving));
     }
 }

@@ -16,7 +16,7 @@
 use model_core::effects;
 use model_core::effects::active::Effects;
 use model_core::geometry::kinematics::Wheels;
-use model_core::link::block::{Block, BlockEffects, Limits, Mode, Parameters};
+use model_core::link::block::{Block, BlockEffects, ControlMode, Limits, Parameters};
 use model_core::link::hello::Commutation;
 use model_core::plant::robot::Robot;
 use rand::SeedableRng;
@@ -66,7 +66,7 @@ pub fn block<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
     Block {
         robot,
         inductance: 0.6e-3,
-        mode: Mode::Current,
+        mode: ControlMode::Current,
         feedforward: true,
         commutation: Commutation::FieldOriented,
         pole_pairs: 8,

@@ -8,7 +8,7 @@
 //! then clipped by itself, on the plant of the core under voltages, with wheel speeds that it need not measure.
 
 use model_core::control::compensation::Compensation;
-use model_core::control::motion_controller::{Controller, Memory, Seen, Settings};
+use model_core::control::motion_controller::{Controller, Measurement, Memory, Settings};
 use model_core::effects::active::Effects;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::link::block::Block;
@@ -85,7 +85,7 @@ where
 pub fn clipped<const N: usize>(believed: &Robot<N, f64>, truth: &Robot<N, f64>, block: &Block<N>) -> Aside {
     let controller = Controller::new(&Settings {
         robot: *believed,
-        undo: Compensation::none(),
+        compensation: Compensation::none(),
         acceleration: ACCELERATION.map(f64::from),
         current_limit: f64::from(block.limits.current),
         max_duty: MAX_DUTY,
@@ -100,7 +100,7 @@ pub fn clipped<const N: usize>(believed: &Robot<N, f64>, truth: &Robot<N, f64>, 
     let mut memory = Memory::default();
     let (mut moments, mut short) = (Vec::new(), Vec::new());
     for k in 0..(WATCHED / TURN) as usize {
-        let seen = Seen { wheel_speed: truth.wheels.wheel_speeds(state.twist), bus: f64::INFINITY };
+        let seen = Measurement { wheel_speed: truth.wheels.wheel_speeds(state.twist), bus: f64::INFINITY };
         let decided = controller.tick(&mut memory, &seen, want());
         let most = MAX_DUTY * truth.supply;
         let voltage = decided.voltage.map(|u| u.clamp(-most, most));

@@ -6,7 +6,7 @@
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::command::Command;
 use model_core::link::faults::Fault;
-use model_core::link::record::Stage;
+use model_core::link::record::OperatingState;
 
 use super::Ride;
 use crate::emulator::{Brain, Trouble};
@@ -50,9 +50,9 @@ pub fn play<B: Brain, const N: usize>(ride: &mut Ride<B, N>) -> Result<Silence, 
     let rests = after(last + opens, &|m| m.twist.to_array().iter().all(|x| x.abs() < 1e-3));
     let told = ride.taken.records.last().is_some_and(|r| r.faults.bits() == Fault::CommandSilent.bit());
     ride.follow(0.1, |_| go)?;
-    let stage = |ride: &Ride<B, N>| ride.taken.records.last().map(|r| r.stage);
-    let stays = stage(ride) == Some(Stage::Faulted);
+    let stage = |ride: &Ride<B, N>| ride.taken.records.last().map(|r| r.state);
+    let stays = stage(ride) == Some(OperatingState::Faulted);
     ride.lockstep.line.command(&Command::Clear);
     ride.follow(0.3, |_| go)?;
-    Ok(Silence { opens, rests, speed, told, stays, drives_again: stage(ride) == Some(Stage::Driving) })
+    Ok(Silence { opens, rests, speed, told, stays, drives_again: stage(ride) == Some(OperatingState::Driving) })
 }

@@ -5,7 +5,7 @@
 
 use model_core::geometry::frames::Pose;
 use model_core::link::block::Block;
-use model_core::link::record::{Record, Stage};
+use model_core::link::record::{OperatingState, TelemetryRecord};
 use model_core::plant::robot::Robot;
 
 use super::eight::{self, Path, Tracked};
@@ -144,9 +144,9 @@ pub fn difference(one: &Taken, other: &Taken, clocked: bool) -> Option<String> {
     if n != m {
         return Some(format!("{n} records against {m}"));
     }
-    let bits = |record: &Record| {
+    let bits = |record: &TelemetryRecord| {
         let clock = if clocked { (record.load, record.jitter) } else { (0, 0) };
-        Record { load: clock.0, jitter: clock.1, ..*record }.to_bytes()
+        TelemetryRecord { load: clock.0, jitter: clock.1, ..*record }.to_bytes()
     };
     for (a, b) in one.records.iter().zip(&other.records) {
         if bits(a) != bits(b) {
@@ -161,6 +161,6 @@ pub fn difference(one: &Taken, other: &Taken, clocked: bool) -> Option<String> {
 
 /// Worst load [‰] and jitter [cycles] that a program told while it drove.
 pub fn load(taken: &Taken) -> [u16; 2] {
-    let driving = taken.records.iter().filter(|record| record.stage == Stage::Driving);
+    let driving = taken.records.iter().filter(|record| record.state == OperatingState::Driving);
     driving.fold([0; 2], |[load, jitter], record| [load.max(record.load), jitter.max(record.jitter)])
 }

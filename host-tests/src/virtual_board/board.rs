@@ -18,7 +18,7 @@ use firmware::codes::{Codes, MOTORS};
 use firmware::exchange::TOPS;
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
-use model_core::effects::active::{Active, Effects};
+use model_core::effects::active::{ActiveEffect, Effects};
 use model_core::effects::card::Seam;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::robot::Robot;
@@ -307,7 +307,7 @@ impl Motor {
     fn new<const N: usize>(setup: &Setup<N>, j: usize, dice: &mut ChaCha8Rng) -> Self {
         let motor = setup.robot.motor;
         let params = |id: &str| {
-            let on = |active: &&Active<f64>| active.effect.card().id == id && active.on(j);
+            let on = |active: &&ActiveEffect<f64>| active.effect.card().id == id && active.on(j);
             setup.effects.iter().find(on).map_or(Vec::new(), |active| active.params().to_vec())
         };
         let (k, rho) = if let [k, rho] = params("motor_mismatch")[..] { (k, rho) } else { (1.0, 1.0) };
@@ -340,8 +340,8 @@ impl Motor {
 }
 
 /// True for an effect that acts where the plant is: all but those of battery and bridge.
-fn in_plant(active: &Active<f64>) -> bool {
-    active.effect.card().seams.iter().any(|seam| !matches!(seam, Seam::Supply | Seam::Drive))
+fn in_plant(active: &ActiveEffect<f64>) -> bool {
+    active.effect.card().seams.iter().any(|seam| !matches!(seam, Seam::Supply | Seam::Bridge))
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 //! Faults are injected one by one and stay until they are healed.
 
 use model_core::effects::Effect;
-use model_core::effects::card::{Card, Place, Seam};
-use model_core::effects::seams::{At, Gear};
+use model_core::effects::card::{Card, Scope, Seam};
+use model_core::effects::seams::{EffectContext, Gear};
 
 /// Something that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +61,7 @@ static CARD: Card = Card {
     equation: "damping → damping + 10⁹ N·m·s/rad",
     source: "a fault of the virtual board",
     seams: &[Seam::Gear],
-    place: Place::OneWheel,
+    scope: Scope::OneWheel,
     params: &[],
     memory: 0,
     needs_current: false,
@@ -74,7 +74,7 @@ impl Effect<f64> for BlockedWheel {
         &CARD
     }
 
-    fn gear(&self, _: &[f64], _: &[f64], _: &At<f64>, x: &mut Gear<f64>) {
+    fn gear(&self, _: &[f64], _: &[f64], _: &EffectContext<f64>, x: &mut Gear<f64>) {
         x.damping += HELD;
     }
 }

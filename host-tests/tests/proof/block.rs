@@ -1,7 +1,7 @@
 //! The parameter block names the effects by numbers that never change, and knows every card.
 
 use model_core::effects;
-use model_core::link::block::KNOWN;
+use model_core::link::block::EFFECT_CODES;
 
 /// What stands in blocks that robots keep: a number may be added, none may ever change.
 const GIVEN_OUT: [(u8, &str); 13] = [
@@ -23,10 +23,10 @@ const GIVEN_OUT: [(u8, &str); 13] = [
 #[test]
 fn numbers_that_were_given_out_keep_their_effects() {
     for (code, id) in GIVEN_OUT {
-        assert!(KNOWN.iter().any(|known| (known.code, known.id) == (code, id)), "{code} is {id}");
+        assert!(EFFECT_CODES.iter().any(|known| (known.code, known.id) == (code, id)), "{code} is {id}");
     }
     assert!(
-        KNOWN.iter().enumerate().all(|(k, known)| usize::from(known.code) == k + 1),
+        EFFECT_CODES.iter().enumerate().all(|(k, known)| usize::from(known.code) == k + 1),
         "no number twice, none left out"
     );
 }
@@ -34,11 +34,13 @@ fn numbers_that_were_given_out_keep_their_effects() {
 #[test]
 fn the_block_knows_every_effect_of_the_catalogue_as_its_card_says() {
     let catalogue = effects::catalogue::<f64>();
-    assert_eq!(KNOWN.len(), catalogue.len(), "a new effect needs a number in model-core/src/block/effects.rs");
+    assert_eq!(EFFECT_CODES.len(), catalogue.len(), "a new effect needs a number in model-core/src/block/effects.rs");
     for card in catalogue.iter().map(|effect| effect.card()) {
-        let known =
-            KNOWN.iter().find(|known| known.id == card.id).unwrap_or_else(|| panic!("{} has no number", card.id));
-        assert_eq!(known.place, card.place);
+        let known = EFFECT_CODES
+            .iter()
+            .find(|known| known.id == card.id)
+            .unwrap_or_else(|| panic!("{} has no number", card.id));
+        assert_eq!(known.scope, card.scope);
         let said: Vec<_> = known.fields().iter().map(|field| (field.key, field.within)).collect();
         let card: Vec<_> = card.params.iter().map(|p| (p.key, (p.within.0 as f32, p.within.1 as f32))).collect();
         assert_eq!(said, card, "{}", known.id);

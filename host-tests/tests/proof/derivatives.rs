@@ -30,7 +30,7 @@ impl<const N: usize> Drive<N> {
         let voltage = (0..500).map(|k| {
             let (a, b) = (wanted(f64::from(k) * 1e-3), wanted(f64::from(k + 1) * 1e-3));
             let rate = std::array::from_fn(|axis| (b[axis] - a[axis]) / 1e-3);
-            robot.demand(BodyTwist::from_array(a), BodyTwist::from_array(rate)).voltage
+            robot.inverse_dynamics(BodyTwist::from_array(a), BodyTwist::from_array(rate)).voltage
         });
         Self { start: wanted(0.0), voltage: voltage.collect() }
     }
@@ -52,7 +52,7 @@ impl<const N: usize> Drive<N> {
                 now.extend(read.wheel_speed.map(Real::sign));
                 // only the bridge and the gear ask for the sign of a current
                 let effects = run.plant.effects();
-                if !effects.none_at(Seam::Drive) || !effects.none_at(Seam::Gear) {
+                if !effects.none_at(Seam::Bridge) || !effects.none_at(Seam::Gear) {
                     now.extend(read.current.map(Real::sign));
                 }
                 assert!(signs.as_ref().is_none_or(|old| *old == now), "something turns round: {now:?}");

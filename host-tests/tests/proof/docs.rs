@@ -2,16 +2,16 @@
 
 use std::fmt::Write;
 
-use model_core::effects::card::{Card, Place, Role};
+use model_core::effects::card::{Card, Role, Scope};
 use model_core::effects::catalogue;
 
 use crate::golden;
 
 fn place(card: &Card) -> &'static str {
-    match card.place {
-        Place::Robot => "the robot as a whole",
-        Place::Wheels => "all wheels alike, or one wheel",
-        Place::OneWheel => "one wheel",
+    match card.scope {
+        Scope::Robot => "the robot as a whole",
+        Scope::Wheels => "all wheels alike, or one wheel",
+        Scope::OneWheel => "one wheel",
     }
 }
 

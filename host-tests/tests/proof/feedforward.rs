@@ -29,7 +29,7 @@ fn robots<const N: usize>(paper: Robot<N, f64>) -> Vec<Robot<N, f64>> {
 fn arrives<const N: usize>(paper: Robot<N, f64>) {
     for robot in robots(paper) {
         for (x, a) in motions(31) {
-            let demand = robot.demand(BodyTwist::from_array(x), BodyTwist::from_array(a));
+            let demand = robot.inverse_dynamics(BodyTwist::from_array(x), BodyTwist::from_array(a));
             for input in [Input::Voltage(demand.voltage), Input::Current(demand.current)] {
                 let mut run = Run::from(plain(robot), [0.0; 3], x);
                 let dt = 1e-6;
@@ -55,7 +55,7 @@ fn voltage_current_and_torque_are_one_statement() {
     for robot in robots(four()) {
         for (x, a) in motions(32) {
             let twist = BodyTwist::from_array(x);
-            let demand = robot.demand(twist, BodyTwist::from_array(a));
+            let demand = robot.inverse_dynamics(twist, BodyTwist::from_array(a));
             let speed = robot.wheels.wheel_speeds(twist);
             let current = std::array::from_fn(|j| robot.motor.current(demand.voltage[j], speed[j]));
             let torque = current.map(|i| robot.motor.torque(i));
@@ -69,7 +69,7 @@ fn voltage_current_and_torque_are_one_statement() {
 fn the_wheel_forces_are_the_smallest_that_do_it() {
     let robot = four::<f64>();
     for (x, a) in motions(33) {
-        let demand = robot.demand(BodyTwist::from_array(x), BodyTwist::from_array(a));
+        let demand = robot.inverse_dynamics(BodyTwist::from_array(x), BodyTwist::from_array(a));
         let force: [f64; 4] = std::array::from_fn(|j| demand.wheel_torque[j] / robot.wheels.wheels()[j].radius);
         let wanted = robot.body_force_for(BodyTwist::from_array(x), BodyTwist::from_array(a));
         // a few roundings of some newtons
@@ -91,7 +91,7 @@ fn a_wanted_path_is_driven() {
         let (x, next) = (wanted(t), wanted(t + dt));
         let middle = BodyTwist::from_array(x).mean(BodyTwist::from_array(next));
         let a = std::array::from_fn(|axis| (next[axis] - x[axis]) / dt);
-        run.drive(robot.demand(middle, BodyTwist::from_array(a)).voltage, dt);
+        run.drive(robot.inverse_dynamics(middle, BodyTwist::from_array(a)).voltage, dt);
         worst = worst.max(gap(run.twist(), next));
     }
     // reversals, where friction turns round within a step: |K|·Δt = 6 mrad/s

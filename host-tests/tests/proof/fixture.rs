@@ -4,7 +4,7 @@ use host_tests::excite::Hold;
 use host_tests::matrices::Rig;
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
 use model_core::effects::active::Effects;
-use model_core::effects::card::{Card, Place};
+use model_core::effects::card::{Card, Scope};
 use model_core::effects::{Effect, find};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::geometry::kinematics::{Wheel, Wheels};
@@ -67,16 +67,16 @@ pub fn absent(card: &Card) -> Vec<f64> {
 /// Where an effect can sit on a robot of `wheels` wheels: on all (or the robot), and on single ones.
 pub fn seats(card: &Card, wheels: usize) -> Vec<Option<usize>> {
     let single = (0..wheels).map(Some);
-    match card.place {
-        Place::Robot => vec![None],
-        Place::Wheels => std::iter::once(None).chain(single).collect(),
-        Place::OneWheel => single.collect(),
+    match card.scope {
+        Scope::Robot => vec![None],
+        Scope::Wheels => std::iter::once(None).chain(single).collect(),
+        Scope::OneWheel => single.collect(),
     }
 }
 
 /// Where an effect usually sits: on all wheels or the robot if it can, otherwise on wheel 1.
 pub fn usual_seat(card: &Card) -> Option<usize> {
-    (card.place == Place::OneWheel).then_some(1)
+    (card.scope == Scope::OneWheel).then_some(1)
 }
 
 /// A plant with one effect.

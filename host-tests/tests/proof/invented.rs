@@ -3,8 +3,8 @@
 use std::cell::RefCell;
 
 use model_core::effects::Effect;
-use model_core::effects::card::{Card, Param, Place, Role, Seam};
-use model_core::effects::seams::{At, Body, Contact, Drive, Gear, Sense, Supply, Turn, Winding};
+use model_core::effects::card::{Card, Param, Role, Scope, Seam};
+use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
 use model_core::number::scalar::Real;
 
 const PARAM: Param =
@@ -17,7 +17,7 @@ const BLANK: Card = Card {
     equation: "",
     source: "",
     seams: &[],
-    place: Place::Wheels,
+    scope: Scope::Wheels,
     params: &[PARAM],
     memory: 0,
     needs_current: false,
@@ -32,7 +32,7 @@ impl<T: Real> Effect<T> for Cogging {
     fn card(&self) -> &'static Card {
         &const { Card { seams: &[Seam::Gear], ..BLANK } }
     }
-    fn gear(&self, p: &[T], _: &[T], at: &At<T>, x: &mut Gear<T>) {
+    fn gear(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Gear<T>) {
         x.torque += p[0] * (T::lit(18.0) * at.wheel_angle).sin_cos().0;
     }
 }
@@ -42,9 +42,9 @@ pub struct Carpet;
 
 impl<T: Real> Effect<T> for Carpet {
     fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Body], place: Place::Robot, ..BLANK } }
+        &const { Card { seams: &[Seam::Body], scope: Scope::Robot, ..BLANK } }
     }
-    fn body(&self, p: &[T], _: &[T], at: &At<T>, x: &mut Body<T>) {
+    fn body(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Body<T>) {
         if at.pose.x > T::lit(0.2) {
             x.budget = x.budget.map(|b| b * (T::one() + p[0]));
         }
@@ -56,9 +56,9 @@ pub struct Wind;
 
 impl<T: Real> Effect<T> for Wind {
     fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Body], place: Place::Robot, ..BLANK } }
+        &const { Card { seams: &[Seam::Body], scope: Scope::Robot, ..BLANK } }
     }
-    fn body(&self, p: &[T], _: &[T], at: &At<T>, x: &mut Body<T>) {
+    fn body(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Body<T>) {
         let (sin, cos) = at.pose.theta.sin_cos();
         x.force[0] += p[0] * cos;
         x.force[1] -= p[0] * sin;
@@ -72,13 +72,13 @@ impl<T: Real> Effect<T> for Heating {
     fn card(&self) -> &'static Card {
         &const { Card { seams: &[Seam::Winding], memory: 1, ..BLANK } }
     }
-    fn winding(&self, p: &[T], s: &[T], _: &At<T>, x: &mut Winding<T>) {
+    fn winding(&self, p: &[T], s: &[T], _: &EffectContext<T>, x: &mut Winding<T>) {
         x.resistance *= T::one() + p[0] * s[0];
     }
-    fn advance(&self, _: &[T], s: &mut [T], at: &At<T>, done: &Turn<T>) {
+    fn advance(&self, _: &[T], s: &mut [T], at: &EffectContext<T>, done: &StepOutcome<T>) {
         s[0] += at.dt * (done.current * done.current - s[0]);
     }
-    fn restart(&self, _: &[T], s: &mut [T], at: &At<T>) {
+    fn restart(&self, _: &[T], s: &mut [T], at: &EffectContext<T>) {
         // as if it had run at this speed for long
         s[0] = at.wheel_speed.abs();
     }
@@ -91,7 +91,7 @@ impl<T: Real> Effect<T> for Inductance {
     fn card(&self) -> &'static Card {
         &const { Card { seams: &[Seam::Winding], ..BLANK } }
     }
-    fn winding(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Winding<T>) {
+    fn winding(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Winding<T>) {
         x.inductance += T::lit(1e-3) * p[0];
     }
 }
@@ -101,12 +101,12 @@ pub struct Emptying;
 
 impl<T: Real> Effect<T> for Emptying {
     fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Supply], place: Place::Robot, memory: 1, ..BLANK } }
+        &const { Card { seams: &[Seam::Supply], scope: Scope::Robot, memory: 1, ..BLANK } }
     }
-    fn supply(&self, p: &[T], s: &[T], _: &At<T>, x: &mut Supply<T>) {
+    fn supply(&self, p: &[T], s: &[T], _: &EffectContext<T>, x: &mut Supply<T>) {
         x.voltage -= p[0] * s[0];
     }
-    fn advance(&self, _: &[T], s: &mut [T], at: &At<T>, done: &Turn<T>) {
+    fn advance(&self, _: &[T], s: &mut [T], at: &EffectContext<T>, done: &StepOutcome<T>) {
         s[0] += at.dt * done.bus_current;
     }
 }
@@ -116,9 +116,9 @@ pub struct Limit;
 
 impl<T: Real> Effect<T> for Limit {
     fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Drive], ..BLANK } }
+        &const { Card { seams: &[Seam::Bridge], ..BLANK } }
     }
-    fn drive(&self, p: &[T], _: &[T], at: &At<T>, x: &mut Drive<T>) {
+    fn bridge(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Bridge<T>) {
         if at.time > T::lit(0.0195) {
             let most = p[0] * x.bus;
             x.voltage = x.voltage.clamp(-most, most);
@@ -134,7 +134,7 @@ impl<T: Real> Effect<T> for LargeWheel {
     fn card(&self) -> &'static Card {
         &const { Card { seams: &[Seam::Contact], ..BLANK } }
     }
-    fn contact(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Contact<T>) {
+    fn contact(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Contact<T>) {
         x.radius *= T::one() + p[0];
     }
 }
@@ -146,17 +146,17 @@ impl<T: Real> Effect<T> for Eccentric {
     fn card(&self) -> &'static Card {
         &const { Card { seams: &[Seam::Sense], ..BLANK } }
     }
-    fn sense(&self, p: &[T], _: &[T], at: &At<T>, x: &mut Sense<T>) {
+    fn sense(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Sense<T>) {
         x.wheel_speed += p[0] * at.wheel_angle;
     }
 }
 
 thread_local! {
     /// What the spies were told: which hook, and where.
-    pub static SEEN: RefCell<Vec<(&'static str, At<f64>)>> = const { RefCell::new(Vec::new()) };
+    pub static SEEN: RefCell<Vec<(&'static str, EffectContext<f64>)>> = const { RefCell::new(Vec::new()) };
 }
 
-fn told(hook: &'static str, at: &At<f64>) {
+fn told(hook: &'static str, at: &EffectContext<f64>) {
     SEEN.with_borrow_mut(|seen| seen.push((hook, *at)));
 }
 
@@ -165,25 +165,25 @@ pub struct WheelSpy;
 
 impl Effect<f64> for WheelSpy {
     fn card(&self) -> &'static Card {
-        const SEAMS: &[Seam] = &[Seam::Drive, Seam::Winding, Seam::Gear, Seam::Contact, Seam::Sense];
+        const SEAMS: &[Seam] = &[Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Contact, Seam::Sense];
         &const { Card { seams: SEAMS, memory: 1, ..BLANK } }
     }
-    fn drive(&self, _: &[f64], _: &[f64], at: &At<f64>, _: &mut Drive<f64>) {
+    fn bridge(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Bridge<f64>) {
         told("drive", at);
     }
-    fn winding(&self, _: &[f64], _: &[f64], at: &At<f64>, _: &mut Winding<f64>) {
+    fn winding(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Winding<f64>) {
         told("winding", at);
     }
-    fn gear(&self, _: &[f64], _: &[f64], at: &At<f64>, _: &mut Gear<f64>) {
+    fn gear(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Gear<f64>) {
         told("gear", at);
     }
-    fn contact(&self, _: &[f64], _: &[f64], at: &At<f64>, _: &mut Contact<f64>) {
+    fn contact(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Contact<f64>) {
         told("contact", at);
     }
-    fn sense(&self, _: &[f64], _: &[f64], at: &At<f64>, _: &mut Sense<f64>) {
+    fn sense(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Sense<f64>) {
         told("sense", at);
     }
-    fn advance(&self, _: &[f64], _: &mut [f64], at: &At<f64>, _: &Turn<f64>) {
+    fn advance(&self, _: &[f64], _: &mut [f64], at: &EffectContext<f64>, _: &StepOutcome<f64>) {
         told("advance", at);
     }
 }
@@ -193,18 +193,18 @@ pub struct RobotSpy;
 
 impl Effect<f64> for RobotSpy {
     fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Supply, Seam::Body, Seam::Sense], place: Place::Robot, memory: 1, ..BLANK } }
+        &const { Card { seams: &[Seam::Supply, Seam::Body, Seam::Sense], scope: Scope::Robot, memory: 1, ..BLANK } }
     }
-    fn supply(&self, _: &[f64], _: &[f64], at: &At<f64>, _: &mut Supply<f64>) {
+    fn supply(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Supply<f64>) {
         told("supply", at);
     }
-    fn body(&self, _: &[f64], _: &[f64], at: &At<f64>, _: &mut Body<f64>) {
+    fn body(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Body<f64>) {
         told("body", at);
     }
-    fn sense(&self, _: &[f64], _: &[f64], at: &At<f64>, _: &mut Sense<f64>) {
+    fn sense(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Sense<f64>) {
         told("sense", at);
     }
-    fn advance(&self, _: &[f64], _: &mut [f64], at: &At<f64>, _: &Turn<f64>) {
+    fn advance(&self, _: &[f64], _: &mut [f64], at: &EffectContext<f64>, _: &StepOutcome<f64>) {
         told("advance", at);
     }
 }

@@ -3,7 +3,7 @@
 
 use model_core::effects::Effect;
 use model_core::effects::active::Effects;
-use model_core::effects::seams::At;
+use model_core::effects::seams::EffectContext;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
 
@@ -262,7 +262,7 @@ fn a_wheel_with_inertia_that_slips_is_read_before_it_moves() {
 }
 
 /// One step with a spy, and what it was told.
-fn told(spy: &'static dyn Effect<f64>, wheel: Option<usize>) -> (Run<4, f64>, Vec<(&'static str, At<f64>)>) {
+fn told(spy: &'static dyn Effect<f64>, wheel: Option<usize>) -> (Run<4, f64>, Vec<(&'static str, EffectContext<f64>)>) {
     let mut effects = Effects::default();
     // a supply effect makes the plant ask twice
     effects.add(effect("supply_sag"), None, &[0.15, 0.0]).expect("room");

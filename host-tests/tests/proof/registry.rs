@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use model_core::effects::active::MAX_EFFECTS;
-use model_core::effects::card::{Card, MAX_PARAMS, Place, Role, Seam};
+use model_core::effects::card::{Card, MAX_PARAMS, Role, Scope, Seam};
 use model_core::effects::{catalogue, find};
 use model_core::plant::robot::Nominal;
 
@@ -209,17 +209,17 @@ fn seams_stand_in_signal_order() {
 fn an_effect_of_the_body_or_the_battery_sits_on_the_robot() {
     for card in cards() {
         if card.seams.iter().all(|seam| [Seam::Supply, Seam::Body].contains(seam)) {
-            assert_eq!(card.place, Place::Robot, "{}: there is one body and one battery", card.id);
+            assert_eq!(card.scope, Scope::Robot, "{}: there is one body and one battery", card.id);
         }
         if card.seams[0] == Seam::Gear {
-            assert_ne!(card.place, Place::Robot, "{}: gears sit on wheels", card.id);
+            assert_ne!(card.scope, Scope::Robot, "{}: gears sit on wheels", card.id);
         }
     }
 }
 
 #[test]
 fn a_set_of_effects_refuses_seats_that_the_card_does_not_allow() {
-    use model_core::effects::active::{Effects, Refused};
+    use model_core::effects::active::{EffectError, Effects};
     for effect in catalogue::<f64>() {
         let card = effect.card();
         let params = crate::fixture::typical(card);
@@ -227,13 +227,13 @@ fn a_set_of_effects_refuses_seats_that_the_card_does_not_allow() {
         let allowed = crate::fixture::seats(card, 3);
         for seat in [None, Some(0), Some(2), Some(3)] {
             let refused = set.add(*effect, seat, &params).err();
-            assert_eq!(refused, (!allowed.contains(&seat)).then_some(Refused::Wheel), "{} on {seat:?}", card.id);
+            assert_eq!(refused, (!allowed.contains(&seat)).then_some(EffectError::Wheel), "{} on {seat:?}", card.id);
         }
-        assert_eq!(set.add(*effect, allowed[0], &[]), Err(Refused::Parameters));
+        assert_eq!(set.add(*effect, allowed[0], &[]), Err(EffectError::Parameters));
         for _ in set.iter().count()..MAX_EFFECTS {
             set.add(*effect, allowed[0], &params).expect("room");
         }
-        assert_eq!(set.add(*effect, allowed[0], &params), Err(Refused::Full));
+        assert_eq!(set.add(*effect, allowed[0], &params), Err(EffectError::Full));
         assert_eq!(set.iter().count(), MAX_EFFECTS);
     }
 }

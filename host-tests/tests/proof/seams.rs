@@ -2,7 +2,7 @@
 
 use host_tests::excite::Dice;
 use model_core::effects::card::Seam;
-use model_core::effects::seams::{At, Body, Contact, Drive, Gear, Sense, Supply, Turn, Winding};
+use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
 use model_core::effects::{Effect, catalogue};
 use model_core::geometry::frames::{BodyTwist, Pose};
 
@@ -18,9 +18,9 @@ fn pose(dice: &mut Dice) -> Pose<f64> {
     Pose { x: dice.between(-2.0, 2.0), y: dice.between(-2.0, 2.0), theta: dice.between(-7.0, 7.0) }
 }
 
-fn at(dice: &mut Dice) -> At<f64> {
+fn at(dice: &mut Dice) -> EffectContext<f64> {
     let time = dice.between(0.0, 20.0);
-    At {
+    EffectContext {
         time,
         dt: dice.between(1e-4, 5e-3),
         wheel: dice.below(3) as usize,
@@ -42,7 +42,7 @@ impl Described for Supply<f64> {
     }
 }
 
-impl Described for Drive<f64> {
+impl Described for Bridge<f64> {
     fn random(dice: &mut Dice) -> Self {
         let voltage = dice.between(-12.0, 12.0);
         Self { command: voltage, bus: 12.0, current: dice.between(-4.0, 4.0), voltage, sampled: voltage }
@@ -134,7 +134,7 @@ impl Described for Sense<f64> {
 }
 
 /// True if the hook changed any bit of any of 50 random descriptions.
-fn touches<D: Described>(seed: u64, hook: impl Fn(&At<f64>, &mut D)) -> bool {
+fn touches<D: Described>(seed: u64, hook: impl Fn(&EffectContext<f64>, &mut D)) -> bool {
     let mut dice = Dice::new(seed);
     (0..50).any(|_| {
         let at = at(&mut dice);
@@ -149,16 +149,16 @@ fn touches<D: Described>(seed: u64, hook: impl Fn(&At<f64>, &mut D)) -> bool {
 /// A memory as it is after some steps.
 fn remembered(effect: &dyn Effect<f64>, p: &[f64], dice: &mut Dice) -> Vec<f64> {
     let mut s = vec![0.0; effect.card().memory];
-    effect.restart(p, &mut s, &At { time: -0.1, ..at(dice) });
+    effect.restart(p, &mut s, &EffectContext { time: -0.1, ..at(dice) });
     for k in 0..40 {
-        let done = Turn {
+        let done = StepOutcome {
             command: dice.between(-9.0, 9.0),
             current: dice.between(-3.0, 3.0),
             wheel_speed: dice.between(-50.0, 50.0),
             bus_current: dice.between(-1.0, 9.0),
             bus: 12.0,
         };
-        effect.advance(p, &mut s, &At { time: -0.1 + 2.5e-3 * f64::from(k), ..at(dice) }, &done);
+        effect.advance(p, &mut s, &EffectContext { time: -0.1 + 2.5e-3 * f64::from(k), ..at(dice) }, &done);
     }
     s
 }
@@ -172,11 +172,11 @@ fn hooks_that_a_card_does_not_list_change_nothing_and_those_it_lists_do() {
         let s = remembered(*effect, &p, &mut dice);
         let seed = dice.bits();
         // the description is asked just after what is remembered
-        let now = |at: &At<f64>| At { time: 0.0, ..*at };
+        let now = |at: &EffectContext<f64>| EffectContext { time: 0.0, ..*at };
         for seam in Seam::ALL {
             let touched = match seam {
                 Seam::Supply => touches(seed, |at, x| effect.supply(&p, &s, &now(at), x)),
-                Seam::Drive => touches(seed, |at, x| effect.drive(&p, &s, &now(at), x)),
+                Seam::Bridge => touches(seed, |at, x| effect.bridge(&p, &s, &now(at), x)),
                 Seam::Winding => touches(seed, |at, x| effect.winding(&p, &s, &now(at), x)),
                 Seam::Gear => touches(seed, |at, x| effect.gear(&p, &s, &now(at), x)),
                 Seam::Contact => touches(seed, |at, x| effect.contact(&p, &s, &now(at), x)),
@@ -198,9 +198,9 @@ fn a_hook_is_a_pure_function_of_what_it_is_given() {
             .map(|_| {
                 let mut dice = Dice::new(4);
                 let at = at(&mut dice);
-                let (mut drive, mut gear) = (Drive::random(&mut dice), Gear::random(&mut dice));
+                let (mut drive, mut gear) = (Bridge::random(&mut dice), Gear::random(&mut dice));
                 let (mut contact, mut sense) = (Contact::random(&mut dice), Sense::random(&mut dice));
-                effect.drive(&p, &s, &at, &mut drive);
+                effect.bridge(&p, &s, &at, &mut drive);
                 effect.gear(&p, &s, &at, &mut gear);
                 effect.contact(&p, &s, &at, &mut contact);
                 effect.sense(&p, &s, &at, &mut sense);
@@ -219,11 +219,11 @@ fn only_a_law_that_says_so_looks_at_the_current() {
         let s = remembered(*effect, &p, &mut Dice::new(2));
         let mut dice = Dice::new(6);
         let looks = (0..50).any(|_| {
-            let at = At { time: 0.0, ..at(&mut dice) };
-            let (mut a, mut b) = (Drive::random(&mut dice), Winding::random(&mut dice));
-            let (mut c, mut d) = (Drive { current: -a.current, ..a }, Winding { current: -b.current, ..b });
-            effect.drive(&p, &s, &at, &mut a);
-            effect.drive(&p, &s, &at, &mut c);
+            let at = EffectContext { time: 0.0, ..at(&mut dice) };
+            let (mut a, mut b) = (Bridge::random(&mut dice), Winding::random(&mut dice));
+            let (mut c, mut d) = (Bridge { current: -a.current, ..a }, Winding { current: -b.current, ..b });
+            effect.bridge(&p, &s, &at, &mut a);
+            effect.bridge(&p, &s, &at, &mut c);
             effect.winding(&p, &s, &at, &mut b);
             effect.winding(&p, &s, &at, &mut d);
             a.voltage != c.voltage || b.resistance != d.resistance || b.torque_constant != d.torque_constant
@@ -246,7 +246,7 @@ fn sensing_and_its_way_back_undo_each_other() {
             let truth = Sense { pose: here.pose, ..Sense::random(&mut dice) };
             let mut x = truth;
             effect.sense(&p, &s, &here, &mut x);
-            effect.unsense(&p, &here, &mut x);
+            effect.invert_sensing(&p, &here, &mut x);
             let off = truth.numbers().iter().zip(x.numbers()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             // roundings of numbers up to 60
             assert!(off < 1e-12, "{}: {off:e}", effect.card().id);

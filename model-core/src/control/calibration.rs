@@ -30,7 +30,7 @@
 
 use core::f64::consts::TAU;
 
-use crate::geometry::shafts::Gear;
+use crate::geometry::shafts::Gearbox;
 use crate::number::scalar::Real;
 
 /// The largest code of a converter of 12 bits.
@@ -111,14 +111,14 @@ impl<T: Real> Calibration<T> {
     #[inline]
     pub fn edge_angle(&self, gear_ratio: T) -> T {
         // φ = 2π/(6·p·l)
-        Gear { ratio: gear_ratio }.wheel_speed(T::lit(TAU / 6.0) / self.pairs())
+        Gearbox { ratio: gear_ratio }.wheel_speed(T::lit(TAU / 6.0) / self.pairs())
     }
 
     /// Speed of the wheel's shaft [rad/s] at an electrical speed [rad a period].
     #[inline]
     pub fn wheel_speed(&self, electrical_speed: T, gear_ratio: T) -> T {
         // ω_w = ω_e/(Δt·p·l)
-        Gear { ratio: gear_ratio }.wheel_speed(electrical_speed / (self.period * self.pairs()))
+        Gearbox { ratio: gear_ratio }.wheel_speed(electrical_speed / (self.period * self.pairs()))
     }
 
     fn pairs(&self) -> T {

@@ -25,7 +25,7 @@
 //! How to get the numbers: `omni-gap diagnose`, which writes them into `corrected_robot.toml`.
 
 use crate::effects::body::{coriolis, floor_tilt};
-use crate::effects::card::{Card, Place};
+use crate::effects::card::{Card, Scope};
 use crate::effects::contact::creep;
 use crate::effects::drivetrain::{gear_efficiency, rotor_inertia, stribeck};
 use crate::effects::electrical::{dead_time, motor_mismatch};
@@ -34,7 +34,7 @@ use crate::number::scalar::Real;
 
 /// Stribeck's numbers of one wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Excess<T = f32> {
+pub struct StribeckExcess<T = f32> {
     /// e, static over kinetic friction, minus one [1]
     pub excess: T,
     /// v_s [m/s]
@@ -45,7 +45,7 @@ pub struct Excess<T = f32> {
 
 /// The dead time of one bridge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Loss<T = f32> {
+pub struct DeadTimeLoss<T = f32> {
     /// V_d, voltage lost well above the ripple [V]
     pub voltage: T,
     /// i₀, amplitude of the ripple [A]
@@ -62,7 +62,7 @@ pub struct Compensation<const N: usize, T = f32> {
     /// φ of `floor_tilt`, where downhill lies at heading zero [rad]
     pub downhill: T,
     /// `stribeck`, wheel by wheel; no excess: none
-    pub stribeck: [Excess<T>; N],
+    pub stribeck: [StribeckExcess<T>; N],
     /// J_w of `rotor_inertia`; 0: none [kg·m²]
     pub rotor_inertia: [T; N],
     /// η of `gear_efficiency`; 1: lossless [1]
@@ -72,7 +72,7 @@ pub struct Compensation<const N: usize, T = f32> {
     /// ρ of `motor_mismatch`; 1: as the others [1]
     pub resistance_ratio: [T; N],
     /// `dead_time`; no voltage: none
-    pub dead_time: [Loss<T>; N],
+    pub dead_time: [DeadTimeLoss<T>; N],
     /// c of `creep`; 0: none [(m/s)/N]
     pub creep: [T; N],
     /// o of `current_sensor_offset`; 0: none [A]
@@ -131,13 +131,16 @@ impl<const N: usize, T: Real> Compensation<N, T> {
             coriolis: zero,
             tilt: zero,
             downhill: zero,
-            stribeck: [Excess { excess: zero, speed: shape(&stribeck::CARD, 1), exponent: shape(&stribeck::CARD, 2) };
-                N],
+            stribeck: [StribeckExcess {
+                excess: zero,
+                speed: shape(&stribeck::CARD, 1),
+                exponent: shape(&stribeck::CARD, 2),
+            }; N],
             rotor_inertia: [zero; N],
             gear_efficiency: [one; N],
             torque_constant_ratio: [one; N],
             resistance_ratio: [one; N],
-            dead_time: [Loss { voltage: zero, smoothing: shape(&dead_time::CARD, 1) }; N],
+            dead_time: [DeadTimeLoss { voltage: zero, smoothing: shape(&dead_time::CARD, 1) }; N],
             creep: [zero; N],
             current_offset: [zero; N],
         }
@@ -167,7 +170,7 @@ impl<const N: usize, T: Real> Compensation<N, T> {
             }
             "stribeck" => {
                 let [excess, speed, exponent] = checked::<N, 3, T>(&stribeck::CARD, wheel, params)?;
-                put(&mut self.stribeck, none.stribeck, wheel, Excess { excess, speed, exponent })?;
+                put(&mut self.stribeck, none.stribeck, wheel, StribeckExcess { excess, speed, exponent })?;
             }
             "rotor_inertia" => {
                 let [inertia] = checked::<N, 1, T>(&rotor_inertia::CARD, wheel, params)?;
@@ -184,7 +187,7 @@ impl<const N: usize, T: Real> Compensation<N, T> {
             }
             "dead_time" => {
                 let [voltage, smoothing] = checked::<N, 2, T>(&dead_time::CARD, wheel, params)?;
-                put(&mut self.dead_time, none.dead_time, wheel, Loss { voltage, smoothing })?;
+                put(&mut self.dead_time, none.dead_time, wheel, DeadTimeLoss { voltage, smoothing })?;
             }
             "creep" => {
                 let [creep] = checked::<N, 1, T>(&creep::CARD, wheel, params)?;
@@ -213,10 +216,10 @@ fn checked<const N: usize, const K: usize, T: Real>(
     wheel: Option<usize>,
     params: &[T],
 ) -> Result<[T; K], NotCompensable> {
-    let sits = match card.place {
-        Place::Robot => wheel.is_none(),
-        Place::Wheels => wheel.is_none_or(|j| j < N),
-        Place::OneWheel => wheel.is_some_and(|j| j < N),
+    let sits = match card.scope {
+        Scope::Robot => wheel.is_none(),
+        Scope::Wheels => wheel.is_none_or(|j| j < N),
+        Scope::OneWheel => wheel.is_some_and(|j| j < N),
     };
     if !sits {
         return Err(NotCompensable::Wheel);
@@ -232,24 +235,24 @@ fn checked<const N: usize, const K: usize, T: Real>(
 }
 
 /// Sets a number of the robot that is still as it is without the effect.
-fn put_one<X: Copy + PartialEq>(place: &mut X, none: X, value: X) -> Result<(), NotCompensable> {
-    if *place != none {
+fn put_one<X: Copy + PartialEq>(slot: &mut X, none: X, value: X) -> Result<(), NotCompensable> {
+    if *slot != none {
         return Err(NotCompensable::Twice);
     }
-    *place = value;
+    *slot = value;
     Ok(())
 }
 
 /// The same for a number of one wheel, or of all.
 fn put<const N: usize, X: Copy + PartialEq>(
-    places: &mut [X; N],
+    slots: &mut [X; N],
     none: [X; N],
     wheel: Option<usize>,
     value: X,
 ) -> Result<(), NotCompensable> {
-    for (j, (place, none)) in places.iter_mut().zip(none).enumerate() {
+    for (j, (slot, none)) in slots.iter_mut().zip(none).enumerate() {
         if wheel.is_none_or(|w| w == j) {
-            put_one(place, none, value)?;
+            put_one(slot, none, value)?;
         }
     }
     Ok(())

@@ -11,10 +11,10 @@
 //!
 //! | symbol | code | unit | meaning |
 //! |---|---|---|---|
-//! | i | [`CurrentDecided::current`] | A | DC-equivalent current, positive for positive torque |
-//! | u | [`CurrentDecided::voltage`] | V | DC-equivalent voltage, as limited |
-//! | u_ff | [`CurrentWant::voltage`] | V | what is known beforehand: the back-EMF l·K_v·ω_w |
-//! | U | [`CurrentSeen::bus`] | V | bus voltage |
+//! | i | [`CurrentOutput::current`] | A | DC-equivalent current, positive for positive torque |
+//! | u | [`CurrentOutput::voltage`] | V | DC-equivalent voltage, as limited |
+//! | u_ff | [`CurrentSetpoint::voltage`] | V | what is known beforehand: the back-EMF l·K_v·ω_w |
+//! | U | [`CurrentMeasurement::bus`] | V | bus voltage |
 //! | m | `share` | 1 | share of the bus that the span of the three duties takes |
 //! | M | `max_duty` | 1 | the largest such share: duties stay within ½ ± M/2 |
 //! | w | `bandwidth` | rad/s | the current closes a gap as e^(−w·t) |
@@ -48,7 +48,7 @@
 //! Controllers (1995), section 3.5.
 
 use crate::control::calibration::AdcCode;
-use crate::control::phases::{self, Rotation, Rotor, SIX_STEPS, Stationary, Step};
+use crate::control::phases::{self, AlphaBeta, CommutationStep, DirectQuadrature, Rotation, SIX_STEPS};
 use crate::number::scalar::Real;
 
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
@@ -85,7 +85,7 @@ pub struct CurrentMemory<T = f32> {
 
 /// What the loop sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurrentSeen<T = f32> {
+pub struct CurrentMeasurement<T = f32> {
     /// What the converter read of phases a, b, c
     pub codes: [AdcCode; 3],
     /// The codes of no current [counts]
@@ -103,7 +103,7 @@ pub struct CurrentSeen<T = f32> {
 
 /// What is wanted of the loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CurrentWant<T = f32> {
+pub struct CurrentSetpoint<T = f32> {
     /// DC-equivalent current [A]; not looked at in an open loop
     pub current: T,
     /// DC-equivalent voltage [V]: in a closed loop what to add (the back-EMF), in an open one all of it
@@ -114,7 +114,7 @@ pub struct CurrentWant<T = f32> {
 
 /// What the loop decides.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurrentDecided<T = f32> {
+pub struct CurrentOutput<T = f32> {
     /// Share of the period in which each leg is at the bus [1]
     pub duties: [T; 3],
     /// DC-equivalent current as measured [A]
@@ -158,27 +158,27 @@ impl<T: Real> CurrentLoop<T> {
     pub fn field_oriented(
         &self,
         memory: &mut CurrentMemory<T>,
-        seen: &CurrentSeen<T>,
-        want: &CurrentWant<T>,
-    ) -> CurrentDecided<T> {
-        let [a, b, c] = self.above_offset(seen);
+        measured: &CurrentMeasurement<T>,
+        setpoint: &CurrentSetpoint<T>,
+    ) -> CurrentOutput<T> {
+        let [a, b, c] = self.above_offset(measured);
         // i_α = A·√3/2·(2a − b − c)/3,  i_β = A·√3/2·(b − c)/√3
-        let still = Stationary { alpha: (a + a - b - c) * self.amps_along, beta: (b - c) * self.amps_across };
-        let rotation = Rotation::of_angle(seen.angle);
-        let current = rotation.to_rotor(still);
+        let still = AlphaBeta { alpha: (a + a - b - c) * self.amps_along, beta: (b - c) * self.amps_across };
+        let rotation = Rotation::of_angle(measured.angle);
+        let current = rotation.park(still);
 
-        let d = self.regulate(&mut memory.d, -current.d, T::zero(), seen.per_bus, self.half_duty);
+        let d = self.regulate(&mut memory.d, -current.d, T::zero(), measured.per_bus, self.half_duty);
         // |m_q| ≤ M·(1 − z/2 − c·z²),  z = (m_d/M)²
         let square = d * d;
         let limit = self.max_duty - square * (self.bend + square * self.bend_more);
-        let q = self.along_torque(&mut memory.q, current.q, seen, want, limit);
+        let q = self.along_torque(&mut memory.q, current.q, measured, setpoint, limit);
 
-        let Stationary { alpha, beta } = rotation.ahead(seen.ahead).to_stationary(Rotor { d, q });
+        let AlphaBeta { alpha, beta } = rotation.ahead(measured.ahead).inverse_park(DirectQuadrature { d, q });
         // phases a, b, c of a DC-equivalent vector: m_α/√3, (−m_α/√3 ± m_β)/2
         let a = alpha * T::lit(1.0 / SQRT_3);
         let (along, across) = (a * T::lit(-0.5), beta * T::lit(0.5));
-        let duties = phases::centred([a, along + across, along - across]);
-        CurrentDecided { duties, current: current.q, voltage: q * seen.bus }
+        let duties = phases::centred_duties([a, along + across, along - across]);
+        CurrentOutput { duties, current: current.q, voltage: q * measured.bus }
     }
 
     /// One period of six steps; without a legal sector no voltage is applied.
@@ -186,21 +186,21 @@ impl<T: Real> CurrentLoop<T> {
     pub fn six_step(
         &self,
         memory: &mut CurrentMemory<T>,
-        seen: &CurrentSeen<T>,
+        measured: &CurrentMeasurement<T>,
         sector: u8,
-        want: &CurrentWant<T>,
-    ) -> CurrentDecided<T> {
+        setpoint: &CurrentSetpoint<T>,
+    ) -> CurrentOutput<T> {
         // an arm each, so that every phase is at a place known beforehand: a third fewer instructions than a table
         match sector {
-            0 => self.conduct(SIX_STEPS[0], memory, seen, want),
-            1 => self.conduct(SIX_STEPS[1], memory, seen, want),
-            2 => self.conduct(SIX_STEPS[2], memory, seen, want),
-            3 => self.conduct(SIX_STEPS[3], memory, seen, want),
-            4 => self.conduct(SIX_STEPS[4], memory, seen, want),
-            5 => self.conduct(SIX_STEPS[5], memory, seen, want),
+            0 => self.conduct(SIX_STEPS[0], memory, measured, setpoint),
+            1 => self.conduct(SIX_STEPS[1], memory, measured, setpoint),
+            2 => self.conduct(SIX_STEPS[2], memory, measured, setpoint),
+            3 => self.conduct(SIX_STEPS[3], memory, measured, setpoint),
+            4 => self.conduct(SIX_STEPS[4], memory, measured, setpoint),
+            5 => self.conduct(SIX_STEPS[5], memory, measured, setpoint),
             _ => {
                 *memory = CurrentMemory::default();
-                CurrentDecided { duties: [T::lit(0.5); 3], current: T::zero(), voltage: T::zero() }
+                CurrentOutput { duties: [T::lit(0.5); 3], current: T::zero(), voltage: T::zero() }
             }
         }
     }
@@ -209,51 +209,58 @@ impl<T: Real> CurrentLoop<T> {
     #[inline(always)]
     fn conduct(
         &self,
-        step: Step,
+        step: CommutationStep,
         memory: &mut CurrentMemory<T>,
-        seen: &CurrentSeen<T>,
-        want: &CurrentWant<T>,
-    ) -> CurrentDecided<T> {
-        let up = step.up.of(seen.codes).counts::<T>() - step.up.of(seen.offsets);
-        let down = step.down.of(seen.codes).counts::<T>() - step.down.of(seen.offsets);
+        measured: &CurrentMeasurement<T>,
+        setpoint: &CurrentSetpoint<T>,
+    ) -> CurrentOutput<T> {
+        let up = step.up.of(measured.codes).counts::<T>() - step.up.of(measured.offsets);
+        let down = step.down.of(measured.codes).counts::<T>() - step.down.of(measured.offsets);
         // i = (i_up − i_down)/2
         let current = (up - down) * self.amps_across;
-        let share = self.along_torque(&mut memory.q, current, seen, want, self.max_duty);
+        let share = self.along_torque(&mut memory.q, current, measured, setpoint, self.max_duty);
         // δ = ½ ± m/2
         let (half, away) = (T::lit(0.5), T::lit(0.5) * share);
-        CurrentDecided { duties: step.phases(half + away, half - away, half), current, voltage: share * seen.bus }
+        CurrentOutput { duties: step.phases(half + away, half - away, half), current, voltage: share * measured.bus }
     }
 
     /// The codes less what they are at no current [counts].
     #[inline]
-    fn above_offset(&self, seen: &CurrentSeen<T>) -> [T; 3] {
-        let ([a, b, c], [a0, b0, c0]) = (seen.codes, seen.offsets);
+    fn above_offset(&self, measured: &CurrentMeasurement<T>) -> [T; 3] {
+        let ([a, b, c], [a0, b0, c0]) = (measured.codes, measured.offsets);
         [a.counts::<T>() - a0, b.counts::<T>() - b0, c.counts::<T>() - c0]
     }
 
     /// The share of the bus [1] that makes the torque: regulated, or the voltage alone.
     #[inline]
-    fn along_torque(&self, integral: &mut T, current: T, seen: &CurrentSeen<T>, want: &CurrentWant<T>, limit: T) -> T {
-        if want.closed {
-            return self.regulate(integral, want.current - current, want.voltage, seen.per_bus, limit);
+    fn along_torque(
+        &self,
+        integral: &mut T,
+        current: T,
+        measured: &CurrentMeasurement<T>,
+        setpoint: &CurrentSetpoint<T>,
+        limit: T,
+    ) -> T {
+        if setpoint.closed {
+            return self.regulate(integral, setpoint.current - current, setpoint.voltage, measured.per_bus, limit);
         }
         *integral = T::zero();
         // m = u/U, |m| ≤ M
-        (want.voltage * seen.per_bus).clamp(-limit, limit)
+        (setpoint.voltage * measured.per_bus).clamp(-limit, limit)
     }
 
     /// The share of the bus [1] that closes an error [A], and the integral's [V] next value.
     #[inline]
     fn regulate(&self, integral: &mut T, error: T, forward: T, per_bus: T, limit: T) -> T {
         // u = u_ff + k_p·e + Σ k_i·Δt·e,  m = u/U
-        let asked = (self.proportional * error + forward + *integral) * per_bus;
+        let demanded = (self.proportional * error + forward + *integral) * per_bus;
         let next = *integral + self.integral * error;
-        if asked.abs() <= limit {
+        if demanded.abs() <= limit {
             *integral = next;
-            return asked;
+            return demanded;
         }
         // a saturated integral works only where its error asks for less
-        if asked < T::zero() {
+        if demanded < T::zero() {
             if error > T::zero() {
                 *integral = next;
             }

@@ -3,21 +3,21 @@
 //! The controller knows its number of wheels when it is compiled; here the parameter block chooses between the two, and
 //! the numbers of the three or four motors come and go in arrays for all that a board has bridges for.
 //!
-//! What the controller is told of the wheels' speeds is what their [`observer`](crate::control::observer) makes of hall edges and
+//! What the controller gets for the wheels' speeds is what their [`observer`](crate::control::observer) makes of hall edges and
 //! reference. While the reference rests, what the integral holds fades: it was friction, and that turns round.
 
 use crate::control::calibration::Calibration;
 use crate::control::compensation::Compensation;
-use crate::control::motion_controller::{Controller, Decided, Memory, Seen, Settings};
-use crate::control::observer::{Observed, Observer, Told};
+use crate::control::motion_controller::{Controller, Measurement, Memory, Output, Settings};
+use crate::control::observer::{HallReading, SpeedObserver, WheelEstimate};
 use crate::geometry::frames::BodyTwist;
-use crate::link::block::{Block, Mode, Parameters};
+use crate::link::block::{Block, ControlMode, Parameters};
 use crate::link::record::MOTORS;
 use crate::number::scalar::Real;
 
-/// What a turn decided, for all motors of the board.
+/// What a turn decides, for all motors of the board.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Moved {
+pub struct DriveOutput {
     /// DC-equivalent currents [A]
     pub current: [f32; MOTORS],
     /// DC-equivalent voltages [V]: all of it, or what goes ahead of controlled currents (the back-EMF)
@@ -34,135 +34,135 @@ pub struct Moved {
 // There is one of them, and it lies in fixed memory.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug)]
-pub enum Mover {
+pub enum RobotDrive {
     /// With three wheels
-    Three(Wheeled<3>),
+    Three(WheeledDrive<3>),
     /// With four wheels
-    Four(Wheeled<4>),
+    Four(WheeledDrive<4>),
 }
 
 /// The motion of a robot with `N` wheels.
 #[derive(Clone, Copy, Debug)]
-pub struct Wheeled<const N: usize> {
+pub struct WheeledDrive<const N: usize> {
     settings: Settings<N, f32>,
     controller: Controller<N, f32>,
     memory: Memory<f32>,
     controls_current: bool,
     most_speed: f32,
-    observer: Observer,
-    wheels: [Observed; N],
+    observer: SpeedObserver,
+    wheels: [WheelEstimate; N],
     /// Wanted speeds of the wheels in the turn before [rad/s]
     wanted: [f32; N],
 }
 
 /// Share of the integral that is left after a turn at rest [1]: half of it fades in 35 ms.
-const FADES: f32 = 0.98;
+const INTEGRAL_DECAY: f32 = 0.98;
 
-impl Mover {
+impl RobotDrive {
     /// A robot at rest with these parameters; `max_duty` is the largest part of the bus voltage that a motor may get [1],
     /// `dt` the length of a turn [s].
     #[inline(never)]
-    pub fn of(parameters: &Parameters, max_duty: f32, dt: f32) -> Self {
+    pub fn new(parameters: &Parameters, max_duty: f32, dt: f32) -> Self {
         match parameters {
-            Parameters::Three(block) => Mover::Three(Wheeled::of(block, max_duty, dt)),
-            Parameters::Four(block) => Mover::Four(Wheeled::of(block, max_duty, dt)),
+            Parameters::Three(block) => RobotDrive::Three(WheeledDrive::new(block, max_duty, dt)),
+            Parameters::Four(block) => RobotDrive::Four(WheeledDrive::new(block, max_duty, dt)),
         }
     }
 
     /// Goes on with the motion that another one was following, where it has as many wheels; their speeds begin anew.
-    pub fn go_on_from(&mut self, old: &Mover) {
+    pub fn take_over(&mut self, old: &RobotDrive) {
         match (self, old) {
-            (Mover::Three(new), Mover::Three(old)) => new.memory = old.memory,
-            (Mover::Four(new), Mover::Four(old)) => new.memory = old.memory,
+            (RobotDrive::Three(new), RobotDrive::Three(old)) => new.memory = old.memory,
+            (RobotDrive::Four(new), RobotDrive::Four(old)) => new.memory = old.memory,
             _ => {}
         }
     }
 
     /// Drives without these motors (one bit each), at reduced limits.
     #[inline(never)]
-    pub fn lose(&mut self, lost: u8) {
+    pub fn exclude_motors(&mut self, lost: u8) {
         match self {
-            Mover::Three(wheeled) => wheeled.lose(lost),
-            Mover::Four(wheeled) => wheeled.lose(lost),
+            RobotDrive::Three(drive) => drive.exclude_motors(lost),
+            RobotDrive::Four(drive) => drive.exclude_motors(lost),
         }
     }
 
     /// Forgets the motion that was followed.
-    pub fn rest(&mut self) {
+    pub fn reset(&mut self) {
         match self {
-            Mover::Three(wheeled) => wheeled.rest(),
-            Mover::Four(wheeled) => wheeled.rest(),
+            RobotDrive::Three(drive) => drive.reset(),
+            RobotDrive::Four(drive) => drive.reset(),
         }
     }
 
     /// One turn towards a wanted motion; wheels and supply [V] as measured.
     #[inline]
-    pub fn turn(&mut self, told: &[Told; MOTORS], bus: f32, want: BodyTwist) -> Moved {
-        self.observe(told);
+    pub fn tick(&mut self, halls: &[HallReading; MOTORS], bus: f32, want: BodyTwist) -> DriveOutput {
+        self.observe(halls);
         let quick = match self {
-            Mover::Three(wheeled) => wheeled.turn(bus, want, Controller::tick_in_reach),
-            Mover::Four(wheeled) => wheeled.turn(bus, want, Controller::tick_in_reach),
+            RobotDrive::Three(drive) => drive.tick(bus, want, Controller::tick_within_limits),
+            RobotDrive::Four(drive) => drive.tick(bus, want, Controller::tick_within_limits),
         };
         match quick {
-            Some(moved) => moved,
-            None => self.turn_slowly(bus, want),
+            Some(output) => output,
+            None => self.tick_slow(bus, want),
         }
     }
 
     /// Takes in what the halls tell.
     #[inline(never)]
-    fn observe(&mut self, told: &[Told; MOTORS]) {
+    fn observe(&mut self, halls: &[HallReading; MOTORS]) {
         match self {
-            Mover::Three(wheeled) => wheeled.observe(told),
-            Mover::Four(wheeled) => wheeled.observe(told),
+            RobotDrive::Three(drive) => drive.observe(halls),
+            RobotDrive::Four(drive) => drive.observe(halls),
         }
     }
 
     /// A turn in which an effect is undone or something does not fit. By itself, and compiled where small code is wanted.
     #[inline(never)]
-    fn turn_slowly(&mut self, bus: f32, want: BodyTwist) -> Moved {
-        let moved = match self {
-            Mover::Three(wheeled) => wheeled.turn(bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
-            Mover::Four(wheeled) => wheeled.turn(bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
+    fn tick_slow(&mut self, bus: f32, want: BodyTwist) -> DriveOutput {
+        let output = match self {
+            RobotDrive::Three(drive) => drive.tick(bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
+            RobotDrive::Four(drive) => drive.tick(bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
         };
-        moved.unwrap_or_default()
+        output.unwrap_or_default()
     }
 
     /// True if the currents are to be controlled.
     pub fn controls_current(&self) -> bool {
         match self {
-            Mover::Three(wheeled) => wheeled.controls_current,
-            Mover::Four(wheeled) => wheeled.controls_current,
+            RobotDrive::Three(drive) => drive.controls_current,
+            RobotDrive::Four(drive) => drive.controls_current,
         }
     }
 
     /// Largest current of a motor [A].
     pub fn current_limit(&self) -> f32 {
         match self {
-            Mover::Three(wheeled) => wheeled.settings.current_limit,
-            Mover::Four(wheeled) => wheeled.settings.current_limit,
+            RobotDrive::Three(drive) => drive.settings.current_limit,
+            RobotDrive::Four(drive) => drive.settings.current_limit,
         }
     }
 
     /// One bit a motor that the robot has.
     pub fn motors(&self) -> u8 {
         match self {
-            Mover::Three(_) => 0b0111,
-            Mover::Four(_) => 0b1111,
+            RobotDrive::Three(_) => 0b0111,
+            RobotDrive::Four(_) => 0b1111,
         }
     }
 }
 
-impl<const N: usize> Wheeled<N> {
-    fn of(block: &Block<N>, max_duty: f32, dt: f32) -> Self {
-        let mut undo = Compensation::none();
+impl<const N: usize> WheeledDrive<N> {
+    fn new(block: &Block<N>, max_duty: f32, dt: f32) -> Self {
+        let mut compensation = Compensation::none();
         for effect in block.effects.iter() {
             // the block was checked for effects that can be undone
-            let _refused = undo.add(effect.id(), effect.wheel().map(usize::from), effect.params());
+            let _refused = compensation.add(effect.id(), effect.wheel().map(usize::from), effect.params());
         }
         let settings = Settings {
             robot: block.robot,
-            undo,
+            compensation,
             acceleration: block.limits.acceleration,
             current_limit: block.limits.current,
             max_duty,
@@ -177,23 +177,23 @@ impl<const N: usize> Wheeled<N> {
             settings,
             controller: Controller::new(&settings),
             memory: Memory::default(),
-            controls_current: block.mode == Mode::Current,
+            controls_current: block.mode == ControlMode::Current,
             most_speed: block.limits.speed,
-            observer: Observer::new(calibration.edge_angle(block.robot.motor.gear_ratio), dt, calibration.period),
-            wheels: [Observed::default(); N],
+            observer: SpeedObserver::new(calibration.edge_angle(block.robot.motor.gear_ratio), dt, calibration.period),
+            wheels: [WheelEstimate::default(); N],
             wanted: [0.0; N],
         }
     }
 
-    fn observe(&mut self, told: &[Told; MOTORS]) {
+    fn observe(&mut self, halls: &[HallReading; MOTORS]) {
         let wanted = self.settings.robot.wheels.wheel_speeds(self.memory.reference);
         for j in 0..N {
-            self.observer.turn(&mut self.wheels[j], told[j], wanted[j] - self.wanted[j], wanted[j]);
+            self.observer.update(&mut self.wheels[j], halls[j], wanted[j] - self.wanted[j], wanted[j]);
         }
         self.wanted = wanted;
     }
 
-    fn lose(&mut self, lost: u8) {
+    fn exclude_motors(&mut self, lost: u8) {
         let working = core::array::from_fn(|j| lost >> j & 1 == 0);
         if working != self.settings.working {
             self.settings.working = working;
@@ -202,7 +202,7 @@ impl<const N: usize> Wheeled<N> {
     }
 
     /// The wanted motion, slowed down to the largest speed of the body with its direction kept.
-    fn within_speed(&self, want: BodyTwist) -> BodyTwist {
+    fn limit_speed(&self, want: BodyTwist) -> BodyTwist {
         let square = want.v * want.v + want.vn * want.vn;
         if square <= self.most_speed * self.most_speed {
             return want;
@@ -212,35 +212,35 @@ impl<const N: usize> Wheeled<N> {
     }
 
     /// Forgets the motion, not the direction that the robot faces.
-    fn rest(&mut self) {
+    fn reset(&mut self) {
         self.memory = Memory { heading: self.memory.heading, ..Memory::default() };
-        self.wheels = [Observed::default(); N];
+        self.wheels = [WheelEstimate::default(); N];
         self.wanted = [0.0; N];
     }
 
     #[inline]
-    fn turn(
+    fn tick(
         &mut self,
         bus: f32,
         want: BodyTwist,
-        tick: impl Fn(&Controller<N>, &mut Memory, &Seen<N>, BodyTwist) -> Option<Decided<N>>,
-    ) -> Option<Moved> {
-        let seen = Seen { wheel_speed: self.wheels.map(|wheel| wheel.speed), bus };
-        let want = self.within_speed(want);
+        tick: impl Fn(&Controller<N>, &mut Memory, &Measurement<N>, BodyTwist) -> Option<Output<N>>,
+    ) -> Option<DriveOutput> {
+        let measured = Measurement { wheel_speed: self.wheels.map(|wheel| wheel.speed), bus };
+        let want = self.limit_speed(want);
         let reference = self.memory.reference;
-        let decided = tick(&self.controller, &mut self.memory, &seen, want)?;
+        let motors = tick(&self.controller, &mut self.memory, &measured, want)?;
         if self.memory.reference == BodyTwist::default() {
-            self.memory.integral = self.memory.integral.map(|force| FADES * force);
+            self.memory.integral = self.memory.integral.map(|force| INTEGRAL_DECAY * force);
         }
-        let mut moved = Moved { reference, headroom: decided.headroom, ..Moved::default() };
+        let mut output = DriveOutput { reference, headroom: motors.headroom, ..DriveOutput::default() };
         for j in 0..N {
-            moved.current[j] = decided.current[j];
-            moved.wheel_speed[j] = self.wanted[j];
+            output.current[j] = motors.current[j];
+            output.wheel_speed[j] = self.wanted[j];
             // the current loop finds R·i by itself, and would overshoot if it were given
             let ahead =
-                if self.controls_current { self.settings.robot.motor.resistance * decided.current[j] } else { 0.0 };
-            moved.voltage[j] = decided.voltage[j] - ahead;
+                if self.controls_current { self.settings.robot.motor.resistance * motors.current[j] } else { 0.0 };
+            output.voltage[j] = motors.voltage[j] - ahead;
         }
-        Some(moved)
+        Some(output)
     }
 }

@@ -16,7 +16,7 @@ use crate::plant::robot::Robot;
 
 /// What the motors have to do for a wanted motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Demand<const N: usize, T = f32> {
+pub struct Feedforward<const N: usize, T = f32> {
     /// Torque at each wheel shaft [N·m]
     pub wheel_torque: [T; N],
     /// Motor currents [A]
@@ -40,13 +40,13 @@ impl<const N: usize, T: Real> Robot<N, T> {
     }
 
     /// What the motors have to do so that the body, moving with `twist`, accelerates as wanted.
-    pub fn demand(&self, twist: BodyTwist<T>, acceleration: BodyTwist<T>) -> Demand<N, T> {
+    pub fn inverse_dynamics(&self, twist: BodyTwist<T>, acceleration: BodyTwist<T>) -> Feedforward<N, T> {
         let force = self.wheels.wheel_forces(self.body_force_for(twist, acceleration));
         let speed = self.wheels.wheel_speeds(twist);
         // τ_j = r_j·f_j
         let wheel_torque: [T; N] = core::array::from_fn(|j| self.wheels.wheels()[j].rim().wheel_torque(force[j]));
         let current: [T; N] = wheel_torque.map(|torque| self.motor.current_for_torque(torque));
         let voltage = core::array::from_fn(|j| self.motor.voltage(current[j], speed[j]));
-        Demand { wheel_torque, current, voltage }
+        Feedforward { wheel_torque, current, voltage }
     }
 }

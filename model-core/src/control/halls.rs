@@ -9,11 +9,11 @@
 //!
 //! | symbol | code | unit | meaning |
 //! |---|---|---|---|
-//! | k | [`Halls::sector`] | 1 | 0 ..= 5; forward counts up |
-//! | θ | [`Halls::angle`] | rad | electrical angle of the rotor's flux, from phase a |
+//! | k | [`HallDecoder::sector`] | 1 | 0 ..= 5; forward counts up |
+//! | θ | [`HallDecoder::angle`] | rad | electrical angle of the rotor's flux, from phase a |
 //! | s | | 1 | sense in which the last edge was crossed |
 //! | t | | periods | what each of the last sectors took |
-//! | t₀ | [`Halls::since_edge`] | periods | since the last edge |
+//! | t₀ | [`HallDecoder::since_edge`] | periods | since the last edge |
 //! | n | | 1 | sectors looked at |
 //!
 //! The switches are read once a period, so that an edge is known to a period: ±½ on average, hence the ½ in the angle.
@@ -67,7 +67,7 @@ const CODES: [u8; 6] = [1, 3, 2, 6, 4, 5];
 
 /// The hall switches of one motor, followed from period to period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Halls {
+pub struct HallDecoder {
     code: HallCode,
     sector: u8,
     /// s: true where the last edge was crossed backwards
@@ -107,7 +107,7 @@ impl HallCode {
     }
 }
 
-impl Halls {
+impl HallDecoder {
     /// A rotor at rest, by the first code read.
     pub fn new(code: HallCode) -> Result<Self, HallFault> {
         let sector = code.sector().ok_or(HallFault::Illegal)?;
@@ -129,7 +129,7 @@ impl Halls {
     /// An illegal code is not believed: the rotor is taken to be where it was. A skipped sector is: the place is that of
     /// the code, the edges are counted the shorter way (not at all across half a turn), and the speed is unknown.
     #[inline]
-    pub fn turn(&mut self, code: HallCode) -> Result<(), HallFault> {
+    pub fn update(&mut self, code: HallCode) -> Result<(), HallFault> {
         if code == self.code {
             self.wait();
             return Ok(());
@@ -255,7 +255,7 @@ impl Halls {
 
     /// How far the angle goes on in a period [rad], signed; 0 where the speed is not known.
     ///
-    /// It is the speed that [`Halls::angle`] interpolates with: cheap, and without a look at whether the next edge is late.
+    /// It is the speed that [`HallDecoder::angle`] interpolates with: cheap, and without a look at whether the next edge is late.
     #[inline]
     pub fn ahead<T: Real>(&self) -> T {
         let ahead: T = angle_of_code(high(self.step));

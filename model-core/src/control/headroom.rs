@@ -11,14 +11,14 @@
 //!
 //! | symbol | code | unit | meaning |
 //! |---|---|---|---|
-//! | p | [`Wish::steady`] | A | current of each wheel that holds the motion: friction, feedback, effects |
-//! | q | [`Wish::accelerating`] | A | current of each wheel that changes the motion |
-//! | e | [`Wish::emf`] | V | voltage of each wheel that its speed takes |
-//! | R | [`Wish::resistance`] | Ω | of each winding |
-//! | I | [`Room::current`] | A | most current in a motor |
-//! | U | [`Room::voltage`] | V | most voltage across a motor: bus voltage times the largest duty |
-//! | s | [`Share::acceleration`] | 1 | how much of the acceleration fits |
-//! | k | [`Share::steady`] | 1 | k_i·k_u, how much of the steady part fits |
+//! | p | [`SplitDemand::steady`] | A | current of each wheel that holds the motion: friction, feedback, effects |
+//! | q | [`SplitDemand::accelerating`] | A | current of each wheel that changes the motion |
+//! | e | [`SplitDemand::emf`] | V | voltage of each wheel that its speed takes |
+//! | R | [`SplitDemand::resistance`] | Ω | of each winding |
+//! | I | [`MotorLimits::current`] | A | most current in a motor |
+//! | U | [`MotorLimits::voltage`] | V | most voltage across a motor: bus voltage times the largest duty |
+//! | s | [`Scaling::acceleration`] | 1 | how much of the acceleration fits |
+//! | k | [`Scaling::steady`] | 1 | k_i·k_u, how much of the steady part fits |
 //!
 //! Clipping each wheel by itself turns the robot aside: the wheel that is short pushes less than the others count on. One
 //! factor for all wheels keeps the direction of the body's acceleration, because currents and body force are in a linear
@@ -35,7 +35,7 @@ use crate::number::scalar::Real;
 
 /// What a motor may be asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Room<T = f32> {
+pub struct MotorLimits<T = f32> {
     /// I, most current either way [A]
     pub current: T,
     /// U, most voltage either way [V]
@@ -44,7 +44,7 @@ pub struct Room<T = f32> {
 
 /// What is asked of the motors, by its two reasons.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wish<const N: usize, T = f32> {
+pub struct SplitDemand<const N: usize, T = f32> {
     /// p, currents that hold the motion [A]
     pub steady: [T; N],
     /// q, currents that change it [A]
@@ -57,7 +57,7 @@ pub struct Wish<const N: usize, T = f32> {
 
 /// How much of a wish fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Share<T = f32> {
+pub struct Scaling<T = f32> {
     /// s, of the acceleration, 0 … 1 [1]
     pub acceleration: T,
     /// k, of the steady part, 0 … 1 [1]
@@ -66,19 +66,19 @@ pub struct Share<T = f32> {
 
 /// What is left of a wish.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fitted<const N: usize, T = f32> {
+pub struct LimitedDemand<const N: usize, T = f32> {
     /// Motor currents [A]
     pub current: [T; N],
     /// Motor voltages [V]
     pub voltage: [T; N],
     /// How much of the wish that is.
-    pub share: Share<T>,
+    pub scaling: Scaling<T>,
 }
 
-impl<T: Real> Room<T> {
+impl<T: Real> MotorLimits<T> {
     /// True if no current and no voltage is beyond its limit.
     #[inline(always)]
-    pub fn holds<const N: usize>(&self, current: &[T; N], voltage: &[T; N]) -> bool {
+    pub fn admits<const N: usize>(&self, current: &[T; N], voltage: &[T; N]) -> bool {
         for j in 0..N {
             if current[j].exceeds(self.current) || voltage[j].exceeds(self.voltage) {
                 return false;
@@ -88,33 +88,37 @@ impl<T: Real> Room<T> {
     }
 
     /// As much of a wish as there is room for.
-    pub fn fit<const N: usize>(&self, wish: &Wish<N, T>) -> Fitted<N, T> {
+    pub fn limit<const N: usize>(&self, demand: &SplitDemand<N, T>) -> LimitedDemand<N, T> {
         let (zero, one) = (T::zero(), T::one());
-        let Wish { steady, accelerating, emf, resistance } = wish;
+        let SplitDemand { steady, accelerating, emf, resistance } = demand;
         let mut s = one;
         for j in 0..N {
-            s = s.min(most(steady[j], accelerating[j], self.current));
+            s = s.min(largest_factor(steady[j], accelerating[j], self.current));
             // u = R·(p + s·q) + e
-            s = s.min(most(resistance[j] * steady[j] + emf[j], resistance[j] * accelerating[j], self.voltage));
+            s = s.min(largest_factor(
+                resistance[j] * steady[j] + emf[j],
+                resistance[j] * accelerating[j],
+                self.voltage,
+            ));
         }
         let s = s.max(zero);
         let wanted: [T; N] = core::array::from_fn(|j| steady[j] + s * accelerating[j]);
         // k_i = min(1, I/max|i|)
-        let by_current = share(&wanted, self.current);
+        let by_current = factor_within(&wanted, self.current);
         let wanted: [T; N] = core::array::from_fn(|j| resistance[j] * (by_current * wanted[j]) + emf[j]);
         // k_u = min(1, U/max|u|)
-        let by_voltage = share(&wanted, self.voltage);
+        let by_voltage = factor_within(&wanted, self.voltage);
         // the limit itself, where rounding would go beyond it
         let voltage = wanted.map(|u| (by_voltage * u).clamp(-self.voltage, self.voltage));
         // i = (u − e)/R
         let current = core::array::from_fn(|j| (voltage[j] - emf[j]) / resistance[j]);
-        Fitted { current, voltage, share: Share { acceleration: s, steady: by_current * by_voltage } }
+        LimitedDemand { current, voltage, scaling: Scaling { acceleration: s, steady: by_current * by_voltage } }
     }
 }
 
 /// The largest factor on `q` that keeps p + s·q below the limit on the side to which q pushes; 1 where q is nothing.
 #[inline]
-fn most<T: Real>(p: T, q: T, limit: T) -> T {
+fn largest_factor<T: Real>(p: T, q: T, limit: T) -> T {
     let push = q.abs();
     // (L − sign(q)·p)/|q|, asked without the quotient first: L may be infinite
     let left = if q < T::zero() { limit + p } else { limit - p };
@@ -123,7 +127,7 @@ fn most<T: Real>(p: T, q: T, limit: T) -> T {
 
 /// The factor that brings the largest of these within the limit; 1 where it is.
 #[inline]
-fn share<const N: usize, T: Real>(x: &[T; N], limit: T) -> T {
+fn factor_within<const N: usize, T: Real>(x: &[T; N], limit: T) -> T {
     let largest = x.iter().fold(T::zero(), |most, x| most.max(x.abs()));
     if largest > limit { limit / largest } else { T::one() }
 }
@@ -132,48 +136,48 @@ fn share<const N: usize, T: Real>(x: &[T; N], limit: T) -> T {
 mod tests {
     use super::*;
 
-    const ROOM: Room<f64> = Room { current: 3.0, voltage: 10.0 };
+    const LIMITS: MotorLimits<f64> = MotorLimits { current: 3.0, voltage: 10.0 };
 
-    fn wish(steady: [f64; 2], accelerating: [f64; 2], emf: [f64; 2]) -> Wish<2, f64> {
-        Wish { steady, accelerating, emf, resistance: [2.0, 2.0] }
+    fn demand(steady: [f64; 2], accelerating: [f64; 2], emf: [f64; 2]) -> SplitDemand<2, f64> {
+        SplitDemand { steady, accelerating, emf, resistance: [2.0, 2.0] }
     }
 
     #[test]
     fn a_wish_that_fits_is_granted() {
-        let fitted = ROOM.fit(&wish([1.0, -1.0], [0.5, 0.5], [4.0, -4.0]));
-        assert_eq!(fitted.share, Share { acceleration: 1.0, steady: 1.0 });
-        assert_eq!((fitted.current, fitted.voltage), ([1.5, -0.5], [7.0, -5.0]));
+        let limited = LIMITS.limit(&demand([1.0, -1.0], [0.5, 0.5], [4.0, -4.0]));
+        assert_eq!(limited.scaling, Scaling { acceleration: 1.0, steady: 1.0 });
+        assert_eq!((limited.current, limited.voltage), ([1.5, -0.5], [7.0, -5.0]));
     }
 
     #[test]
     fn the_shortest_wheel_scales_the_acceleration_of_all() {
         // wheel 0 has 2 V left of 8 V wanted; wheel 1 has enough
-        let fitted = ROOM.fit(&wish([1.0, 0.0], [4.0, -1.0], [6.0, 0.0]));
-        assert_eq!(fitted.share, Share { acceleration: 0.25, steady: 1.0 });
-        assert_eq!((fitted.current, fitted.voltage), ([2.0, -0.25], [10.0, -0.5]));
+        let limited = LIMITS.limit(&demand([1.0, 0.0], [4.0, -1.0], [6.0, 0.0]));
+        assert_eq!(limited.scaling, Scaling { acceleration: 0.25, steady: 1.0 });
+        assert_eq!((limited.current, limited.voltage), ([2.0, -0.25], [10.0, -0.5]));
         // and the current may be the shorter one
-        let fitted = ROOM.fit(&wish([1.0, 0.0], [4.0, -1.0], [0.0, 0.0]));
-        assert_eq!(fitted.share, Share { acceleration: 0.5, steady: 1.0 });
+        let limited = LIMITS.limit(&demand([1.0, 0.0], [4.0, -1.0], [0.0, 0.0]));
+        assert_eq!(limited.scaling, Scaling { acceleration: 0.5, steady: 1.0 });
     }
 
     #[test]
     fn braking_brings_a_wish_back_within_the_room() {
         // holding would take 12 V, braking takes 4 V off it
-        let fitted = ROOM.fit(&wish([1.0, 0.0], [-2.0, 0.0], [10.0, 0.0]));
-        assert_eq!(fitted.share, Share { acceleration: 1.0, steady: 1.0 });
-        assert_eq!(fitted.voltage, [8.0, 0.0]);
+        let limited = LIMITS.limit(&demand([1.0, 0.0], [-2.0, 0.0], [10.0, 0.0]));
+        assert_eq!(limited.scaling, Scaling { acceleration: 1.0, steady: 1.0 });
+        assert_eq!(limited.voltage, [8.0, 0.0]);
     }
 
     #[test]
     fn where_holding_is_too_much_nothing_accelerates_and_all_voltages_shrink() {
-        let fitted = ROOM.fit(&wish([1.0, 1.0], [1.0, 0.0], [18.0, 3.0]));
-        assert_eq!(fitted.share, Share { acceleration: 0.0, steady: 0.5 });
-        assert_eq!(fitted.voltage, [10.0, 2.5]);
+        let limited = LIMITS.limit(&demand([1.0, 1.0], [1.0, 0.0], [18.0, 3.0]));
+        assert_eq!(limited.scaling, Scaling { acceleration: 0.0, steady: 0.5 });
+        assert_eq!(limited.voltage, [10.0, 2.5]);
     }
 
     #[test]
     fn the_share_is_continuous_where_one_law_takes_over_from_the_other() {
-        let at = |emf: f64| ROOM.fit(&wish([1.0, 0.5], [1.0, 0.3], [emf, 2.0]));
+        let at = |emf: f64| LIMITS.limit(&demand([1.0, 0.5], [1.0, 0.3], [emf, 2.0]));
         let (below, above) = (at(8.0 - 1e-9), at(8.0 + 1e-9));
         // one part in 10⁹ of some volts
         assert!(
@@ -183,10 +187,10 @@ mod tests {
 
     #[test]
     fn an_infinite_room_grants_everything_and_none_grants_nothing() {
-        let much = wish([1e9, -1e9], [1e9, 1.0], [1e9, 0.0]);
-        let infinite = Room { current: f64::INFINITY, voltage: f64::INFINITY };
-        assert_eq!(infinite.fit(&much).share, Share { acceleration: 1.0, steady: 1.0 });
-        let none = Room { voltage: 0.0, ..ROOM }.fit(&much);
+        let much = demand([1e9, -1e9], [1e9, 1.0], [1e9, 0.0]);
+        let infinite = MotorLimits { current: f64::INFINITY, voltage: f64::INFINITY };
+        assert_eq!(infinite.limit(&much).scaling, Scaling { acceleration: 1.0, steady: 1.0 });
+        let none = MotorLimits { voltage: 0.0, ..LIMITS }.limit(&much);
         assert_eq!(none.voltage, [0.0, 0.0]);
     }
 }

@@ -15,11 +15,11 @@
 //! |---|---|---|---|
 //! | x | [`Memory::reference`] | m/s, rad/s | reference at the beginning of the turn |
 //! | a | `a` | m/s², rad/s² | of the reference during the turn |
-//! | ω_j, ω̂_j | [`Asked::wheel_speed`], [`Seen::wheel_speed`] | rad/s | of each wheel's shaft, wanted and measured |
+//! | ω_j, ω̂_j | [`Demand::wheel_speed`], [`Measurement::wheel_speed`] | rad/s | of each wheel's shaft, wanted and measured |
 //! | I | [`Memory::integral`] | N, N, N·m | force on the body that the model does not know |
 //! | k_p | [`Settings::feedback`] | A/(rad/s) | current per error of a wheel's speed |
 //! | k_i | [`Settings::feedback_integral`] | A/rad | current per error of a wheel's angle |
-//! | s | [`Decided::headroom`] | 1 | how much of the acceleration fits ([`headroom`](crate::control::headroom)) |
+//! | s | [`Output::headroom`] | 1 | how much of the acceleration fits ([`headroom`](crate::control::headroom)) |
 //!
 //! A turn is a pure function: it sees, remembers and decides. Everything that does not change from turn to turn is folded
 //! into the [`Controller`] beforehand; a new setting is a new controller, put in the old one's place between two turns.
@@ -41,19 +41,19 @@
 //!
 //! Source: Oliveira, Sousa, Moreira, Costa, ICINCO 2008, eq. 10–22, turned round; conditional integration is a classic.
 
-mod fold;
-mod undo;
+mod build;
+mod compensate;
 
 use core::array;
 
 use crate::control::compensation::Compensation;
-use crate::control::headroom::{Room, Wish};
-use crate::control::reference::Limiter;
+use crate::control::headroom::{MotorLimits, SplitDemand};
+use crate::control::reference::AccelerationLimiter;
 use crate::geometry::frames::BodyTwist;
 use crate::number::linalg::{add_scaled, dot, scaled};
 use crate::number::scalar::Real;
 use crate::plant::robot::Robot;
-use undo::Undo;
+use compensate::CompensationTerms;
 
 /// How far feedforward alone looks ahead for the direction of friction [s]: less than any rounding of a speed.
 const AHEAD: f64 = 1e-9;
@@ -64,7 +64,7 @@ pub struct Settings<const N: usize, T = f32> {
     /// The robot as it is believed to be.
     pub robot: Robot<N, T>,
     /// Effects to undo.
-    pub undo: Compensation<N, T>,
+    pub compensation: Compensation<N, T>,
     /// Largest acceleration along v, along vn and about the vertical [m/s², m/s², rad/s²]
     pub acceleration: [T; 3],
     /// Most current in a motor [A]
@@ -96,7 +96,7 @@ pub struct Memory<T = f32> {
 
 /// What a turn sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen<const N: usize, T = f32> {
+pub struct Measurement<const N: usize, T = f32> {
     /// Speed of each wheel's shaft [rad/s]
     pub wheel_speed: [T; N],
     /// Bus voltage; infinite: no limit [V]
@@ -105,7 +105,7 @@ pub struct Seen<const N: usize, T = f32> {
 
 /// What a wanted motion asks of the motors.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Asked<const N: usize, T = f32> {
+pub struct Demand<const N: usize, T = f32> {
     /// Wanted speed of each wheel's shaft; zero for a lost wheel [rad/s]
     pub wheel_speed: [T; N],
     /// Motor currents [A]
@@ -116,7 +116,7 @@ pub struct Asked<const N: usize, T = f32> {
 
 /// What a turn decides; the reference that it led to is in the [`Memory`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Decided<const N: usize, T = f32> {
+pub struct Output<const N: usize, T = f32> {
     /// Wanted currents, as the current sensors are to show them [A]
     pub current: [T; N],
     /// Motor voltages [V]
@@ -129,7 +129,7 @@ pub struct Decided<const N: usize, T = f32> {
 
 /// What one wheel's numbers are folded into.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Drive<T> {
+struct WheelMap<T> {
     /// G_j/r_j: wheel speed over body twist [1/m, 1/m, 1]
     row: [T; 3],
     /// r_j/(l·K_t)·((GᵀG)⁻¹·G_j): current over body force [A/N, A/N, A/(N·m)]
@@ -139,9 +139,9 @@ struct Drive<T> {
 /// A motion controller, folded from its [`Settings`]; it never changes.
 #[derive(Clone, Copy, Debug)]
 pub struct Controller<const N: usize, T = f32> {
-    /// Which effects are undone: see [`undo`].
+    /// Which effects are undone: see [`compensate`].
     flags: u32,
-    limiter: Limiter<T>,
+    limiter: AccelerationLimiter<T>,
     /// 1/Δt [1/s]
     rate: T,
     /// (M, M, J), what turns with the wheels included [kg, kg, kg·m²]
@@ -162,62 +162,67 @@ pub struct Controller<const N: usize, T = f32> {
     resistance: T,
     /// l·K_v [V·s]
     emf: T,
-    drives: [Drive<T>; N],
-    undo: Undo<N, T>,
+    wheels: [WheelMap<T>; N],
+    compensation: CompensationTerms<N, T>,
 }
 
 impl<const N: usize, T: Real> Controller<N, T> {
     /// One turn: sees, remembers, decides. Finite in, finite out.
     #[inline]
-    pub fn tick(&self, memory: &mut Memory<T>, seen: &Seen<N, T>, want: BodyTwist<T>) -> Decided<N, T> {
-        self.tick_in_reach(memory, seen, want).unwrap_or_else(|| self.turn_and_undo(memory, seen, want))
+    pub fn tick(&self, memory: &mut Memory<T>, measured: &Measurement<N, T>, want: BodyTwist<T>) -> Output<N, T> {
+        self.tick_within_limits(memory, measured, want).unwrap_or_else(|| self.tick_compensated(memory, measured, want))
     }
 
     /// The turn of most turns, in which nothing is undone and everything fits; `None`, and nothing remembered, where it is
     /// not one of these.
     #[inline]
-    pub fn tick_in_reach(
+    pub fn tick_within_limits(
         &self,
         memory: &mut Memory<T>,
-        seen: &Seen<N, T>,
+        measured: &Measurement<N, T>,
         want: BodyTwist<T>,
-    ) -> Option<Decided<N, T>> {
-        if self.flags == 0 { self.turn::<false>(memory, seen, want) } else { None }
+    ) -> Option<Output<N, T>> {
+        if self.flags == 0 { self.tick_unlimited::<false>(memory, measured, want) } else { None }
     }
 
     /// What the motors have to do so that the robot, moving with `twist`, accelerates as wanted, effects undone, with no
     /// feedback and no limit; `heading` [rad] matters to `floor_tilt` alone.
     #[inline]
-    pub fn feedforward(&self, twist: BodyTwist<T>, acceleration: BodyTwist<T>, heading: T) -> Asked<N, T> {
+    pub fn feedforward(&self, twist: BodyTwist<T>, acceleration: BodyTwist<T>, heading: T) -> Demand<N, T> {
         let (x, a) = (twist.to_array(), acceleration.to_array());
         // what follows next, so little later that it is x unless x is zero
         let next = add_scaled(x, T::lit(AHEAD), a);
         if self.flags == 0 {
-            self.ask::<false>(x, next, self.inertial(a), a, heading, None).0
+            self.demand::<false>(x, next, self.inertial(a), a, heading, None).0
         } else {
-            let (mut asked, _) = self.ask::<true>(x, next, self.inertial(a), a, heading, None);
-            self.undo_last(&mut asked.current, &mut asked.voltage);
-            asked
+            let (mut demand, _) = self.demand::<true>(x, next, self.inertial(a), a, heading, None);
+            self.compensate_bridges_and_sensors(&mut demand.current, &mut demand.voltage);
+            demand
         }
     }
 
     /// Any other turn. By itself, so that most stay short; where nothing is undone, undoing it changes nothing.
     #[inline(never)]
-    fn turn_and_undo(&self, memory: &mut Memory<T>, seen: &Seen<N, T>, want: BodyTwist<T>) -> Decided<N, T> {
-        if self.flags & undo::STAYS != 0 {
-            return stay(memory);
+    fn tick_compensated(
+        &self,
+        memory: &mut Memory<T>,
+        measured: &Measurement<N, T>,
+        want: BodyTwist<T>,
+    ) -> Output<N, T> {
+        if self.flags & compensate::IMMOBILE != 0 {
+            return tick_immobile(memory);
         }
-        self.turn::<true>(memory, seen, want).unwrap_or_else(|| self.squeeze(memory, seen, want))
+        self.tick_unlimited::<true>(memory, measured, want).unwrap_or_else(|| self.tick_limited(memory, measured, want))
     }
 
     /// A turn in which everything fits, with or without effects undone.
     #[inline(always)]
-    fn turn<const UNDO: bool>(
+    fn tick_unlimited<const COMPENSATE: bool>(
         &self,
         memory: &mut Memory<T>,
-        seen: &Seen<N, T>,
+        measured: &Measurement<N, T>,
         want: BodyTwist<T>,
-    ) -> Option<Decided<N, T>> {
+    ) -> Option<Output<N, T>> {
         let x = memory.reference;
         let change = self.limiter.change(x, want);
         // x⁺ = x + δ
@@ -225,11 +230,11 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let change = change.to_array();
         // M·a = (M/Δt)·δ
         let inertial = array::from_fn(|k| self.push[k] * change[k]);
-        let a = if UNDO { scaled(self.rate, change) } else { change };
-        let feedback = Some((seen, memory.integral));
-        let (mut asked, missing) =
-            self.ask::<UNDO>(x.to_array(), next.to_array(), inertial, a, memory.heading, feedback);
-        if !self.room::<UNDO>(seen).holds(&asked.current, &asked.voltage) {
+        let a = if COMPENSATE { scaled(self.rate, change) } else { change };
+        let feedback = Some((measured, memory.integral));
+        let (mut demand, missing) =
+            self.demand::<COMPENSATE>(x.to_array(), next.to_array(), inertial, a, memory.heading, feedback);
+        if !self.limits::<COMPENSATE>(measured).admits(&demand.current, &demand.voltage) {
             return None;
         }
         memory.reference = next;
@@ -237,12 +242,12 @@ impl<const N: usize, T: Real> Controller<N, T> {
             // I ← I + l·K_t·k_i·Δt·E
             *sum += self.integral_gain * missing;
         }
-        if UNDO {
-            self.turn_heading(memory, x.w);
-            self.undo_last(&mut asked.current, &mut asked.voltage);
+        if COMPENSATE {
+            self.advance_heading(memory, x.w);
+            self.compensate_bridges_and_sensors(&mut demand.current, &mut demand.voltage);
         }
-        let Asked { current, voltage, .. } = asked;
-        Some(Decided { current, voltage, headroom: T::one(), steady: T::one() })
+        let Demand { current, voltage, .. } = demand;
+        Some(Output { current, voltage, headroom: T::one(), steady: T::one() })
     }
 
     /// M·a [N, N, N·m].
@@ -253,32 +258,32 @@ impl<const N: usize, T: Real> Controller<N, T> {
 
     /// What the motors have to do, and what the wheels miss; `a` is looked at where effects are undone alone.
     #[inline(always)]
-    fn ask<const UNDO: bool>(
+    fn demand<const COMPENSATE: bool>(
         &self,
         x: [T; 3],
         next: [T; 3],
         inertial: [T; 3],
         a: [T; 3],
         heading: T,
-        feedback: Option<(&Seen<N, T>, [T; 3])>,
-    ) -> (Asked<N, T>, [T; 3]) {
+        feedback: Option<(&Measurement<N, T>, [T; 3])>,
+    ) -> (Demand<N, T>, [T; 3]) {
         let mut force: [T; 3] = array::from_fn(|k| {
             // F = C·sign(x⁺) + M·a + B·x
             toward(self.coulomb[k], next[k]) + inertial[k] + self.viscous[k] * x[k]
         });
-        let lead = if UNDO { self.undo_forces(x, a, heading, &mut force) } else { [T::zero(); N] };
+        let lead = if COMPENSATE { self.compensate_forces(x, a, heading, &mut force) } else { [T::zero(); N] };
         let mut wheel_speed = [T::zero(); N];
         let mut missing = [T::zero(); 3];
         for j in 0..N {
-            let row = self.drives[j].row;
+            let row = self.wheels[j].row;
             // ω_j = G_j·x/r_j
             wheel_speed[j] = dot(row, x);
-            if UNDO {
+            if COMPENSATE {
                 wheel_speed[j] += lead[j];
             }
-            if let Some((seen, _)) = feedback {
+            if let Some((measured, _)) = feedback {
                 // E = Σ_j G_j/r_j·(ω_j − ω̂_j)
-                let error = wheel_speed[j] - seen.wheel_speed[j];
+                let error = wheel_speed[j] - measured.wheel_speed[j];
                 missing = if j == 0 { scaled(error, row) } else { add_scaled(missing, error, row) };
             }
         }
@@ -288,56 +293,59 @@ impl<const N: usize, T: Real> Controller<N, T> {
                 force[k] = force[k] + integral[k] + self.gain * missing[k];
             }
         }
-        let mut current: [T; N] = array::from_fn(|j| dot(self.drives[j].share, force));
-        if UNDO {
-            self.undo_losses(&wheel_speed, &mut current);
+        let mut current: [T; N] = array::from_fn(|j| dot(self.wheels[j].share, force));
+        if COMPENSATE {
+            self.compensate_gear_losses(&wheel_speed, &mut current);
         }
         let voltage = array::from_fn(|j| {
-            let (resistance, emf) = self.winding::<UNDO>(j);
+            let (resistance, emf) = self.winding::<COMPENSATE>(j);
             // u_j = R·i_j + l·K_v·ω_j
             resistance * current[j] + emf * wheel_speed[j]
         });
-        (Asked { wheel_speed, current, voltage }, missing)
+        (Demand { wheel_speed, current, voltage }, missing)
     }
 
     /// R [Ω] and l·K_v [V·s] of a wheel's motor.
     #[inline(always)]
-    fn winding<const UNDO: bool>(&self, j: usize) -> (T, T) {
-        if UNDO { self.undo.winding[j] } else { (self.resistance, self.emf) }
+    fn winding<const COMPENSATE: bool>(&self, j: usize) -> (T, T) {
+        if COMPENSATE { self.compensation.winding[j] } else { (self.resistance, self.emf) }
     }
 
     /// What the motors may be asked for in this turn.
     #[inline(always)]
-    fn room<const UNDO: bool>(&self, seen: &Seen<N, T>) -> Room<T> {
-        let most = seen.bus * self.max_duty;
-        Room { current: self.current_limit, voltage: if UNDO { most - self.undo.kept } else { most } }
+    fn limits<const COMPENSATE: bool>(&self, measured: &Measurement<N, T>) -> MotorLimits<T> {
+        let most = measured.bus * self.max_duty;
+        MotorLimits {
+            current: self.current_limit,
+            voltage: if COMPENSATE { most - self.compensation.kept } else { most },
+        }
     }
 
     /// A turn whose wish does not fit, from its beginning: one that fits then carries nothing for this one.
     #[cold]
     #[inline(never)]
-    fn squeeze(&self, memory: &mut Memory<T>, seen: &Seen<N, T>, want: BodyTwist<T>) -> Decided<N, T> {
+    fn tick_limited(&self, memory: &mut Memory<T>, measured: &Measurement<N, T>, want: BodyTwist<T>) -> Output<N, T> {
         let zero = T::zero();
         let x = memory.reference;
         let change = self.limiter.change(x, want).to_array();
         let (a, next) = (scaled(self.rate, change), add_scaled(x.to_array(), T::one(), change));
-        let feedback = Some((seen, memory.integral));
-        let (asked, missing) = self.ask::<true>(x.to_array(), next, self.inertial(a), a, memory.heading, feedback);
-        let room = self.room::<true>(seen);
-        let wheel_speed = asked.wheel_speed;
+        let feedback = Some((measured, memory.integral));
+        let (demand, missing) = self.demand::<true>(x.to_array(), next, self.inertial(a), a, memory.heading, feedback);
+        let limits = self.limits::<true>(measured);
+        let wheel_speed = demand.wheel_speed;
         // q, what of the currents accelerates; p, the rest
         let mut force = self.inertial(a);
-        self.undo_coupling(a, &mut force);
-        let mut accelerating: [T; N] = array::from_fn(|j| dot(self.drives[j].share, force));
-        self.undo_losses_as(&wheel_speed, &asked.current, &mut accelerating);
-        let fitted = Room { voltage: room.voltage.max(zero), ..room }.fit(&Wish {
-            steady: array::from_fn(|j| asked.current[j] - accelerating[j]),
+        self.compensate_coupling(a, &mut force);
+        let mut accelerating: [T; N] = array::from_fn(|j| dot(self.wheels[j].share, force));
+        self.compensate_gear_losses_as(&wheel_speed, &demand.current, &mut accelerating);
+        let limited = MotorLimits { voltage: limits.voltage.max(zero), ..limits }.limit(&SplitDemand {
+            steady: array::from_fn(|j| demand.current[j] - accelerating[j]),
             accelerating,
             emf: array::from_fn(|j| self.winding::<true>(j).1 * wheel_speed[j]),
             resistance: array::from_fn(|j| self.winding::<true>(j).0),
         });
-        let (mut current, mut voltage) = (fitted.current, fitted.voltage);
-        let (s, k) = (fitted.share.acceleration, fitted.share.steady);
+        let (mut current, mut voltage) = (limited.current, limited.voltage);
+        let (s, k) = (limited.scaling.acceleration, limited.scaling.steady);
         let change = if k < T::one() {
             // back towards what fits, k·x
             self.limiter.change(x, BodyTwist { v: k * x.v, vn: k * x.vn, w: k * x.w })
@@ -352,20 +360,20 @@ impl<const N: usize, T: Real> Controller<N, T> {
                 *sum += self.integral_gain * missing;
             }
         }
-        self.turn_heading(memory, x.w);
-        self.undo_last(&mut current, &mut voltage);
-        Decided { current, voltage, headroom: s, steady: k }
+        self.advance_heading(memory, x.w);
+        self.compensate_bridges_and_sensors(&mut current, &mut voltage);
+        Output { current, voltage, headroom: s, steady: k }
     }
 }
 
 /// A turn of a robot that cannot move.
 #[cold]
 #[inline(never)]
-fn stay<const N: usize, T: Real>(memory: &mut Memory<T>) -> Decided<N, T> {
+fn tick_immobile<const N: usize, T: Real>(memory: &mut Memory<T>) -> Output<N, T> {
     let zero = T::zero();
     memory.reference = BodyTwist::default();
     memory.integral = [zero; 3];
-    Decided { current: [zero; N], voltage: [zero; N], headroom: zero, steady: zero }
+    Output { current: [zero; N], voltage: [zero; N], headroom: zero, steady: zero }
 }
 
 /// The size with the sign of a direction; 0 where there is none.

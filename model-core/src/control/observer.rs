@@ -10,8 +10,8 @@
 //!
 //! | symbol | code | unit | meaning |
 //! |---|---|---|---|
-//! | ω̂ | [`Observed::speed`] | rad/s | speed of the wheel's shaft |
-//! | q | `place` | 1 | place in the sector between two edges, forward |
+//! | ω̂ | [`WheelEstimate::speed`] | rad/s | speed of the wheel's shaft |
+//! | q | `position` | 1 | place in the sector between two edges, forward |
 //! | δ | `sector` | rad | from one edge to the next, at the wheel's shaft |
 //! | Δω | `change` | rad/s | how much faster the wheel was to become in the last turn |
 //! | t₀ | `since_edge` | s | how long before the turn the edge was |
@@ -48,7 +48,7 @@ const LOST: f32 = 3.0;
 
 /// What is the same for all wheels.
 #[derive(Clone, Copy, Debug)]
-pub struct Observer {
+pub struct SpeedObserver {
     /// Sectors in a turn over speed: Δt/δ [s/rad]
     sectors: f32,
     /// Sectors in a period of the halls over speed [s/rad]
@@ -61,10 +61,10 @@ pub struct Observer {
 
 /// What is believed of one wheel; the default knows nothing and begins with its next turn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Observed {
+pub struct WheelEstimate {
     /// ω̂ [rad/s]
     pub speed: f32,
-    place: f32,
+    position: f32,
     edges: i32,
     /// Turns since the last edge, or since nothing was known
     turns: u16,
@@ -73,7 +73,7 @@ pub struct Observed {
 
 /// What the halls say of one wheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Told {
+pub struct HallReading {
     /// Edges since the start
     pub edges: i32,
     /// Periods since the last one
@@ -82,7 +82,7 @@ pub struct Told {
     pub speed: f32,
 }
 
-impl Observer {
+impl SpeedObserver {
     /// For sectors of an angle at the wheel's shaft [rad], turns and periods of the halls of these lengths [s].
     pub fn new(sector: f32, dt: f32, period: f32) -> Self {
         Self {
@@ -96,37 +96,37 @@ impl Observer {
     /// One turn: the wheel was to become faster by `change` [rad/s] in it, and is to turn with `wanted` [rad/s] now.
     // by itself: flash is scarcer than a call
     #[inline(never)]
-    pub fn turn(&self, wheel: &mut Observed, told: Told, change: f32, wanted: f32) {
-        let passed = told.edges.wrapping_sub(wheel.edges);
-        wheel.edges = told.edges;
+    pub fn update(&self, wheel: &mut WheelEstimate, halls: HallReading, change: f32, wanted: f32) {
+        let passed = halls.edges.wrapping_sub(wheel.edges);
+        wheel.edges = halls.edges;
         wheel.turns = wheel.turns.saturating_add(1);
         // q ← q + ω̂·Δt/δ − edges passed, at the mean speed of the turn
-        wheel.place += (wheel.speed + 0.5 * change) * self.sectors - passed as f32;
+        wheel.position += (wheel.speed + 0.5 * change) * self.sectors - passed as f32;
         wheel.speed += change;
-        let within = wheel.place.clamp(0.0, 1.0);
-        let rests = told.since_edge >= REST && wanted == 0.0;
-        if !wheel.begun || rests || (wheel.place - within).abs() > LOST {
-            let speed = if rests { 0.0 } else { told.speed };
-            *wheel = Observed { speed, place: 0.5, edges: told.edges, turns: 0, begun: true };
+        let within = wheel.position.clamp(0.0, 1.0);
+        let rests = halls.since_edge >= REST && wanted == 0.0;
+        if !wheel.begun || rests || (wheel.position - within).abs() > LOST {
+            let speed = if rests { 0.0 } else { halls.speed };
+            *wheel = WheelEstimate { speed, position: 0.5, edges: halls.edges, turns: 0, begun: true };
         } else if passed != 0 {
             // y = t₀·ω̂/δ, an edge being half a period older on average than when it is seen
-            let beyond = (f32::from(told.since_edge) + 0.5) * self.sectors_a_period * wheel.speed.abs();
-            let seen = if passed > 0 { beyond } else { 1.0 - beyond };
-            self.correct(wheel, seen, f32::from(wheel.turns));
+            let beyond = (f32::from(halls.since_edge) + 0.5) * self.sectors_a_period * wheel.speed.abs();
+            let measured = if passed > 0 { beyond } else { 1.0 - beyond };
+            self.correct(wheel, measured, f32::from(wheel.turns));
             wheel.turns = 0;
-        } else if within != wheel.place {
+        } else if within != wheel.position {
             self.correct(wheel, within, 1.0);
         }
     }
 
-    /// The rotor is where it is `seen`, so many turns after it was last.
-    fn correct(&self, wheel: &mut Observed, seen: f32, turns: f32) {
+    /// The rotor is where it is `measured`, so many turns after it was last.
+    fn correct(&self, wheel: &mut WheelEstimate, measured: f32, turns: f32) {
         // p = 1/(1 + w·T + ½·(w·T)²)
         let x = self.quickness * turns;
         let p = 1.0 / (1.0 + x + 0.5 * x * x);
-        let off = seen - wheel.place;
+        let off = measured - wheel.position;
         // q ← q + (1 − p²)·(y − q),  ω̂ ← ω̂ + (1 − p)²·δ/T·(y − q)
-        wheel.place += (1.0 - p * p) * off;
+        wheel.position += (1.0 - p * p) * off;
         wheel.speed += (1.0 - p) * (1.0 - p) / turns * self.speed_of_sector * off;
     }
 }

@@ -17,8 +17,8 @@
 //! | symbol | code | unit | meaning |
 //! |---|---|---|---|
 //! | a, b, c | `[a, b, c]` | A, V | of the three phases; a current is positive into the motor |
-//! | α, β | [`Stationary`] | A, V | the same as a vector that stands still; α along phase a |
-//! | d, q | [`Rotor`] | A, V | the same as a vector that turns with the rotor; d along its flux |
+//! | α, β | [`AlphaBeta`] | A, V | the same as a vector that stands still; α along phase a |
+//! | d, q | [`DirectQuadrature`] | A, V | the same as a vector that turns with the rotor; d along its flux |
 //! | θ | [`Rotation`] | rad | electrical angle of the rotor's flux, from phase a |
 //! | i, u | `current`, `voltage` | A, V | DC-equivalent: torque over K_t, and what a DC motor would need for it |
 //! | λ | [`flux_linkage`] | V·s | back-EMF of phase a is −ω_e·λ·sin θ |
@@ -48,7 +48,7 @@ const SQRT_3: f64 = 1.732_050_807_568_877_2;
 
 /// A current [A] or voltage [V] vector that stands still.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Stationary<T = f32> {
+pub struct AlphaBeta<T = f32> {
     /// α, along phase a
     pub alpha: T,
     /// β, a quarter turn ahead of it
@@ -57,7 +57,7 @@ pub struct Stationary<T = f32> {
 
 /// A current [A] or voltage [V] vector that turns with the rotor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rotor<T = f32> {
+pub struct DirectQuadrature<T = f32> {
     /// d, along the rotor's flux
     pub d: T,
     /// q, a quarter turn ahead of it; its current makes the torque
@@ -71,17 +71,17 @@ pub struct Rotation<T = f32> {
     cos: T,
 }
 
-impl<T: Real> Stationary<T> {
+impl<T: Real> AlphaBeta<T> {
     /// Clarke's vector of three phases, which keeps their amplitude; what they have in common drops out.
     #[inline]
-    pub fn of_phases([a, b, c]: [T; 3]) -> Self {
+    pub fn clarke([a, b, c]: [T; 3]) -> Self {
         // α = (2a − b − c)/3,  β = (b − c)/√3
         Self { alpha: (a + a - b - c) * T::lit(1.0 / 3.0), beta: (b - c) * T::lit(1.0 / SQRT_3) }
     }
 
     /// The three phases of the vector, with sum zero.
     #[inline]
-    pub fn phases(self) -> [T; 3] {
+    pub fn inverse_clarke(self) -> [T; 3] {
         // a = α,  b = (−α + √3·β)/2,  c = (−α − √3·β)/2
         let (along, across) = (self.alpha * T::lit(-0.5), self.beta * T::lit(0.5 * SQRT_3));
         [self.alpha, along + across, along - across]
@@ -111,16 +111,16 @@ impl<T: Real> Rotation<T> {
 
     /// Park's vector: the one that stands still, seen from the rotor.
     #[inline]
-    pub fn to_rotor(self, x: Stationary<T>) -> Rotor<T> {
+    pub fn park(self, x: AlphaBeta<T>) -> DirectQuadrature<T> {
         // d = cos θ·α + sin θ·β,  q = −sin θ·α + cos θ·β
-        Rotor { d: self.cos * x.alpha + self.sin * x.beta, q: self.cos * x.beta - self.sin * x.alpha }
+        DirectQuadrature { d: self.cos * x.alpha + self.sin * x.beta, q: self.cos * x.beta - self.sin * x.alpha }
     }
 
     /// The rotor's vector, seen from where the phases stand.
     #[inline]
-    pub fn to_stationary(self, x: Rotor<T>) -> Stationary<T> {
+    pub fn inverse_park(self, x: DirectQuadrature<T>) -> AlphaBeta<T> {
         // α = cos θ·d − sin θ·q,  β = sin θ·d + cos θ·q
-        Stationary { alpha: self.cos * x.d - self.sin * x.q, beta: self.sin * x.d + self.cos * x.q }
+        AlphaBeta { alpha: self.cos * x.d - self.sin * x.q, beta: self.sin * x.d + self.cos * x.q }
     }
 }
 
@@ -170,14 +170,14 @@ pub fn flux_linkage<T: Real>(emf_constant: T, pole_pairs: u8) -> T {
 ///
 /// `per_bus` is one over the bus voltage [1/V].
 #[inline]
-pub fn space_vector<T: Real>(voltage: Stationary<T>, per_bus: T) -> [T; 3] {
-    let share = Stationary { alpha: voltage.alpha * per_bus, beta: voltage.beta * per_bus };
-    centred(share.phases())
+pub fn space_vector<T: Real>(voltage: AlphaBeta<T>, per_bus: T) -> [T; 3] {
+    let share = AlphaBeta { alpha: voltage.alpha * per_bus, beta: voltage.beta * per_bus };
+    centred_duties(share.inverse_clarke())
 }
 
 /// Duties [1] of three shares of the bus with sum zero [1], moved together so that they are centred about ½.
 #[inline]
-pub fn centred<T: Real>([a, b, c]: [T; 3]) -> [T; 3] {
+pub fn centred_duties<T: Real>([a, b, c]: [T; 3]) -> [T; 3] {
     let (lower, upper) = if b < a { (b, a) } else { (a, b) };
     let middle = c.max(lower).min(upper);
     // δ_k = ½ + (u_k − ½·(max u + min u))/U;  max u + min u = −(the middle one), as the three have sum zero
@@ -187,7 +187,7 @@ pub fn centred<T: Real>([a, b, c]: [T; 3]) -> [T; 3] {
 
 /// Who conducts in a sector of six steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Step {
+pub struct CommutationStep {
     /// Phase that is driven up (0 a, 1 b, 2 c)
     pub up: Phase,
     /// Phase that is driven down
@@ -219,7 +219,7 @@ impl Phase {
     }
 }
 
-impl Step {
+impl CommutationStep {
     /// What is up, down and idle, as phases a, b, c.
     #[inline]
     pub fn phases<X: Copy>(self, up: X, down: X, idle: X) -> [X; 3] {
@@ -238,15 +238,15 @@ impl Step {
 /// Who conducts in each of the six sectors so that the torque is positive; sector k is centred on θ = k·60°.
 ///
 /// At θ = 0 the back-EMF of phase b is at +√3/2, that of c at −√3/2 and that of a at 0 of its amplitude.
-pub const SIX_STEPS: [Step; 6] = {
+pub const SIX_STEPS: [CommutationStep; 6] = {
     use Phase::{A, B, C};
     [
-        Step { up: B, down: C, idle: A },
-        Step { up: B, down: A, idle: C },
-        Step { up: C, down: A, idle: B },
-        Step { up: C, down: B, idle: A },
-        Step { up: A, down: B, idle: C },
-        Step { up: A, down: C, idle: B },
+        CommutationStep { up: B, down: C, idle: A },
+        CommutationStep { up: B, down: A, idle: C },
+        CommutationStep { up: C, down: A, idle: B },
+        CommutationStep { up: C, down: B, idle: A },
+        CommutationStep { up: A, down: B, idle: C },
+        CommutationStep { up: A, down: C, idle: B },
     ]
 };
 

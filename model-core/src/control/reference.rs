@@ -32,28 +32,28 @@ use crate::number::scalar::Real;
 
 /// How fast the reference may change, ready to compute with.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limiter<T = f32> {
+pub struct AccelerationLimiter<T = f32> {
     /// 1/(A_v·Δt), 1/(A_vn·Δt) [s/m]
     per_step: [T; 2],
     /// A_ω·Δt [rad/s]
-    turn: T,
+    yaw_step: T,
 }
 
-impl<T: Real> Limiter<T> {
+impl<T: Real> AccelerationLimiter<T> {
     /// The limiter for these largest accelerations [m/s², m/s², rad/s²] and this turn [s].
     ///
     /// An acceleration of zero or below, or one that is no number, lets that axis stand still.
     pub fn new(acceleration: [T; 3], dt: T) -> Self {
         // no step is smaller than 10⁻¹² m/s: its inverse stays a number, and nothing moves
         let step = acceleration.map(|a| if a * dt > T::lit(1e-12) { a * dt } else { T::lit(1e-12) });
-        Self { per_step: [T::one() / step[0], T::one() / step[1]], turn: step[2] }
+        Self { per_step: [T::one() / step[0], T::one() / step[1]], yaw_step: step[2] }
     }
 
     /// By how much the reference changes in one turn on its way from `now` to `want` [m/s, m/s, rad/s].
     #[inline(always)]
     pub fn change(&self, now: BodyTwist<T>, want: BodyTwist<T>) -> BodyTwist<T> {
         let (v, vn) = (want.v - now.v, want.vn - now.vn);
-        let w = within(want.w - now.w, self.turn);
+        let w = within(want.w - now.w, self.yaw_step);
         let (p, q) = (v * self.per_step[0], vn * self.per_step[1]);
         let square = p * p + q * q;
         if square > T::one() {
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn a_step_that_is_too_large_keeps_its_direction_and_has_the_largest_length() {
-        let limiter = Limiter::new([3.0_f64, 3.0, 20.0], 1e-3);
+        let limiter = AccelerationLimiter::new([3.0_f64, 3.0, 20.0], 1e-3);
         let now = BodyTwist { v: 0.2, vn: -0.1, w: 1.0 };
         let change = limiter.change(now, BodyTwist { v: 1.0, vn: 0.5, w: -4.0 });
         // a product of a few roundings
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn two_limits_make_an_ellipse() {
-        let limiter = Limiter::new([4.0_f64, 2.0, 20.0], 1e-3);
+        let limiter = AccelerationLimiter::new([4.0_f64, 2.0, 20.0], 1e-3);
         let change = limiter.change(BodyTwist::default(), BodyTwist { v: 9.0, vn: 9.0, w: 0.0 });
         let (p, q) = (change.v / 4e-3, change.vn / 2e-3);
         assert!((p * p + q * q - 1.0).abs() < 1e-14 && change.v == change.vn, "{change:?}");
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn what_is_near_is_reached_at_once_and_exactly() {
-        let limiter = Limiter::new([3.0_f32, 3.0, 20.0], 1e-3);
+        let limiter = AccelerationLimiter::new([3.0_f32, 3.0, 20.0], 1e-3);
         let now = BodyTwist { v: 0.001, vn: -0.002, w: 0.015 };
         let change = limiter.change(now, BodyTwist::default());
         assert_eq!([now.v + change.v, now.vn + change.vn, now.w + change.w], [0.0; 3]);
@@ -111,7 +111,7 @@ mod tests {
     #[test]
     fn an_axis_without_acceleration_stands_still() {
         for none in [0.0, -1.0, f64::NAN] {
-            let limiter = Limiter::new([none, 3.0, none], 1e-3);
+            let limiter = AccelerationLimiter::new([none, 3.0, none], 1e-3);
             let change = limiter.change(BodyTwist::default(), BodyTwist { v: 1.0, vn: 0.0, w: 1.0 });
             assert!(change.v.abs() < 2e-12 && change.w.abs() < 2e-12, "{change:?}");
         }

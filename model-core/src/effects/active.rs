@@ -1,4 +1,4 @@
-//! # Active: the effects that a model carries, with their parameters and their place in the memory
+//! # Active effects: those that a model carries, with their parameters and their place in the memory
 //!
 //! A model is a robot and a set of effects. The set has room for [`MAX_EFFECTS`], needs no allocation, and knows for
 //! every seam which of its effects act there, so that a seam without effects costs nothing.
@@ -6,7 +6,7 @@
 use core::ops::Range;
 
 use crate::effects::Effect;
-use crate::effects::card::{MAX_PARAMS, Place, Seam};
+use crate::effects::card::{MAX_PARAMS, Scope, Seam};
 use crate::number::scalar::Real;
 
 /// The most effects that one model may carry.
@@ -14,7 +14,7 @@ pub const MAX_EFFECTS: usize = 12;
 
 /// An effect in a model.
 #[derive(Clone, Copy)]
-pub struct Active<T: Real> {
+pub struct ActiveEffect<T: Real> {
     /// Which effect.
     pub effect: &'static dyn Effect<T>,
     /// On which wheel alone; `None`: on all, or on the robot.
@@ -29,7 +29,7 @@ pub struct Active<T: Real> {
     whole: bool,
 }
 
-impl<T: Real> core::fmt::Debug for Active<T> {
+impl<T: Real> core::fmt::Debug for ActiveEffect<T> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Active")
             .field("id", &self.effect.card().id)
@@ -39,7 +39,7 @@ impl<T: Real> core::fmt::Debug for Active<T> {
     }
 }
 
-impl<T: Real> Active<T> {
+impl<T: Real> ActiveEffect<T> {
     /// The parameters, in the card's order.
     #[inline]
     pub fn params(&self) -> &[T] {
@@ -68,7 +68,7 @@ impl<T: Real> Active<T> {
 
 /// Why an effect cannot join a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refused {
+pub enum EffectError {
     /// There is no room for another; a model carries [`MAX_EFFECTS`] at most.
     Full,
     /// The wheel named is not there, or an effect of one wheel names none.
@@ -80,7 +80,7 @@ pub enum Refused {
 /// The effects of a model.
 #[derive(Clone, Copy, Debug)]
 pub struct Effects<const N: usize, T: Real> {
-    items: [Option<Active<T>>; MAX_EFFECTS],
+    items: [Option<ActiveEffect<T>>; MAX_EFFECTS],
     len: usize,
     memory: usize,
     at_seam: [u16; Seam::ALL.len()],
@@ -107,25 +107,30 @@ impl<const N: usize, T: Real> Effects<N, T> {
     /// Adds an effect; `params` in the card's order.
     ///
     /// # Errors
-    /// [`Refused`] says why; the set is then as it was.
-    pub fn add(&mut self, effect: &'static dyn Effect<T>, wheel: Option<usize>, params: &[T]) -> Result<(), Refused> {
+    /// [`EffectError`] says why; the set is then as it was.
+    pub fn add(
+        &mut self,
+        effect: &'static dyn Effect<T>,
+        wheel: Option<usize>,
+        params: &[T],
+    ) -> Result<(), EffectError> {
         let card = effect.card();
         if self.len == MAX_EFFECTS {
-            return Err(Refused::Full);
+            return Err(EffectError::Full);
         }
-        if wheel.is_some_and(|w| w >= N || card.place == Place::Robot)
-            || (wheel.is_none() && card.place == Place::OneWheel)
+        if wheel.is_some_and(|w| w >= N || card.scope == Scope::Robot)
+            || (wheel.is_none() && card.scope == Scope::OneWheel)
         {
-            return Err(Refused::Wheel);
+            return Err(EffectError::Wheel);
         }
         if params.len() != card.params.len() || params.len() > MAX_PARAMS {
-            return Err(Refused::Parameters);
+            return Err(EffectError::Parameters);
         }
         let mut held = [T::zero(); MAX_PARAMS];
         held[..params.len()].copy_from_slice(params);
-        let one = card.place == Place::Robot || wheel.is_some();
+        let one = card.scope == Scope::Robot || wheel.is_some();
         let (blocks, stride) = if one { (1, 0) } else { (N, card.memory) };
-        self.items[self.len] = Some(Active {
+        self.items[self.len] = Some(ActiveEffect {
             effect,
             wheel,
             params: held,
@@ -133,7 +138,7 @@ impl<const N: usize, T: Real> Effects<N, T> {
             memory_at: self.memory,
             stride,
             memory_len: card.memory,
-            whole: card.place == Place::Robot,
+            whole: card.scope == Scope::Robot,
         });
         self.memory += blocks * card.memory;
         for seam in card.seams {
@@ -174,19 +179,19 @@ impl<const N: usize, T: Real> Effects<N, T> {
     }
 
     /// All of them, in the order in which they were added.
-    pub fn iter(&self) -> impl Iterator<Item = &Active<T>> {
+    pub fn iter(&self) -> impl Iterator<Item = &ActiveEffect<T>> {
         self.pick((1 << self.len) - 1)
     }
 
     /// Those at a seam.
     #[inline]
-    pub fn at(&self, seam: Seam) -> impl Iterator<Item = &Active<T>> {
+    pub fn at(&self, seam: Seam) -> impl Iterator<Item = &ActiveEffect<T>> {
         self.pick(self.at_seam[seam as usize])
     }
 
     /// Those at a seam that act on a wheel.
     #[inline]
-    pub fn on(&self, seam: Seam, wheel: usize) -> impl Iterator<Item = &Active<T>> {
+    pub fn on(&self, seam: Seam, wheel: usize) -> impl Iterator<Item = &ActiveEffect<T>> {
         self.pick(self.at_seam[seam as usize] & self.on_wheel[wheel])
     }
 
@@ -198,12 +203,12 @@ impl<const N: usize, T: Real> Effects<N, T> {
 
     /// Those that remember.
     #[inline]
-    pub fn with_memory(&self) -> impl Iterator<Item = &Active<T>> {
+    pub fn with_memory(&self) -> impl Iterator<Item = &ActiveEffect<T>> {
         self.pick(self.with_memory)
     }
 
     #[inline]
-    fn pick(&self, mut mask: u16) -> impl Iterator<Item = &Active<T>> {
+    fn pick(&self, mut mask: u16) -> impl Iterator<Item = &ActiveEffect<T>> {
         core::iter::from_fn(move || {
             while mask != 0 {
                 let k = mask.trailing_zeros() as usize;

@@ -13,7 +13,7 @@ pub enum Seam {
     /// Battery: bus current → bus voltage.
     Supply,
     /// Bridge: commanded voltage → terminal voltage.
-    Drive,
+    Bridge,
     /// Winding: terminal voltage → current → shaft torque.
     Winding,
     /// Gear: motor torque → wheel torque, with the friction and inertia that sit on the wheel shaft.
@@ -29,12 +29,12 @@ pub enum Seam {
 impl Seam {
     /// All seams in signal order.
     pub const ALL: [Seam; 7] =
-        [Seam::Supply, Seam::Drive, Seam::Winding, Seam::Gear, Seam::Contact, Seam::Body, Seam::Sense];
+        [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Contact, Seam::Body, Seam::Sense];
 
     /// The stage that a report names for this seam.
     pub const fn stage(self) -> Stage {
         match self {
-            Seam::Supply | Seam::Drive | Seam::Winding => Stage::Electrical,
+            Seam::Supply | Seam::Bridge | Seam::Winding => Stage::Electrical,
             Seam::Gear => Stage::Drivetrain,
             Seam::Contact => Stage::Contact,
             Seam::Body => Stage::Body,
@@ -76,7 +76,7 @@ impl Stage {
 
 /// Where an effect sits on the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Scope {
     /// On the robot as a whole.
     Robot,
     /// On every wheel alike, or on one wheel alone.
@@ -141,7 +141,7 @@ pub struct Card {
     /// The seams that it touches, in signal order; the first is its home.
     pub seams: &'static [Seam],
     /// Where it sits.
-    pub place: Place,
+    pub scope: Scope,
     /// Its parameters, in the order in which the hooks receive them; at most [`MAX_PARAMS`].
     pub params: &'static [Param],
     /// Numbers of memory that one instance keeps; on an effect of wheels, for every wheel.

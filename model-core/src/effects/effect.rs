@@ -1,7 +1,7 @@
 //! What an effect can do: one hook a seam, and the memory it keeps.
 
 use super::card::Card;
-use super::seams::{At, Body, Contact, Drive, Gear, Sense, Supply, Turn, Winding};
+use super::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
 use crate::number::scalar::Real;
 
 /// An effect: a card and the hooks at its seams.
@@ -15,23 +15,23 @@ pub trait Effect<T: Real>: Sync {
     /// The effect's page as data.
     fn card(&self) -> &'static Card;
     /// Battery: bus current → bus voltage.
-    fn supply(&self, p: &[T], s: &[T], at: &At<T>, x: &mut Supply<T>) {}
+    fn supply(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Supply<T>) {}
     /// Bridge: commanded voltage → terminal voltage.
-    fn drive(&self, p: &[T], s: &[T], at: &At<T>, x: &mut Drive<T>) {}
+    fn bridge(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Bridge<T>) {}
     /// Winding: terminal voltage → current → torque.
-    fn winding(&self, p: &[T], s: &[T], at: &At<T>, x: &mut Winding<T>) {}
+    fn winding(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Winding<T>) {}
     /// Gear: motor torque → wheel torque.
-    fn gear(&self, p: &[T], s: &[T], at: &At<T>, x: &mut Gear<T>) {}
+    fn gear(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Gear<T>) {}
     /// Contact: wheel torque → force on the floor.
-    fn contact(&self, p: &[T], s: &[T], at: &At<T>, x: &mut Contact<T>) {}
+    fn contact(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Contact<T>) {}
     /// Body: forces → acceleration.
-    fn body(&self, p: &[T], s: &[T], at: &At<T>, x: &mut Body<T>) {}
+    fn body(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Body<T>) {}
     /// Sensors: truth → reading.
-    fn sense(&self, p: &[T], s: &[T], at: &At<T>, x: &mut Sense<T>) {}
+    fn sense(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Sense<T>) {}
     /// Sensors backwards: a smoothed reading → the truth that a prediction starts from.
-    fn unsense(&self, p: &[T], at: &At<T>, x: &mut Sense<T>) {}
+    fn invert_sensing(&self, p: &[T], at: &EffectContext<T>, x: &mut Sense<T>) {}
     /// The memory at a start: as if the robot had come to `at.pose` with the constant velocity `at.twist`.
-    fn restart(&self, p: &[T], s: &mut [T], at: &At<T>) {}
+    fn restart(&self, p: &[T], s: &mut [T], at: &EffectContext<T>) {}
     /// The memory after a step.
-    fn advance(&self, p: &[T], s: &mut [T], at: &At<T>, done: &Turn<T>) {}
+    fn advance(&self, p: &[T], s: &mut [T], at: &EffectContext<T>, done: &StepOutcome<T>) {}
 }

@@ -13,7 +13,7 @@ pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Where and when an effect is asked.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct At<T> {
+pub struct EffectContext<T> {
     /// Time since the start of the run [s]
     pub time: T,
     /// Length of the step that is about to be taken [s]
@@ -45,7 +45,7 @@ pub struct Supply<T> {
 
 /// Bridge: commanded voltage in, terminal voltage out.
 #[derive(Clone, Copy, Debug)]
-pub struct Drive<T> {
+pub struct Bridge<T> {
     /// Mean voltage that the controller commands [V]
     pub command: T,
     /// Bus voltage [V]
@@ -152,7 +152,7 @@ pub struct Sense<T> {
 /// What happened in a step, for effects that remember. An effect of wheels gets its own wheel's numbers; one of the
 /// robot the supply's, with `command`, `current` and `wheel_speed` zero.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Turn<T> {
+pub struct StepOutcome<T> {
     /// Commanded voltage [V]
     pub command: T,
     /// Motor current [A]

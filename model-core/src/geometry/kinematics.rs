@@ -60,7 +60,7 @@ pub struct Wheels<const N: usize, T = f32> {
     /// G, row by row: (cos α_j, sin α_j, d_j) [1, 1, m]
     rows: [Vec3<T>; N],
     /// G·(GᵀG)⁻¹, row by row [1, 1, 1/m]
-    shares: [Vec3<T>; N],
+    pseudo_inverse: [Vec3<T>; N],
     /// n, unit length; of no meaning for three wheels [1]
     parity: [T; 4],
     regular: bool,
@@ -144,8 +144,8 @@ impl<const N: usize, T: Real> Wheels<N, T> {
 
         // G·(GᵀG)⁻¹, whose rows are (GᵀG)⁻¹·G_j
         let inverse: Mat3<T> = if regular { linalg::inverse3(&gram) } else { Default::default() };
-        let shares = rows.map(|row| linalg::mul_mat_vec(&inverse, row));
-        Self { wheels, rows, shares, parity: linalg::left_null(&four), regular }
+        let pseudo_inverse = rows.map(|row| linalg::mul_mat_vec(&inverse, row));
+        Self { wheels, rows, pseudo_inverse, parity: linalg::left_null(&four), regular }
     }
 
     /// The same wheels with all radii and all distances multiplied by a factor [1].
@@ -196,7 +196,7 @@ impl<const N: usize, T: Real> Wheels<N, T> {
     pub fn twist(&self, rim: [T; N]) -> BodyTwist<T> {
         // (v, vn, ω) = Σ_j (GᵀG)⁻¹·G_j·v_j
         let mut sum = [T::zero(); 3];
-        for (share, speed) in self.shares.iter().zip(rim) {
+        for (share, speed) in self.pseudo_inverse.iter().zip(rim) {
             sum = linalg::add_scaled(sum, speed, *share);
         }
         BodyTwist::from_array(sum)
@@ -223,7 +223,7 @@ impl<const N: usize, T: Real> Wheels<N, T> {
     #[inline]
     pub fn wheel_forces(&self, body_force: [T; 3]) -> [T; N] {
         // f_j = ((GᵀG)⁻¹·G_j)·(F_v, F_vn, Γ)
-        self.shares.map(|share| linalg::dot(share, body_force))
+        self.pseudo_inverse.map(|share| linalg::dot(share, body_force))
     }
 }
 

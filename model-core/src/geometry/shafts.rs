@@ -11,7 +11,7 @@
 //!
 //! | symbol | code | unit | meaning |
 //! |---|---|---|---|
-//! | l | [`Gear::ratio`] | 1 | motor speed over wheel speed |
+//! | l | [`Gearbox::ratio`] | 1 | motor speed over wheel speed |
 //! | r | [`Rim::radius`] | m | wheel radius |
 //!
 //! This is the only place where the gear ratio and the wheel radius turn one quantity into another. Both conversions keep
@@ -28,7 +28,7 @@ use crate::number::scalar::Real;
 
 /// The gear between motor and wheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Gear<T = f32> {
+pub struct Gearbox<T = f32> {
     /// l, motor speed over wheel speed [1]
     pub ratio: T,
 }
@@ -40,7 +40,7 @@ pub struct Rim<T = f32> {
     pub radius: T,
 }
 
-impl<T: Real> Gear<T> {
+impl<T: Real> Gearbox<T> {
     /// Speed of the motor's shaft [rad/s] at a speed of the wheel's shaft [rad/s].
     #[inline]
     pub fn motor_speed(self, wheel_speed: T) -> T {
@@ -118,7 +118,7 @@ impl<T: Real> Rim<T> {
 mod tests {
     use super::*;
 
-    const GEAR: Gear<f64> = Gear { ratio: 5.0 };
+    const GEAR: Gearbox<f64> = Gearbox { ratio: 5.0 };
     const RIM: Rim<f64> = Rim { radius: 0.0325 };
 
     #[test]

@@ -29,11 +29,11 @@ use crate::plant::winding::Motor;
 
 mod bounds;
 mod effects;
-mod refused;
+mod error;
 
-pub use bounds::{Field, USABLE_COUNTS};
-pub use effects::{BlockEffect, BlockEffects, KNOWN, Known};
-pub use refused::{Reason, Refused};
+pub use bounds::{BoundedField, USABLE_COUNTS};
+pub use effects::{BlockEffect, BlockEffects, EFFECT_CODES, EffectCode};
+pub use error::{BlockError, BlockErrorKind};
 
 /// Version of the form that this program writes and the newest that it reads.
 pub const VERSION: u16 = 1;
@@ -52,7 +52,7 @@ const _: () = assert!(LONGEST <= MAX_BYTES, "every block fits");
 /// How the wheels are driven.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Mode {
+pub enum ControlMode {
     /// By the model's voltages alone.
     Voltage,
     /// By currents that a loop holds.
@@ -83,7 +83,7 @@ pub struct Block<const N: usize> {
     /// L, DC-equivalent [H]
     pub inductance: f32,
     /// How the wheels are driven.
-    pub mode: Mode,
+    pub mode: ControlMode,
     /// True: the model goes ahead of the feedback; false: feedback alone, to compare with.
     pub feedforward: bool,
     /// How the motors' phases are driven.
@@ -119,7 +119,7 @@ impl<const N: usize> Default for Block<N> {
                 supply: 0.0,
             },
             inductance: 0.0,
-            mode: Mode::default(),
+            mode: ControlMode::default(),
             feedforward: true,
             commutation: Commutation::default(),
             pole_pairs: 0,
@@ -186,30 +186,30 @@ impl<const N: usize> Block<N> {
     /// Holds every number to its bounds.
     ///
     /// # Errors
-    /// [`Refused`] names the first number that is not within them.
-    pub fn check(&self) -> Result<(), Refused> {
+    /// [`BlockError`] names the first number that is not within them.
+    pub fn check(&self) -> Result<(), BlockError> {
         let mut copy = *self;
         for wheel in self.robot.wheels.wheels() {
             for (field, x) in bounds::WHEEL.iter().zip([wheel.drive_angle, wheel.distance, wheel.radius]) {
-                field.holds(x)?;
+                field.check(x)?;
             }
         }
         for (field, x) in bounds::SCALARS.iter().zip(copy.scalars()) {
-            field.holds(*x)?;
+            field.check(*x)?;
         }
-        bounds::POLE_PAIRS.holds(f32::from(self.pole_pairs))?;
+        bounds::POLE_PAIRS.check(f32::from(self.pole_pairs))?;
         if !self.robot.wheels.is_regular() {
-            return Err(Refused::because(Reason::Wheels, "drive_angle_deg"));
+            return Err(BlockError::because(BlockErrorKind::Wheels, "drive_angle_deg"));
         }
-        bounds::together(self.robot.supply, &self.limits, self.amps_per_count, self.bus_volts_per_count)?;
+        bounds::check_limits(self.robot.supply, &self.limits, self.amps_per_count, self.bus_volts_per_count)?;
         self.effects.check(N)
     }
 
     /// Writes the block into `out` and returns how many bytes it has.
     ///
     /// # Errors
-    /// [`Refused`] as [`Block::check`]; a block that is not sound is not written.
-    pub fn encode(&self, out: &mut [u8; MAX_BYTES]) -> Result<usize, Refused> {
+    /// [`BlockError`] as [`Block::check`]; a block that is not sound is not written.
+    pub fn encode(&self, out: &mut [u8; MAX_BYTES]) -> Result<usize, BlockError> {
         self.check()?;
         let mut copy = *self;
         let effects = self.effects.iter().map(|effect| 2 + 4 * effect.params().len()).sum::<usize>();
@@ -230,27 +230,33 @@ impl<const N: usize> Block<N> {
             effect.params().iter().for_each(|x| writer.f32(*x));
         }
         writer.u32(CHECK.checksum(writer.written()));
-        writer.len().filter(|written| *written == length).ok_or(Refused::because(Reason::Length, "length"))
+        writer.len().filter(|written| *written == length).ok_or(BlockError::because(BlockErrorKind::Length, "length"))
     }
 
     /// Reads what follows the wheels' number; all but the bounds.
-    fn read(reader: &mut Reader) -> Result<Self, Refused> {
+    fn read(reader: &mut Reader) -> Result<Self, BlockError> {
         let mut block = Self::default();
-        let short = Refused::because(Reason::Length, "length");
+        let short = BlockError::because(BlockErrorKind::Length, "length");
         let [mode, feedforward, commutation, pole_pairs] = reader.array().ok_or(short)?;
         block.mode = match mode {
-            0 => Mode::Voltage,
-            1 => Mode::Current,
-            _ => return Err(Refused { value: f32::from(mode), ..Refused::because(Reason::Mode, "mode") }),
+            0 => ControlMode::Voltage,
+            1 => ControlMode::Current,
+            _ => {
+                return Err(BlockError { value: f32::from(mode), ..BlockError::because(BlockErrorKind::Mode, "mode") });
+            }
         };
         block.feedforward = match feedforward {
             0 => false,
             1 => true,
             _ => {
-                return Err(Refused { value: f32::from(feedforward), ..Refused::because(Reason::Mode, "feedforward") });
+                return Err(BlockError {
+                    value: f32::from(feedforward),
+                    ..BlockError::because(BlockErrorKind::Mode, "feedforward")
+                });
             }
         };
-        let unknown = Refused { value: f32::from(commutation), ..Refused::because(Reason::Mode, "commutation") };
+        let unknown =
+            BlockError { value: f32::from(commutation), ..BlockError::because(BlockErrorKind::Mode, "commutation") };
         block.commutation = Commutation::from_code(commutation).ok_or(unknown)?;
         block.pole_pairs = pole_pairs;
         let mut wheels = [Wheel::default(); N];
@@ -259,7 +265,7 @@ impl<const N: usize> Block<N> {
             // before anything is computed with them
             for (field, x) in bounds::WHEEL.iter().zip([drive_angle, distance, radius]) {
                 *x = reader.f32().ok_or(short)?;
-                field.holds(*x)?;
+                field.check(*x)?;
             }
         }
         block.robot.wheels = Wheels::new(wheels);
@@ -282,8 +288,8 @@ impl Parameters {
     /// Writes the block into `out` and returns how many bytes it has.
     ///
     /// # Errors
-    /// [`Refused`] as [`Block::check`]; a block that is not sound is not written.
-    pub fn encode(&self, out: &mut [u8; MAX_BYTES]) -> Result<usize, Refused> {
+    /// [`BlockError`] as [`Block::check`]; a block that is not sound is not written.
+    pub fn encode(&self, out: &mut [u8; MAX_BYTES]) -> Result<usize, BlockError> {
         match self {
             Parameters::Three(block) => block.encode(out),
             Parameters::Four(block) => block.encode(out),
@@ -293,30 +299,32 @@ impl Parameters {
     /// Reads a block; bytes that follow it are not looked at.
     ///
     /// # Errors
-    /// [`Refused`] says what is wrong with it.
-    pub fn decode(bytes: &[u8]) -> Result<Parameters, Refused> {
-        let short = Refused::because(Reason::Length, "length");
+    /// [`BlockError`] says what is wrong with it.
+    pub fn decode(bytes: &[u8]) -> Result<Parameters, BlockError> {
+        let short = BlockError::because(BlockErrorKind::Length, "length");
         let mut reader = Reader::new(bytes);
         if reader.array::<4>() != Some(MAGIC) {
-            return Err(Refused::because(Reason::Magic, "magic"));
+            return Err(BlockError::because(BlockErrorKind::Magic, "magic"));
         }
         let version = reader.u16().ok_or(short)?;
         if version != VERSION {
-            let reason = if version > VERSION { Reason::Newer } else { Reason::Older };
-            return Err(Refused { value: f32::from(version), ..Refused::because(reason, "version") });
+            let reason = if version > VERSION { BlockErrorKind::Newer } else { BlockErrorKind::Older };
+            return Err(BlockError { value: f32::from(version), ..BlockError::because(reason, "version") });
         }
         let length = usize::from(reader.u16().ok_or(short)?);
         let possible = (HEADER + 4..=MAX_BYTES).contains(&length);
         let block = bytes.get(..length).filter(|_| possible).ok_or(short)?;
         let (before, check) = block.split_last_chunk::<4>().ok_or(short)?;
         if CHECK.checksum(before).to_le_bytes() != *check {
-            return Err(Refused::because(Reason::Checksum, "checksum"));
+            return Err(BlockError::because(BlockErrorKind::Checksum, "checksum"));
         }
         let mut reader = Reader::new(before.get(8..).ok_or(short)?);
         match reader.u8().ok_or(short)? {
             3 => Block::read(&mut reader).map(Parameters::Three),
             4 => Block::read(&mut reader).map(Parameters::Four),
-            other => Err(Refused { value: f32::from(other), ..Refused::because(Reason::Wheels, "wheels") }),
+            other => {
+                Err(BlockError { value: f32::from(other), ..BlockError::because(BlockErrorKind::Wheels, "wheels") })
+            }
         }
     }
 }

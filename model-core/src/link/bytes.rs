@@ -91,8 +91,8 @@ impl<'a> Reader<'a> {
     /// As many numbers as the array holds, each taken by `one`.
     pub fn each<T: Copy + Default, const K: usize>(&mut self, one: impl Fn(&mut Self) -> Option<T>) -> Option<[T; K]> {
         let mut all = [T::default(); K];
-        for place in &mut all {
-            *place = one(self)?;
+        for slot in &mut all {
+            *slot = one(self)?;
         }
         Some(all)
     }

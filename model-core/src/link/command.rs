@@ -15,7 +15,7 @@
 
 use crate::geometry::frames::BodyTwist;
 use crate::link::bytes::{Reader, Writer};
-use crate::link::framing::{Kind, MAX_FRAME, MAX_PAYLOAD, frame};
+use crate::link::framing::{FrameKind, MAX_FRAME, MAX_PAYLOAD, encode_frame};
 
 /// The fastest that a command may ask along v or vn [m/s].
 pub const FASTEST: f32 = 20.0;
@@ -57,7 +57,7 @@ pub enum Command<'a> {
 /// Why a command is not taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Refused {
+pub enum CommandError {
     /// There is no command of this kind.
     Kind = 1,
     /// The payload is not as long as its kind asks.
@@ -68,9 +68,10 @@ pub enum Refused {
     TooFast,
 }
 
-impl Refused {
+impl CommandError {
     /// All reasons.
-    pub const ALL: [Refused; 4] = [Refused::Kind, Refused::Length, Refused::NotFinite, Refused::TooFast];
+    pub const ALL: [CommandError; 4] =
+        [CommandError::Kind, CommandError::Length, CommandError::NotFinite, CommandError::TooFast];
 
     /// Its number in a [`Reply`].
     pub const fn code(self) -> u8 {
@@ -80,10 +81,10 @@ impl Refused {
     /// Why, in words.
     pub const fn text(self) -> &'static str {
         match self {
-            Refused::Kind => "there is no command of this kind",
-            Refused::Length => "the command is too short or too long for its kind",
-            Refused::NotFinite => "a wanted speed is not a finite number",
-            Refused::TooFast => "a wanted speed is above 20 m/s or 100 rad/s",
+            CommandError::Kind => "there is no command of this kind",
+            CommandError::Length => "the command is too short or too long for its kind",
+            CommandError::NotFinite => "a wanted speed is not a finite number",
+            CommandError::TooFast => "a wanted speed is above 20 m/s or 100 rad/s",
         }
     }
 }
@@ -92,35 +93,35 @@ impl<'a> Command<'a> {
     /// Reads the payload of a frame.
     ///
     /// # Errors
-    /// [`Refused`] says why it is not a command.
-    pub fn decode(kind: u8, payload: &'a [u8]) -> Result<Command<'a>, Refused> {
+    /// [`CommandError`] says why it is not a command.
+    pub fn decode(kind: u8, payload: &'a [u8]) -> Result<Command<'a>, CommandError> {
         let mut reader = Reader::new(payload);
-        let command = match Kind::from_code(kind) {
-            Some(Kind::Drive) => drive(&mut reader)?,
-            Some(Kind::Open) => Command::Open,
-            Some(Kind::Clear) => Command::Clear,
-            Some(Kind::Chunk) => {
-                let offset = reader.u16().ok_or(Refused::Length)?;
+        let command = match FrameKind::from_code(kind) {
+            Some(FrameKind::Drive) => drive(&mut reader)?,
+            Some(FrameKind::Open) => Command::Open,
+            Some(FrameKind::Clear) => Command::Clear,
+            Some(FrameKind::Chunk) => {
+                let offset = reader.u16().ok_or(CommandError::Length)?;
                 let bytes = reader.rest();
                 if bytes.is_empty() || bytes.len() > MAX_CHUNK {
-                    return Err(Refused::Length);
+                    return Err(CommandError::Length);
                 }
                 return Ok(Command::Chunk { offset, bytes });
             }
-            Some(Kind::Commit) => Command::Commit { length: reader.u16().ok_or(Refused::Length)? },
-            _ => return Err(Refused::Kind),
+            Some(FrameKind::Commit) => Command::Commit { length: reader.u16().ok_or(CommandError::Length)? },
+            _ => return Err(CommandError::Kind),
         };
-        if reader.rest().is_empty() { Ok(command) } else { Err(Refused::Length) }
+        if reader.rest().is_empty() { Ok(command) } else { Err(CommandError::Length) }
     }
 
     /// The kind of its frame.
-    pub const fn kind(&self) -> Kind {
+    pub const fn kind(&self) -> FrameKind {
         match self {
-            Command::Drive { .. } => Kind::Drive,
-            Command::Open => Kind::Open,
-            Command::Clear => Kind::Clear,
-            Command::Chunk { .. } => Kind::Chunk,
-            Command::Commit { .. } => Kind::Commit,
+            Command::Drive { .. } => FrameKind::Drive,
+            Command::Open => FrameKind::Open,
+            Command::Clear => FrameKind::Clear,
+            Command::Chunk { .. } => FrameKind::Chunk,
+            Command::Commit { .. } => FrameKind::Commit,
         }
     }
 
@@ -145,22 +146,22 @@ impl<'a> Command<'a> {
             }
             Command::Commit { length } => writer.u16(*length),
         }
-        frame(self.kind().code(), writer.written(), out)
+        encode_frame(self.kind().code(), writer.written(), out)
     }
 }
 
-fn drive(reader: &mut Reader) -> Result<Command<'static>, Refused> {
+fn drive(reader: &mut Reader) -> Result<Command<'static>, CommandError> {
     let mut read = || {
         let sequence = reader.u16()?;
         Some((sequence, reader.f32()?, reader.f32()?, reader.f32()?))
     };
-    let (sequence, v, vn, w) = read().ok_or(Refused::Length)?;
+    let (sequence, v, vn, w) = read().ok_or(CommandError::Length)?;
     if !(v.is_finite() && vn.is_finite() && w.is_finite()) {
-        return Err(Refused::NotFinite);
+        return Err(CommandError::NotFinite);
     }
     let within = |x: f32, most: f32| -most <= x && x <= most;
     if !(within(v, FASTEST) && within(vn, FASTEST) && within(w, FASTEST_TURN)) {
-        return Err(Refused::TooFast);
+        return Err(CommandError::TooFast);
     }
     Ok(Command::Drive { sequence, twist: BodyTwist { v, vn, w } })
 }
@@ -176,7 +177,7 @@ pub struct Reply {
     pub to: u8,
     /// True if it was taken.
     pub taken: bool,
-    /// Why not: the code of a [`Refused`], or of a block's reason where `to` is a commit; 0 where it was taken.
+    /// Why not: the code of a [`CommandError`], or of a block's reason where `to` is a commit; 0 where it was taken.
     pub reason: u8,
 }
 
@@ -201,7 +202,7 @@ impl Reply {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::link::framing::Decoder;
+    use crate::link::framing::FrameDecoder;
 
     const TWIST: BodyTwist<f32> = BodyTwist { v: 1.25, vn: -0.5, w: 3.0 };
 
@@ -217,7 +218,7 @@ mod tests {
             Command::Chunk { offset: 0, bytes: &[7; MAX_CHUNK] },
             Command::Commit { length: 412 },
         ];
-        let mut decoder = Decoder::new();
+        let mut decoder = FrameDecoder::new();
         for command in all {
             let mut out = [0; MAX_FRAME];
             let (end, before) = command.frame(&mut out).unwrap().split_last().unwrap();
@@ -238,16 +239,16 @@ mod tests {
 
     #[test]
     fn speeds_that_nothing_can_mean_are_refused_with_their_reason() {
-        let decode = |payload: [u8; 14]| Command::decode(Kind::Drive.code(), &payload).map(|_| ());
+        let decode = |payload: [u8; 14]| Command::decode(FrameKind::Drive.code(), &payload).map(|_| ());
         for not_finite in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-            assert_eq!(decode(driven(not_finite, 0.0, 0.0)), Err(Refused::NotFinite));
-            assert_eq!(decode(driven(0.0, not_finite, 0.0)), Err(Refused::NotFinite));
-            assert_eq!(decode(driven(0.0, 0.0, not_finite)), Err(Refused::NotFinite));
+            assert_eq!(decode(driven(not_finite, 0.0, 0.0)), Err(CommandError::NotFinite));
+            assert_eq!(decode(driven(0.0, not_finite, 0.0)), Err(CommandError::NotFinite));
+            assert_eq!(decode(driven(0.0, 0.0, not_finite)), Err(CommandError::NotFinite));
         }
         for sign in [1.0, -1.0] {
-            assert_eq!(decode(driven(sign * 20.001, 0.0, 0.0)), Err(Refused::TooFast));
-            assert_eq!(decode(driven(0.0, sign * 20.001, 0.0)), Err(Refused::TooFast));
-            assert_eq!(decode(driven(0.0, 0.0, sign * 100.01)), Err(Refused::TooFast));
+            assert_eq!(decode(driven(sign * 20.001, 0.0, 0.0)), Err(CommandError::TooFast));
+            assert_eq!(decode(driven(0.0, sign * 20.001, 0.0)), Err(CommandError::TooFast));
+            assert_eq!(decode(driven(0.0, 0.0, sign * 100.01)), Err(CommandError::TooFast));
             assert_eq!(decode(driven(sign * 20.0, -sign * 20.0, sign * 100.0)), Ok(()));
         }
     }
@@ -257,13 +258,13 @@ mod tests {
         let long = [0; MAX_PAYLOAD];
         for kind in 0..=u8::MAX {
             for len in 0..=MAX_PAYLOAD {
-                let fits = match Kind::from_code(kind) {
-                    Some(Kind::Drive) => len == 14,
-                    Some(Kind::Open | Kind::Clear) => len == 0,
-                    Some(Kind::Chunk) => (3..=2 + MAX_CHUNK).contains(&len),
-                    Some(Kind::Commit) => len == 2,
+                let fits = match FrameKind::from_code(kind) {
+                    Some(FrameKind::Drive) => len == 14,
+                    Some(FrameKind::Open | FrameKind::Clear) => len == 0,
+                    Some(FrameKind::Chunk) => (3..=2 + MAX_CHUNK).contains(&len),
+                    Some(FrameKind::Commit) => len == 2,
                     _ => {
-                        assert_eq!(Command::decode(kind, &long[..len]), Err(Refused::Kind));
+                        assert_eq!(Command::decode(kind, &long[..len]), Err(CommandError::Kind));
                         continue;
                     }
                 };
@@ -275,7 +276,7 @@ mod tests {
     #[test]
     fn a_reply_is_read_as_it_was_written() {
         for taken in [false, true] {
-            let reply = Reply { to: Kind::Commit.code(), taken, reason: 9 };
+            let reply = Reply { to: FrameKind::Commit.code(), taken, reason: 9 };
             assert_eq!(Reply::from_bytes(&reply.to_bytes()), Some(reply));
         }
         assert_eq!(Reply::from_bytes(&[5, 2, 0]), None);
@@ -284,9 +285,9 @@ mod tests {
 
     #[test]
     fn reasons_have_codes_and_words_of_their_own() {
-        for (k, reason) in Refused::ALL.into_iter().enumerate() {
+        for (k, reason) in CommandError::ALL.into_iter().enumerate() {
             assert_eq!(usize::from(reason.code()), k + 1);
-            assert!(Refused::ALL.into_iter().skip(k + 1).all(|other| other.text() != reason.text()));
+            assert!(CommandError::ALL.into_iter().skip(k + 1).all(|other| other.text() != reason.text()));
         }
     }
 }

@@ -29,7 +29,7 @@ const CHECK: Crc<u16> = Crc::<u16>::new(&CRC_16_IBM_3740);
 /// What a frame carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Kind {
+pub enum FrameKind {
     /// Host to robot: a wanted body twist.
     Drive = 0x01,
     /// Host to robot: stop and open the bridges.
@@ -48,10 +48,18 @@ pub enum Kind {
     Reply = 0x83,
 }
 
-impl Kind {
+impl FrameKind {
     /// All of them.
-    pub const ALL: [Kind; 8] =
-        [Kind::Drive, Kind::Open, Kind::Clear, Kind::Chunk, Kind::Commit, Kind::Record, Kind::Hello, Kind::Reply];
+    pub const ALL: [FrameKind; 8] = [
+        FrameKind::Drive,
+        FrameKind::Open,
+        FrameKind::Clear,
+        FrameKind::Chunk,
+        FrameKind::Commit,
+        FrameKind::Record,
+        FrameKind::Hello,
+        FrameKind::Reply,
+    ];
 
     /// Its number on the wire.
     pub const fn code(self) -> u8 {
@@ -59,14 +67,14 @@ impl Kind {
     }
 
     /// The kind of this number.
-    pub fn from_code(code: u8) -> Option<Kind> {
+    pub fn from_code(code: u8) -> Option<FrameKind> {
         Self::ALL.into_iter().find(|kind| kind.code() == code)
     }
 }
 
 /// Makes a frame in `out` and returns its bytes, end mark included; `None` if the payload is longer than
 /// [`MAX_PAYLOAD`].
-pub fn frame<'a>(kind: u8, payload: &[u8], out: &'a mut [u8; MAX_FRAME]) -> Option<&'a [u8]> {
+pub fn encode_frame<'a>(kind: u8, payload: &[u8], out: &'a mut [u8; MAX_FRAME]) -> Option<&'a [u8]> {
     if payload.len() > MAX_PAYLOAD {
         return None;
     }
@@ -94,7 +102,7 @@ pub fn frame<'a>(kind: u8, payload: &[u8], out: &'a mut [u8; MAX_FRAME]) -> Opti
 /// A frame that arrived whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame<'a> {
-    /// Its kind, see [`Kind`].
+    /// Its kind, see [`FrameKind`].
     pub kind: u8,
     /// What it carries.
     pub payload: &'a [u8],
@@ -102,7 +110,7 @@ pub struct Frame<'a> {
 
 /// Finds the frames in a stream of bytes, one byte at a time.
 #[derive(Clone, Copy, Debug)]
-pub struct Decoder {
+pub struct FrameDecoder {
     body: [u8; MAX_BODY],
     /// Bytes of the body so far
     len: usize,
@@ -123,13 +131,13 @@ enum State {
     Broken,
 }
 
-impl Default for Decoder {
+impl Default for FrameDecoder {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl Decoder {
+impl FrameDecoder {
     /// A decoder that has seen nothing.
     pub const fn new() -> Self {
         Self { body: [0; MAX_BODY], len: 0, left: 0, state: State::Between, joined: false, good: 0, bad: 0 }
@@ -158,8 +166,8 @@ impl Decoder {
 
     fn keep(&mut self, byte: u8) {
         match self.body.get_mut(self.len) {
-            Some(place) => {
-                *place = byte;
+            Some(slot) => {
+                *slot = byte;
                 self.len += 1;
             }
             None => self.state = State::Broken,

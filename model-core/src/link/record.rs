@@ -36,7 +36,7 @@ pub const MOTORS: usize = 4;
 /// What the robot is doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Stage {
+pub enum OperatingState {
     /// Everything sleeps.
     #[default]
     Asleep,
@@ -50,9 +50,15 @@ pub enum Stage {
     Faulted,
 }
 
-impl Stage {
+impl OperatingState {
     /// All of them, in the order of their codes.
-    pub const ALL: [Stage; 5] = [Stage::Asleep, Stage::Calibrating, Stage::Open, Stage::Driving, Stage::Faulted];
+    pub const ALL: [OperatingState; 5] = [
+        OperatingState::Asleep,
+        OperatingState::Calibrating,
+        OperatingState::Open,
+        OperatingState::Driving,
+        OperatingState::Faulted,
+    ];
 
     /// Its number on the wire.
     pub const fn code(self) -> u8 {
@@ -60,20 +66,20 @@ impl Stage {
     }
 
     /// The stage of this number.
-    pub fn from_code(code: u8) -> Option<Stage> {
+    pub fn from_code(code: u8) -> Option<OperatingState> {
         Self::ALL.into_iter().find(|stage| stage.code() == code)
     }
 }
 
 /// What a record leaves behind; see the page above for units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Record {
+pub struct TelemetryRecord {
     /// One more each motion turn.
     pub sequence: u32,
     /// When the codes were sampled [current turns]
     pub time: u32,
     /// What the robot does from now on.
-    pub stage: Stage,
+    pub state: OperatingState,
     /// Motors whose bridges are driven from now on: bit j is motor j; four bits.
     pub enabled: u8,
     /// What happened since the record before; the firmware says which bit is what.
@@ -106,7 +112,7 @@ pub struct Record {
     pub dropped: u16,
 }
 
-impl Record {
+impl TelemetryRecord {
     /// Length of its payload.
     pub const BYTES: usize = 105;
 
@@ -116,7 +122,7 @@ impl Record {
         let mut writer = Writer::new(&mut bytes);
         writer.u32(self.sequence);
         writer.u32(self.time);
-        writer.u8(self.stage.code() | self.enabled << 4);
+        writer.u8(self.state.code() | self.enabled << 4);
         writer.u8(self.events);
         writer.u16(self.faults.bits());
         writer.u16(self.bus.0);
@@ -135,15 +141,15 @@ impl Record {
     }
 
     /// Reads a payload; `None` where it is not one.
-    pub fn from_bytes(payload: &[u8]) -> Option<Record> {
+    pub fn from_bytes(payload: &[u8]) -> Option<TelemetryRecord> {
         let payload: &[u8; Self::BYTES] = payload.try_into().ok()?;
         let mut reader = Reader::new(payload);
         let (sequence, time, doing) = (reader.u32()?, reader.u32()?, reader.u8()?);
         let code = |reader: &mut Reader| reader.u16().map(AdcCode);
-        Some(Record {
+        Some(TelemetryRecord {
             sequence,
             time,
-            stage: Stage::from_code(doing & 0x0f)?,
+            state: OperatingState::from_code(doing & 0x0f)?,
             enabled: doing >> 4,
             events: reader.u8()?,
             faults: Faults::from_bits(reader.u16()?),
@@ -164,7 +170,7 @@ impl Record {
 
     /// True if this motor's bridge is driven from now on.
     pub fn drives(&self, motor: usize) -> bool {
-        self.stage == Stage::Driving && motor < MOTORS && self.enabled >> motor & 1 == 1
+        self.state == OperatingState::Driving && motor < MOTORS && self.enabled >> motor & 1 == 1
     }
 }
 
@@ -173,7 +179,7 @@ mod tests {
     use super::*;
 
     /// A record in which every byte of the payload comes from `byte`.
-    fn from(byte: impl Fn(usize) -> u8) -> ([u8; Record::BYTES], Record) {
+    fn from(byte: impl Fn(usize) -> u8) -> ([u8; TelemetryRecord::BYTES], TelemetryRecord) {
         let mut bytes = core::array::from_fn(byte);
         bytes[8] = (bytes[8] & 0xf0) | (bytes[8] % 5);
         bytes[11] &= 0x0f;
@@ -181,7 +187,7 @@ mod tests {
         for high in [73, 77, 81, 85, 89, 93, 97] {
             bytes[high] &= 0xbf;
         }
-        (bytes, Record::from_bytes(&bytes).expect("a stage that exists"))
+        (bytes, TelemetryRecord::from_bytes(&bytes).expect("a stage that exists"))
     }
 
     #[test]
@@ -189,13 +195,18 @@ mod tests {
         for value in 0..=u8::MAX {
             let (bytes, record) = from(|k| (k as u8).wrapping_mul(37).wrapping_add(value));
             assert_eq!(record.to_bytes(), bytes);
-            assert_eq!(Record::from_bytes(&record.to_bytes()), Some(record));
+            assert_eq!(TelemetryRecord::from_bytes(&record.to_bytes()), Some(record));
         }
     }
 
     #[test]
     fn the_fields_stand_where_the_page_says() {
-        let mut record = Record { stage: Stage::Driving, enabled: 0b0101, dropped: 0x0201, ..Record::default() };
+        let mut record = TelemetryRecord {
+            state: OperatingState::Driving,
+            enabled: 0b0101,
+            dropped: 0x0201,
+            ..TelemetryRecord::default()
+        };
         record.phases[3][2] = AdcCode(0x0fed);
         record.edges[1] = -2;
         record.voltage[0] = 1.0;
@@ -209,16 +220,16 @@ mod tests {
 
     #[test]
     fn other_lengths_and_stages_that_do_not_exist_are_refused() {
-        let bytes = Record::default().to_bytes();
-        let long = [0; Record::BYTES + 1];
-        for len in (0..=Record::BYTES + 1).filter(|len| *len != Record::BYTES) {
-            assert_eq!(Record::from_bytes(&long[..len]), None);
+        let bytes = TelemetryRecord::default().to_bytes();
+        let long = [0; TelemetryRecord::BYTES + 1];
+        for len in (0..=TelemetryRecord::BYTES + 1).filter(|len| *len != TelemetryRecord::BYTES) {
+            assert_eq!(TelemetryRecord::from_bytes(&long[..len]), None);
         }
         for stage in 5..16 {
             let mut bad = bytes;
             bad[8] = stage;
-            assert_eq!(Record::from_bytes(&bad), None);
+            assert_eq!(TelemetryRecord::from_bytes(&bad), None);
         }
-        assert!(Stage::ALL.into_iter().all(|stage| Stage::from_code(stage.code()) == Some(stage)));
+        assert!(OperatingState::ALL.into_iter().all(|stage| OperatingState::from_code(stage.code()) == Some(stage)));
     }
 }

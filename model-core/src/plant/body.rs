@@ -65,7 +65,7 @@ impl<T: Real> Mobility<T> {
 /// `free` is the twist that the step would end with if there were no dry friction [m/s, m/s, rad/s]; `budget` is in
 /// body axes [N, N, N·m]; `wheels` are (direction, budget [N]) of the wheels that have one.
 #[inline]
-pub fn spend<const N: usize, T: Real>(
+pub fn apply_dry_friction<const N: usize, T: Real>(
     free: [T; 3],
     mobility: &Mobility<T>,
     budget: &[T; 3],
@@ -82,7 +82,8 @@ pub fn spend<const N: usize, T: Real>(
             }
             x
         }
-        _ => slide(free, mobility, budget, wheels, dt).unwrap_or_else(|| sweep(free, mobility, budget, wheels, dt)),
+        _ => slide(free, mobility, budget, wheels, dt)
+            .unwrap_or_else(|| projected_gauss_seidel(free, mobility, budget, wheels, dt)),
     }
 }
 
@@ -116,7 +117,7 @@ fn slide<const N: usize, T: Real>(
 
 /// Projected Gauss–Seidel.
 #[inline(never)]
-fn sweep<const N: usize, T: Real>(
+fn projected_gauss_seidel<const N: usize, T: Real>(
     free: [T; 3],
     mobility: &Mobility<T>,
     budget: &[T; 3],
@@ -172,14 +173,14 @@ mod tests {
     fn a_force_below_the_budget_moves_nothing() {
         let h = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.02]];
         let free = [0.9 * 1e-3 / 2.0, 0.0, 0.0];
-        assert_eq!(spend::<4, _>(free, &mobility(h), &[1.0, 1.0, 0.1], None, 1e-3), [0.0; 3]);
+        assert_eq!(apply_dry_friction::<4, _>(free, &mobility(h), &[1.0, 1.0, 0.1], None, 1e-3), [0.0; 3]);
     }
 
     #[test]
     fn above_the_budget_the_rest_accelerates() {
         let h = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.02]];
         let free = [3.0 * 1e-3 / 2.0, 0.0, 0.0];
-        let x = spend::<4, _>(free, &mobility(h), &[1.0, 1.0, 0.1], None, 1e-3);
+        let x = apply_dry_friction::<4, _>(free, &mobility(h), &[1.0, 1.0, 0.1], None, 1e-3);
         assert!((x[0] - 2.0 * 1e-3 / 2.0).abs() < 1e-15, "{x:?}");
     }
 
@@ -192,7 +193,7 @@ mod tests {
         for k in 0..200 {
             let a = f64::from(k) * 0.1;
             let free = [0.01 * libm::sin(a), 0.02 * libm::cos(1.3 * a), 0.1 * libm::sin(2.1 * a)];
-            let x = spend(free, &mobility(h), &[1.0, 0.5, 0.01], Some(&wheels), 1e-3);
+            let x = apply_dry_friction(free, &mobility(h), &[1.0, 0.5, 0.01], Some(&wheels), 1e-3);
             assert!(energy(x) <= energy(free) * (1.0 + 1e-12), "{free:?} to {x:?}");
         }
     }
@@ -203,7 +204,7 @@ mod tests {
         let h = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.02]];
         let wheels =
             [([0.0, 1.0, 0.09], 0.0), ([-1.0, 0.0, 0.09], 0.0), ([0.0, -1.0, 0.09], 0.0), ([1.0, 0.0, 0.09], 1e3)];
-        let x = spend([0.3, 0.2, 0.0], &mobility(h), &[0.0; 3], Some(&wheels), 1e-3);
+        let x = apply_dry_friction([0.3, 0.2, 0.0], &mobility(h), &[0.0; 3], Some(&wheels), 1e-3);
         assert!((x[0] + 0.09 * x[2]).abs() < 1e-9, "wheel 3 turns: {x:?}");
         assert!(x[0] > 0.1 && (x[1] - 0.2).abs() < 1e-12, "{x:?}");
     }

@@ -13,7 +13,7 @@ use super::model::Plant;
 use super::state::State;
 use super::step::Source;
 use crate::effects::card::Seam;
-use crate::effects::seams::{At, Contact, Drive, Supply, Winding};
+use crate::effects::seams::{Bridge, Contact, EffectContext, Supply, Winding};
 use crate::number::scalar::Real;
 use crate::plant::winding::Motor;
 
@@ -46,7 +46,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     #[inline]
     pub(super) fn electric<const PLAIN: bool>(
         &self,
-        at: &At<T>,
+        at: &EffectContext<T>,
         state: &State<N, T>,
         memory: &[T],
         source: &Source<'_, N, T>,
@@ -80,16 +80,21 @@ impl<const N: usize, T: Real> Plant<N, T> {
             }
             Source::Voltage(command) => {
                 let u = command[j] * gain;
-                if self.effects.none_on(&[Seam::Drive, Seam::Winding], j) {
+                if self.effects.none_on(&[Seam::Bridge, Seam::Winding], j) {
                     return self.plain_motor(u, at.wheel_speed);
                 }
                 let turned = !self.effects.none_on(&[Seam::Winding], j);
-                let drive =
-                    Drive { command: command[j], bus: self.robot.supply * gain, current: zero, voltage: u, sampled: u };
+                let drive = Bridge {
+                    command: command[j],
+                    bus: self.robot.supply * gain,
+                    current: zero,
+                    voltage: u,
+                    sampled: u,
+                };
                 let look = |current: T| {
-                    let mut drive = Drive { current, ..drive };
-                    for active in self.effects.on(Seam::Drive, j) {
-                        active.effect.drive(active.params(), &memory[active.memory(j)], at, &mut drive);
+                    let mut drive = Bridge { current, ..drive };
+                    for active in self.effects.on(Seam::Bridge, j) {
+                        active.effect.bridge(active.params(), &memory[active.memory(j)], at, &mut drive);
                     }
                     let winding = if turned { self.winding(at, memory, Winding { current, ..bare }) } else { bare };
                     let per_resistance = if turned { T::one() / winding.resistance } else { self.per_resistance };
@@ -116,7 +121,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
         }
     }
 
-    fn winding(&self, at: &At<T>, memory: &[T], mut winding: Winding<T>) -> Winding<T> {
+    fn winding(&self, at: &EffectContext<T>, memory: &[T], mut winding: Winding<T>) -> Winding<T> {
         for active in self.effects.on(Seam::Winding, at.wheel) {
             active.effect.winding(active.params(), &memory[active.memory(at.wheel)], at, &mut winding);
         }
@@ -169,7 +174,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     #[inline]
     pub(super) fn bus(
         &self,
-        at: &At<T>,
+        at: &EffectContext<T>,
         state: &State<N, T>,
         memory: &[T],
         source: &Source<'_, N, T>,
@@ -186,7 +191,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             let mut drawn = T::zero();
             for j in 0..N {
                 let speed = if contact[j].rolls() { rim[j] * contact[j].per_radius } else { state.wheel_speed[j] };
-                let at = At { rim_speed: rim[j], ..self.at_wheel(at, state, j, speed) };
+                let at = EffectContext { rim_speed: rim[j], ..self.at_wheel(at, state, j, speed) };
                 // I_bus = Σ duty_j·i_j,  duty_j = u_j/U_nominal
                 drawn += command[j] / nominal * self.electric::<false>(&at, state, memory, source, j, gain).sampled;
             }

@@ -4,16 +4,16 @@ use super::model::Plant;
 use super::state::State;
 use super::step::Push;
 use crate::effects::card::Seam;
-use crate::effects::seams::{At, Body};
+use crate::effects::seams::{Body, EffectContext};
 use crate::number::scalar::Real;
-use crate::plant::body::{Mobility, spend};
+use crate::plant::body::{Mobility, apply_dry_friction};
 
 impl<const N: usize, T: Real> Plant<N, T> {
     /// Everything that acts on the body, and the twist at the end of the step.
     #[inline]
     pub(super) fn move_body(
         &self,
-        at: &At<T>,
+        at: &EffectContext<T>,
         state: &State<N, T>,
         memory: &[T],
         push: &Push<T>,
@@ -32,7 +32,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             budget: self.robot.friction.coulomb,
         };
         if !self.effects.none_at(Seam::Body) {
-            let mut at = At { wheel: 0, wheel_angle: zero, wheel_speed: zero, rim_speed: zero, ..*at };
+            let mut at = EffectContext { wheel: 0, wheel_angle: zero, wheel_speed: zero, rim_speed: zero, ..*at };
             // a force that depends on the heading is taken in the middle of the step
             at.pose.theta += T::lit(0.5) * x[2] * dt;
             for active in self.effects.at(Seam::Body) {
@@ -59,6 +59,6 @@ impl<const N: usize, T: Real> Plant<N, T> {
         ];
         let change = mobility.of(force);
         let free = [x[0] + change[0], x[1] + change[1], x[2] + change[2]];
-        spend(free, &mobility, &body.budget, push.holds.then_some(held), dt)
+        apply_dry_friction(free, &mobility, &body.budget, push.holds.then_some(held), dt)
     }
 }

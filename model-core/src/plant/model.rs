@@ -4,7 +4,7 @@ use super::robot::Robot;
 use super::state::State;
 use crate::effects::active::Effects;
 use crate::effects::card::Seam;
-use crate::effects::seams::{At, Contact, STANDARD_GRAVITY};
+use crate::effects::seams::{Contact, EffectContext, STANDARD_GRAVITY};
 use crate::geometry::frames::{BodyTwist, Pose};
 use crate::number::linalg::{accumulate_outer, dot};
 use crate::number::scalar::Real;
@@ -60,7 +60,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             let per_radius = contact[j].per_radius;
             accumulate_outer(&mut plain_rate, electric * (per_radius * per_radius), rows[j]);
         }
-        let chain = [Seam::Supply, Seam::Drive, Seam::Winding, Seam::Gear, Seam::Contact];
+        let chain = [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Contact];
         let plain = chain.into_iter().all(|seam| effects.none_at(seam));
         Self { robot, effects, plain, emf, kt, per_resistance, contact, coulomb_share, plain_rate }
     }
@@ -109,21 +109,27 @@ impl<const N: usize, T: Real> Plant<N, T> {
     }
 
     #[inline]
-    pub(super) fn at(&self, state: &State<N, T>, dt: T) -> At<T> {
-        At {
+    pub(super) fn at(&self, state: &State<N, T>, dt: T) -> EffectContext<T> {
+        EffectContext {
             time: state.time,
             dt,
             pose: state.pose,
             twist: state.twist,
             nominal_supply: self.robot.supply,
-            ..At::default()
+            ..EffectContext::default()
         }
     }
 
     /// The same, for a hook of wheel `j`.
     #[inline]
-    pub(super) fn at_wheel(&self, at: &At<T>, state: &State<N, T>, j: usize, wheel_speed: T) -> At<T> {
+    pub(super) fn at_wheel(
+        &self,
+        at: &EffectContext<T>,
+        state: &State<N, T>,
+        j: usize,
+        wheel_speed: T,
+    ) -> EffectContext<T> {
         let rim_speed = dot(self.contact[j].row, state.twist.to_array());
-        At { wheel: j, wheel_angle: state.wheel_angle[j], wheel_speed, rim_speed, ..*at }
+        EffectContext { wheel: j, wheel_angle: state.wheel_angle[j], wheel_speed, rim_speed, ..*at }
     }
 }

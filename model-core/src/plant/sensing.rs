@@ -4,14 +4,20 @@ use super::model::Plant;
 use super::state::{Reading, State};
 use super::step::Source;
 use crate::effects::card::Seam;
-use crate::effects::seams::{At, Sense, Turn};
+use crate::effects::seams::{EffectContext, Sense, StepOutcome};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
 
 impl<const N: usize, T: Real> Plant<N, T> {
     /// What the sensors make of the truth.
     #[inline(never)]
-    pub(super) fn read(&self, at: &At<T>, state: &State<N, T>, memory: &[T], truth: Reading<N, T>) -> Reading<N, T> {
+    pub(super) fn read(
+        &self,
+        at: &EffectContext<T>,
+        state: &State<N, T>,
+        memory: &[T],
+        truth: Reading<N, T>,
+    ) -> Reading<N, T> {
         let mut reading = truth;
         for active in self.effects.at(Seam::Sense) {
             if active.whole() {
@@ -32,20 +38,26 @@ impl<const N: usize, T: Real> Plant<N, T> {
     }
 
     /// The truth behind a smoothed reading: the way back through the sensing effects, last one first.
-    pub fn unread(&self, time: T, twist: BodyTwist<T>, mut reading: Reading<N, T>) -> Reading<N, T> {
-        let at = At { time, pose: reading.pose, twist, nominal_supply: self.robot.supply, ..At::default() };
+    pub fn invert_sensing(&self, time: T, twist: BodyTwist<T>, mut reading: Reading<N, T>) -> Reading<N, T> {
+        let at = EffectContext {
+            time,
+            pose: reading.pose,
+            twist,
+            nominal_supply: self.robot.supply,
+            ..EffectContext::default()
+        };
         for active in self.effects.at(Seam::Sense) {
             if active.whole() {
                 let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
-                active.effect.unsense(active.params(), &at, &mut x);
+                active.effect.invert_sensing(active.params(), &at, &mut x);
                 (reading.pose, reading.gyro) = (x.pose, x.gyro);
                 continue;
             }
             for j in (0..N).filter(|j| active.on(*j)) {
-                let at = At { wheel: j, ..at };
+                let at = EffectContext { wheel: j, ..at };
                 let mut x =
                     Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
-                active.effect.unsense(active.params(), &at, &mut x);
+                active.effect.invert_sensing(active.params(), &at, &mut x);
                 (reading.current[j], reading.wheel_speed[j]) = (x.current, x.wheel_speed);
             }
         }
@@ -68,18 +80,18 @@ impl<const N: usize, T: Real> Plant<N, T> {
                 for j in 0..N {
                     drawn += source.command(j) / self.robot.supply * truth.current[j];
                 }
-                let done = Turn { bus, bus_current: drawn, ..Turn::default() };
+                let done = StepOutcome { bus, bus_current: drawn, ..StepOutcome::default() };
                 active.effect.advance(active.params(), &mut memory[active.memory(0)], &at, &done);
                 continue;
             }
             for j in (0..N).filter(|j| active.on(*j)) {
                 let at = self.at_wheel(&at, state, j, truth.wheel_speed[j]);
-                let done = Turn {
+                let done = StepOutcome {
                     command: source.command(j),
                     current: truth.current[j],
                     wheel_speed: truth.wheel_speed[j],
                     bus,
-                    ..Turn::default()
+                    ..StepOutcome::default()
                 };
                 active.effect.advance(active.params(), &mut memory[active.memory(j)], &at, &done);
             }

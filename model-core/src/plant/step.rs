@@ -3,7 +3,7 @@
 use super::model::Plant;
 use super::state::{Input, Reading, State};
 use crate::effects::card::Seam;
-use crate::effects::seams::{At, Contact, Gear};
+use crate::effects::seams::{Contact, EffectContext, Gear};
 use crate::geometry::frames::BodyTwist;
 use crate::number::linalg::{accumulate_outer, dot};
 use crate::number::scalar::Real;
@@ -165,7 +165,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     }
 
     #[inline]
-    pub(super) fn contacts(&self, at: &At<T>, state: &State<N, T>, memory: &[T]) -> [Contact<T>; N] {
+    pub(super) fn contacts(&self, at: &EffectContext<T>, state: &State<N, T>, memory: &[T]) -> [Contact<T>; N] {
         let mut contact = self.contact;
         for active in self.effects.at(Seam::Contact) {
             for j in (0..N).filter(|j| active.on(*j)) {
@@ -180,7 +180,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     }
 
     #[inline]
-    pub(super) fn gear(&self, at: &At<T>, memory: &[T], torque: T) -> Gear<T> {
+    pub(super) fn gear(&self, at: &EffectContext<T>, memory: &[T], torque: T) -> Gear<T> {
         let zero = T::zero();
         let mut gear = Gear {
             motor_torque: torque,

@@ -14,7 +14,7 @@ use super::model::Plant;
 use super::state::State;
 use super::step::Source;
 use crate::effects::contact::wheel_slip::traction;
-use crate::effects::seams::{At, Contact, Gear};
+use crate::effects::seams::{Contact, EffectContext, Gear};
 use crate::number::scalar::Real;
 
 /// No wheel turns faster [rad/s].
@@ -48,7 +48,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     #[allow(clippy::too_many_arguments)]
     pub(super) fn grip(
         &self,
-        at: &mut At<T>,
+        at: &mut EffectContext<T>,
         state: &State<N, T>,
         memory: &[T],
         source: &Source<'_, N, T>,

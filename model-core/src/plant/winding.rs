@@ -34,7 +34,7 @@
 //!
 //! Source: Oliveira, Sousa, Moreira, Costa, ICINCO 2008, eq. 16–17, 21–22.
 
-use crate::geometry::shafts::Gear;
+use crate::geometry::shafts::Gearbox;
 use crate::number::scalar::Real;
 
 /// A motor and its gear, seen from the wheel's shaft.
@@ -53,8 +53,8 @@ pub struct Motor<T = f32> {
 impl<T: Real> Motor<T> {
     /// The motor's gear.
     #[inline]
-    pub fn gear(self) -> Gear<T> {
-        Gear { ratio: self.gear_ratio }
+    pub fn gear(self) -> Gearbox<T> {
+        Gearbox { ratio: self.gear_ratio }
     }
 
     /// l·K_v, back-EMF over the speed of the wheel's shaft [V·s].

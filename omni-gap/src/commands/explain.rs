@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use model_core::effects;
-use model_core::effects::card::{Card, Place, Role};
+use model_core::effects::card::{Card, Role, Scope};
 use omni_gap::log::nearest;
 use omni_gap::report::num;
 use omni_gap::simulate::NOMINAL_KEYS;
@@ -100,20 +100,20 @@ fn effect(card: &Card) -> String {
 
 /// The table that adds an effect to a robot file.
 fn table(card: &Card) -> String {
-    let (head, wheel) = match card.place {
-        Place::OneWheel => (format!("[[effects.{}]]", card.id), "wheel = 0\n"),
-        Place::Robot | Place::Wheels => (format!("[effects.{}]", card.id), ""),
+    let (head, wheel) = match card.scope {
+        Scope::OneWheel => (format!("[[effects.{}]]", card.id), "wheel = 0\n"),
+        Scope::Robot | Scope::Wheels => (format!("[effects.{}]", card.id), ""),
     };
     let mut toml = format!("{head}\n{wheel}");
     for p in card.params {
         let _ = writeln!(toml, "{} = {:?}", p.key, p.typical);
     }
     let indented: String = toml.lines().map(|line| format!("  {line}\n")).collect();
-    match card.place {
-        Place::Wheels => {
+    match card.scope {
+        Scope::Wheels => {
             indented + &format!("  (on every wheel; for one wheel write [[effects.{}]] and wheel = 0)\n", card.id)
         }
-        Place::Robot | Place::OneWheel => indented,
+        Scope::Robot | Scope::OneWheel => indented,
     }
 }
 

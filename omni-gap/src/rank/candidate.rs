@@ -1,7 +1,7 @@
 //! What can be the cause: every effect, on every wheel where it can sit on one, and every nominal parameter.
 
 use model_core::effects;
-use model_core::effects::card::{Card, Param, Place, Role};
+use model_core::effects::card::{Card, Param, Role, Scope};
 use model_core::plant::robot::Nominal;
 
 use crate::identify::{Prior, Release};
@@ -86,11 +86,11 @@ pub fn candidates<const N: usize>(present: &[Carried]) -> Vec<Candidate> {
     let mut all = Vec::new();
     for effect in effects::catalogue::<f64>() {
         let card = effect.card();
-        let anywhere = card.place != Place::OneWheel;
+        let anywhere = card.scope != Scope::OneWheel;
         let places = anywhere
             .then_some(None)
             .into_iter()
-            .chain((card.place != Place::Robot).then_some(0..N).into_iter().flatten().map(Some));
+            .chain((card.scope != Scope::Robot).then_some(0..N).into_iter().flatten().map(Some));
         for wheel in places {
             let taken = present.iter().any(|p| p.id == card.id && (p.wheel.is_none() || p.wheel == wheel));
             if !taken {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use model_core::effects;
-use model_core::effects::active::{Effects, Refused};
+use model_core::effects::active::{EffectError, Effects};
 use model_core::effects::card::Card;
 use model_core::geometry::kinematics::{Wheel, Wheels};
 use model_core::number::scalar::Real;
@@ -142,7 +142,7 @@ impl<const N: usize> Model<N> {
             let hooks = effects::find::<T>(effect.id).expect("the id of a carried effect is one of the catalogue");
             match carried.add(hooks, effect.wheel, &params) {
                 Ok(()) => {}
-                Err(Refused::Full) => break,
+                Err(EffectError::Full) => break,
                 Err(why) => unreachable!("{} was checked when its file was read: {why:?}", effect.id),
             }
         }

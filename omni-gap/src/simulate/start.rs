@@ -105,7 +105,7 @@ impl<const N: usize> Start<N> {
             pose: measured,
             gyro: self.gyro.unwrap_or(0.0),
         };
-        let truth = plant.unread(self.time, BodyTwist::default(), reading);
+        let truth = plant.invert_sensing(self.time, BodyTwist::default(), reading);
         let mut twist = if self.wheel_speed.is_some() {
             plant.robot().wheels.twist_of_wheel_speeds(truth.wheel_speed)
         } else if let Some((_, rate)) = self.pose {
@@ -116,7 +116,7 @@ impl<const N: usize> Start<N> {
         if self.gyro.is_some() {
             twist.w = truth.gyro;
         }
-        let truth = plant.unread(self.time, twist, reading);
+        let truth = plant.invert_sensing(self.time, twist, reading);
         let mut state = plant.start(self.time, truth.pose, twist);
         if self.pose.is_none() {
             state.pose = before.pose;

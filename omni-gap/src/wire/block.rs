@@ -6,7 +6,8 @@ use model_core::control::compensation::Compensation;
 use model_core::effects;
 use model_core::geometry::kinematics::{Wheel, Wheels};
 use model_core::link::block::{
-    Block, BlockEffect, BlockEffects, Field, Known, Limits, MAX_BYTES, Mode, Refused, USABLE_COUNTS, checksum,
+    Block, BlockEffect, BlockEffects, BlockError, BoundedField, ControlMode, EffectCode, Limits, MAX_BYTES,
+    USABLE_COUNTS, checksum,
 };
 use model_core::link::hello::Commutation;
 
@@ -67,7 +68,7 @@ fn export_of<const N: usize>(file: &RobotFile, path: &Path) -> Result<Exported> 
     let mut block = Block::<N> {
         robot,
         inductance: controller.inductance_h as f32,
-        mode: if controller.holds_current { Mode::Current } else { Mode::Voltage },
+        mode: if controller.holds_current { ControlMode::Current } else { ControlMode::Voltage },
         feedforward: controller.feedforward,
         commutation: if controller.six_step { Commutation::SixStep } else { Commutation::FieldOriented },
         pole_pairs: controller.pole_pairs,
@@ -141,13 +142,16 @@ fn effects_of<const N: usize>(file: &RobotFile, path: &Path, block: &mut Block<N
 /// The parameters of an effect in the order of its card.
 fn params(entry: &EffectEntry) -> Vec<f32> {
     let card = effects::find::<f64>(&entry.id).map(|effect| effect.card());
-    let fields = Known::by_id(&entry.id).map(Known::fields).unwrap_or_default();
+    let fields = EffectCode::by_id(&entry.id).map(EffectCode::fields).unwrap_or_default();
     let given = |key: &str| entry.params.get(key).copied();
     let typical = |key: &str| card.and_then(|card| Some(card.params[card.param(key)?].typical));
-    fields.iter().map(|Field { key, .. }| given(key).or_else(|| typical(key)).unwrap_or_default() as f32).collect()
+    fields
+        .iter()
+        .map(|BoundedField { key, .. }| given(key).or_else(|| typical(key)).unwrap_or_default() as f32)
+        .collect()
 }
 
-fn refusal(path: &Path, why: Refused) -> Error {
+fn refusal(path: &Path, why: BlockError) -> Error {
     Error::input(path, format!("the robot would refuse this file: {why}"), "Correct the number in the robot file")
         .in_column(why.field)
 }
@@ -173,7 +177,7 @@ mod tests {
         assert_eq!(four.robot.wheels, model_core::plant::paper::four_wheels().wheels);
         assert_eq!(three.robot.wheels, model_core::plant::paper::three_wheels().wheels);
         assert_eq!(four.robot.motor, model_core::plant::paper::four_wheels::<f32>().motor);
-        assert_eq!((three.robot.mass, three.pole_pairs, three.mode), (1.944, 8, Mode::Current));
+        assert_eq!((three.robot.mass, three.pole_pairs, three.mode), (1.944, 8, ControlMode::Current));
     }
 
     #[test]

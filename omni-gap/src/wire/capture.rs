@@ -1,17 +1,17 @@
 //! From bytes to records, and how many did not arrive.
 
-use model_core::link::framing::{Decoder, Kind};
+use model_core::link::framing::{FrameDecoder, FrameKind};
 use model_core::link::hello::Hello;
-use model_core::link::record::Record;
+use model_core::link::record::TelemetryRecord;
 
 use super::source::Progress;
 
 /// What a robot sent.
 #[derive(Clone, Debug, Default)]
 pub struct Capture {
-    decoder: Decoder,
+    decoder: FrameDecoder,
     /// The records, in their order.
-    pub records: Vec<Record>,
+    pub records: Vec<TelemetryRecord>,
     /// What explains them: each with the number of records that came before it.
     pub hellos: Vec<(usize, Hello)>,
     /// Whole frames that mean nothing to this program.
@@ -34,19 +34,19 @@ impl Capture {
         for byte in bytes {
             let Some(frame) = self.decoder.push(*byte) else { continue };
             progress = Progress::Frames;
-            let (kind, payload) = (Kind::from_code(frame.kind), frame.payload);
+            let (kind, payload) = (FrameKind::from_code(frame.kind), frame.payload);
             match kind {
-                Some(Kind::Record) => match Record::from_bytes(payload) {
+                Some(FrameKind::Record) => match TelemetryRecord::from_bytes(payload) {
                     Some(record) => self.keep(record),
                     None => self.strange += 1,
                 },
-                Some(Kind::Hello) => match Hello::from_bytes(payload) {
+                Some(FrameKind::Hello) => match Hello::from_bytes(payload) {
                     // before the zeros of its sensors are known a robot tells them as 0
                     Some(hello) if zeros_are_known(&hello) => self.hellos.push((self.records.len(), hello)),
                     Some(_) => {}
                     None => self.strange += 1,
                 },
-                Some(Kind::Reply) => {}
+                Some(FrameKind::Reply) => {}
                 _ => self.strange += 1,
             }
             if self.is_enough() {
@@ -56,7 +56,7 @@ impl Capture {
         progress
     }
 
-    fn keep(&mut self, record: Record) {
+    fn keep(&mut self, record: TelemetryRecord) {
         if let Some(last) = self.records.last() {
             // the clock and the numbers wrap, but no recording is half as long as their range
             let back = |now: u32, before: u32| now.wrapping_sub(before).wrapping_sub(1) >= 1 << 31;

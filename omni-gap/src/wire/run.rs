@@ -15,10 +15,10 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use model_core::control::calibration::{AdcCode, Calibration, FULL_SCALE};
-use model_core::control::phases::{Rotation, SIX_STEPS, Stationary, dc_current};
+use model_core::control::phases::{AlphaBeta, Rotation, SIX_STEPS, dc_current};
 use model_core::link::faults::Fault;
 use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
-use model_core::link::record::{Record, Stage};
+use model_core::link::record::{OperatingState, TelemetryRecord};
 
 use super::capture::Capture;
 use super::source::Source;
@@ -49,7 +49,7 @@ pub fn faults(capture: &Capture) -> Vec<(Fault, f64)> {
     Fault::ALL.into_iter().filter_map(first).collect()
 }
 
-fn turns_since(records: &[Record], at: usize) -> f64 {
+fn turns_since(records: &[TelemetryRecord], at: usize) -> f64 {
     f64::from(records[at].time.wrapping_sub(records[0].time))
 }
 
@@ -115,7 +115,7 @@ fn clock(hello: &Hello) -> f64 {
 }
 
 /// Times of all rows [s], those of lost records between, and the row of each record.
-fn rows(records: &[Record], t: &[f64]) -> (Vec<f64>, Vec<usize>) {
+fn rows(records: &[TelemetryRecord], t: &[f64]) -> (Vec<f64>, Vec<usize>) {
     let (mut times, mut rows) = (vec![0.0], vec![0]);
     for (pair, at) in records.windows(2).zip(t.windows(2)) {
         let steps = pair[1].sequence.wrapping_sub(pair[0].sequence);
@@ -150,7 +150,7 @@ impl Channels {
     }
 
     /// A row: its record, and the one that follows at once.
-    fn told(&mut self, hello: &Hello, record: &Record, after: Option<&Record>) {
+    fn told(&mut self, hello: &Hello, record: &TelemetryRecord, after: Option<&TelemetryRecord>) {
         let calibration = calibration(hello);
         for (wheel, (u, i)) in self.u.iter_mut().zip(&mut self.i).enumerate() {
             match after {
@@ -166,7 +166,7 @@ impl Channels {
             }
         }
         self.vbat.push(calibration.bus_voltage(record.bus));
-        self.enable.push(if record.stage == Stage::Driving && record.enabled != 0 { 1.0 } else { 0.0 });
+        self.enable.push(if record.state == OperatingState::Driving && record.enabled != 0 { 1.0 } else { 0.0 });
     }
 }
 
@@ -184,7 +184,7 @@ fn calibration(hello: &Hello) -> Calibration<f64> {
 fn current(
     hello: &Hello,
     calibration: &Calibration<f64>,
-    record: &Record,
+    record: &TelemetryRecord,
     wheel: usize,
 ) -> std::result::Result<f64, Missing> {
     let (codes, zeros) = (record.phases[wheel], hello.offsets[wheel]);
@@ -199,7 +199,7 @@ fn current(
         let step = SIX_STEPS[(turns * 6.0).round() as usize % 6];
         return Ok(0.5 * (step.up.of(phases) - step.down.of(phases)));
     }
-    Ok(dc_current(Rotation::of_angle(turns * TAU).to_rotor(Stationary::of_phases(phases)).q))
+    Ok(dc_current(Rotation::of_angle(turns * TAU).park(AlphaBeta::clarke(phases)).q))
 }
 
 #[cfg(test)]

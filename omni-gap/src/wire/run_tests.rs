@@ -1,7 +1,7 @@
 use super::*;
 use crate::wire::source::Progress;
 use model_core::control::phases::q_current;
-use model_core::link::framing::{Kind, MAX_FRAME, frame};
+use model_core::link::framing::{FrameKind, MAX_FRAME, encode_frame};
 
 /// What the robot says of itself; its zeros are not in the middle.
 fn hello(wheels: u8) -> Hello {
@@ -23,22 +23,24 @@ fn shown(k: u32) -> f64 {
 }
 
 /// A robot that drives with a voltage of k/100 V after turn k.
-fn record(k: u32) -> Record {
-    let mut record = Record {
+fn record(k: u32) -> TelemetryRecord {
+    let mut record = TelemetryRecord {
         sequence: k,
         time: 20 * k,
-        stage: Stage::Driving,
+        state: OperatingState::Driving,
         enabled: 0b1111,
         bus: AdcCode(1354),
         interval: [100; 4],
         voltage: [k as f32 / 128.0; 4],
-        ..Record::default()
+        ..TelemetryRecord::default()
     };
     for wheel in 0..4 {
         record.angle[wheel] = (k * 997 + 20_000 * wheel as u32) as u16;
         let angle = f64::from(record.angle[wheel]) / 65_536.0 * TAU;
         let q = q_current(shown(k));
-        let phases = Rotation::of_angle(angle).to_stationary(model_core::control::phases::Rotor { d: 0.0, q }).phases();
+        let phases = Rotation::of_angle(angle)
+            .inverse_park(model_core::control::phases::DirectQuadrature { d: 0.0, q })
+            .inverse_clarke();
         let calibration = calibration(&hello(4));
         for (phase, x) in phases.into_iter().enumerate() {
             let zero = f64::from(hello(4).offsets[wheel][phase]) / 16.0;
@@ -49,11 +51,11 @@ fn record(k: u32) -> Record {
 }
 
 /// The frames of a hello and of these records.
-fn sent(wheels: u8, records: &[Record]) -> Vec<u8> {
+fn sent(wheels: u8, records: &[TelemetryRecord]) -> Vec<u8> {
     let mut out = [0; MAX_FRAME];
-    let mut bytes = frame(Kind::Hello.code(), &hello(wheels).to_bytes(), &mut out).unwrap().to_vec();
+    let mut bytes = encode_frame(FrameKind::Hello.code(), &hello(wheels).to_bytes(), &mut out).unwrap().to_vec();
     for record in records {
-        bytes.extend(frame(Kind::Record.code(), &record.to_bytes(), &mut out).unwrap());
+        bytes.extend(encode_frame(FrameKind::Record.code(), &record.to_bytes(), &mut out).unwrap());
     }
     bytes
 }
@@ -68,7 +70,7 @@ fn captured(bytes: &[u8]) -> Capture {
     capture
 }
 
-fn run_of(records: &[Record]) -> Run {
+fn run_of(records: &[TelemetryRecord]) -> Run {
     run(&captured(&sent(4, records)), &source(), "run", 4).unwrap()
 }
 
@@ -78,7 +80,7 @@ fn at(group: &Option<Group>, wheel: usize, row: usize) -> std::result::Result<f6
 
 #[test]
 fn a_row_has_its_own_codes_and_the_voltage_of_the_record_that_follows() {
-    let records: Vec<Record> = (5..105).map(record).collect();
+    let records: Vec<TelemetryRecord> = (5..105).map(record).collect();
     let run = run_of(&records);
     assert_eq!(run.rows(), 99, "the last record only ends the row before it");
     for row in 0..99 {
@@ -98,7 +100,8 @@ fn a_row_has_its_own_codes_and_the_voltage_of_the_record_that_follows() {
 
 #[test]
 fn records_that_did_not_arrive_leave_empty_rows_and_are_counted() {
-    let mut records: Vec<Record> = (0..50).map(record).filter(|r| ![10, 11, 30].contains(&r.sequence)).collect();
+    let mut records: Vec<TelemetryRecord> =
+        (0..50).map(record).filter(|r| ![10, 11, 30].contains(&r.sequence)).collect();
     records.iter_mut().find(|r| r.sequence == 31).unwrap().dropped = 1;
     let capture = captured(&sent(4, &records));
     assert_eq!(capture.lost(), (2, 1));
@@ -115,18 +118,18 @@ fn records_that_did_not_arrive_leave_empty_rows_and_are_counted() {
 
 #[test]
 fn a_broken_frame_is_counted_and_costs_its_row() {
-    let records: Vec<Record> = (0..20).map(record).collect();
+    let records: Vec<TelemetryRecord> = (0..20).map(record).collect();
     let mut bytes = sent(4, &records);
     let hello_len = sent(4, &[]).len();
-    bytes[hello_len + 5 * (Record::BYTES + 5) + 30] ^= 0x10;
+    bytes[hello_len + 5 * (TelemetryRecord::BYTES + 5) + 30] ^= 0x10;
     let capture = captured(&bytes);
     assert_eq!((capture.bad_frames(), capture.lost(), capture.records.len()), (1, (1, 0), 19));
 }
 
 #[test]
 fn open_bridges_have_no_voltage() {
-    let mut records: Vec<Record> = (0..30).map(record).collect();
-    records[10..20].iter_mut().for_each(|r| (r.stage, r.enabled) = (Stage::Faulted, 0));
+    let mut records: Vec<TelemetryRecord> = (0..30).map(record).collect();
+    records[10..20].iter_mut().for_each(|r| (r.state, r.enabled) = (OperatingState::Faulted, 0));
     records[25..].iter_mut().for_each(|r| r.enabled = 0b1011);
     let run = run_of(&records);
     let enable = run.enable.as_ref().unwrap();
@@ -138,7 +141,7 @@ fn open_bridges_have_no_voltage() {
 
 #[test]
 fn a_sensor_at_its_limit_tells_nothing() {
-    let mut records: Vec<Record> = (0..10).map(record).collect();
+    let mut records: Vec<TelemetryRecord> = (0..10).map(record).collect();
     records[4].phases[1][2] = AdcCode(FULL_SCALE);
     let run = run_of(&records);
     assert_eq!((at(&run.i, 1, 4), at(&run.i, 0, 4).is_ok()), (Err(Missing::Saturated), true));
@@ -146,7 +149,7 @@ fn a_sensor_at_its_limit_tells_nothing() {
 
 #[test]
 fn at_rest_the_current_is_that_of_the_conducting_phases() {
-    let mut records: Vec<Record> = (0..10).map(record).collect();
+    let mut records: Vec<TelemetryRecord> = (0..10).map(record).collect();
     // sector 0: b up, c down; zeros 2040 11/16 and 2048
     records[3].interval[0] = 0;
     records[3].angle[0] = 0;
@@ -157,7 +160,7 @@ fn at_rest_the_current_is_that_of_the_conducting_phases() {
 
 #[test]
 fn what_comes_after_a_restart_is_left_out() {
-    let records: Vec<Record> = (100..150).chain(0..80).map(record).collect();
+    let records: Vec<TelemetryRecord> = (100..150).chain(0..80).map(record).collect();
     let capture = captured(&sent(4, &records));
     assert!(capture.restarted);
     assert_eq!(capture.records.len(), 50);
@@ -165,7 +168,7 @@ fn what_comes_after_a_restart_is_left_out() {
 
 #[test]
 fn a_recording_ends_when_there_is_enough() {
-    let records: Vec<Record> = (0..500).map(record).collect();
+    let records: Vec<TelemetryRecord> = (0..500).map(record).collect();
     let mut capture = Capture::new(Some(20 * 100));
     assert_eq!(capture.take(&sent(4, &records)), Progress::Enough);
     assert_eq!(capture.records.len(), 101);
@@ -173,7 +176,7 @@ fn a_recording_ends_when_there_is_enough() {
 
 #[test]
 fn what_is_no_recording_is_told() {
-    let records: Vec<Record> = (0..50).map(record).collect();
+    let records: Vec<TelemetryRecord> = (0..50).map(record).collect();
     let told = |bytes: &[u8]| run(&captured(bytes), &source(), "run", 4).unwrap_err().to_string();
     assert!(told(&[]).contains("frames.bin: nothing came"));
     assert!(told(&[1, 2, 3, 0, 9, 9, 0, 9, 0]).contains("no whole frame"));

@@ -13,7 +13,7 @@
 
 use std::f64::consts::TAU;
 
-use model_core::link::record::Record;
+use model_core::link::record::TelemetryRecord;
 
 /// The shortest interval that is told [s]
 const SHORTEST_S: f64 = 4e-3;
@@ -45,7 +45,13 @@ pub fn edges_per_turn(pole_pairs: u8, gear_ratio: f64) -> f64 {
 /// The intervals between a wheel's edges, from its records and their times [s].
 ///
 /// `period` is the time between two looks at the halls [s].
-pub fn intervals(records: &[Record], t: &[f64], wheel: usize, period: f64, edges_per_turn: f64) -> Vec<Interval> {
+pub fn intervals(
+    records: &[TelemetryRecord],
+    t: &[f64],
+    wheel: usize,
+    period: f64,
+    edges_per_turn: f64,
+) -> Vec<Interval> {
     let angle = TAU / edges_per_turn;
     let mut all = Vec::new();
     let (mut count, mut from): (i64, Option<Edge>) = (0, None);
@@ -103,13 +109,13 @@ mod tests {
     const EDGES: f64 = 240.0;
 
     /// The records of a wheel whose angle is φ(t), looked at every 50 µs and told every 1 ms.
-    fn recorded(angle: impl Fn(f64) -> f64, rows: usize) -> (Vec<Record>, Vec<f64>) {
+    fn recorded(angle: impl Fn(f64) -> f64, rows: usize) -> (Vec<TelemetryRecord>, Vec<f64>) {
         let count = |k: usize| (angle(k as f64 * PERIOD) * EDGES / TAU).floor() as i64;
         let (mut records, mut t, mut since) = (Vec::new(), Vec::new(), 0_u16);
         for k in 1..=20 * rows {
             since = if count(k) != count(k - 1) { 0 } else { since.saturating_add(1) };
             if k.is_multiple_of(20) {
-                let mut record = Record::default();
+                let mut record = TelemetryRecord::default();
                 record.edges[1] = count(k) as i16;
                 record.since_edge[1] = since;
                 records.push(record);

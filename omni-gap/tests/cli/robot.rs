@@ -3,9 +3,9 @@
 use crate::bench::{Bench, ROBOT, table};
 use model_core::control::calibration::{AdcCode, Calibration};
 use model_core::link::block::Parameters;
-use model_core::link::framing::{Kind, MAX_FRAME, frame};
+use model_core::link::framing::{FrameKind, MAX_FRAME, encode_frame};
 use model_core::link::hello::{Commutation, Hello};
-use model_core::link::record::{Record, Stage};
+use model_core::link::record::{OperatingState, TelemetryRecord};
 
 /// A bench with a robot file and frames of a robot that turns slowly.
 fn bench() -> Bench {
@@ -27,12 +27,12 @@ fn frames(turns: std::ops::Range<u32>) -> Vec<u8> {
         offsets: [[2048 * 16; 3]; 4],
     };
     let mut out = [0; MAX_FRAME];
-    let mut bytes = frame(Kind::Hello.code(), &hello.to_bytes(), &mut out).unwrap().to_vec();
+    let mut bytes = encode_frame(FrameKind::Hello.code(), &hello.to_bytes(), &mut out).unwrap().to_vec();
     for k in turns {
-        let record = Record {
+        let record = TelemetryRecord {
             sequence: k,
             time: 20 * k,
-            stage: Stage::Driving,
+            state: OperatingState::Driving,
             enabled: 0b1111,
             bus: AdcCode(1354),
             phases: [[AdcCode(2048); 3]; 4],
@@ -41,9 +41,9 @@ fn frames(turns: std::ops::Range<u32>) -> Vec<u8> {
             since_edge: [(20 * (k % 4)) as u16; 4],
             interval: [80; 4],
             voltage: [1.0; 4],
-            ..Record::default()
+            ..TelemetryRecord::default()
         };
-        bytes.extend(frame(Kind::Record.code(), &record.to_bytes(), &mut out).unwrap());
+        bytes.extend(encode_frame(FrameKind::Record.code(), &record.to_bytes(), &mut out).unwrap());
     }
     bytes
 }

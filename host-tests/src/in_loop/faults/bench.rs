@@ -2,7 +2,7 @@
 
 use model_core::effects::active::Effects;
 use model_core::effects::find;
-use model_core::link::block::{Block, Limits, Mode, Parameters};
+use model_core::link::block::{Block, ControlMode, Limits, Parameters};
 use model_core::plant::paper::{four_wheels, three_wheels};
 use model_core::plant::robot::Robot;
 
@@ -31,7 +31,7 @@ pub struct Bench<const N: usize> {
 }
 
 /// The block of a robot.
-pub fn block<const N: usize>(robot: Robot<N, f32>, mode: Mode) -> Block<N> {
+pub fn block<const N: usize>(robot: Robot<N, f32>, mode: ControlMode) -> Block<N> {
     let believed = robots::block(robot);
     Block {
         mode,
@@ -52,11 +52,11 @@ fn board<const N: usize>(robot: Robot<N, f64>) -> VirtualBoard<N> {
 }
 
 /// The robot with three wheels.
-pub fn three(mode: Mode) -> Bench<3> {
+pub fn three(mode: ControlMode) -> Bench<3> {
     Bench { board: board(three_wheels()), parameters: Parameters::Three(block(three_wheels(), mode)) }
 }
 
 /// The robot with four wheels.
-pub fn four(mode: Mode) -> Bench<4> {
+pub fn four(mode: ControlMode) -> Bench<4> {
     Bench { board: board(four_wheels()), parameters: Parameters::Four(block(four_wheels(), mode)) }
 }

@@ -1,6 +1,6 @@
 //! What is done to the robot, and what it is to be called.
 
-use model_core::link::block::{Mode, Reason};
+use model_core::link::block::{BlockErrorKind, ControlMode};
 use model_core::link::faults::Fault;
 
 use crate::virtual_board::Fault as Broken;
@@ -41,11 +41,11 @@ pub enum Spoilt {
 
 impl Spoilt {
     /// The reason that the robot is to give.
-    pub const fn reason(self) -> Reason {
+    pub const fn reason(self) -> BlockErrorKind {
         match self {
-            Spoilt::Bit | Spoilt::Chunk => Reason::Checksum,
-            Spoilt::Number => Reason::OutOfBounds,
-            Spoilt::Newer => Reason::Newer,
+            Spoilt::Bit | Spoilt::Chunk => BlockErrorKind::Checksum,
+            Spoilt::Number => BlockErrorKind::OutOfBounds,
+            Spoilt::Newer => BlockErrorKind::Newer,
         }
     }
 }
@@ -60,7 +60,7 @@ pub struct Case {
     /// Three or four
     pub wheels: usize,
     /// How they are driven
-    pub mode: Mode,
+    pub mode: ControlMode,
     /// What is done
     pub cause: Cause,
     /// The wheel of four that it is to cost; none where all bridges are to open
@@ -70,7 +70,7 @@ pub struct Case {
 }
 
 const fn case(title: &'static str, fault: Fault, cause: Cause, seen_within: u32) -> Case {
-    Case { title, fault, wheels: 4, mode: Mode::Current, cause, costs: None, seen_within }
+    Case { title, fault, wheels: 4, mode: ControlMode::Current, cause, costs: None, seen_within }
 }
 
 const fn costs(motor: usize, case: Case) -> Case {
@@ -82,7 +82,7 @@ const fn on_three(case: Case) -> Case {
 }
 
 const fn by_voltage(case: Case) -> Case {
-    Case { mode: Mode::Voltage, ..case }
+    Case { mode: ControlMode::Voltage, ..case }
 }
 
 /// Periods of a command on its way: two motion turns, one to be heard in and one to be followed in.

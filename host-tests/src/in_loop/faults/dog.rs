@@ -4,7 +4,7 @@
 //! dog counts by its own oscillator and restarts the chip; that is for a board to show.
 
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::Mode;
+use model_core::link::block::ControlMode;
 use model_core::link::command::Command;
 
 use super::bench;
@@ -30,7 +30,7 @@ pub struct Bitten {
 /// # Errors
 /// [`Trouble`] says what became of the program.
 pub fn starve<B: Brain>(brain: B) -> Result<Bitten, Trouble> {
-    let bench::Bench { board, parameters } = bench::four(Mode::Current);
+    let bench::Bench { board, parameters } = bench::four(ControlMode::Current);
     let along = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
     let mut ride = Ride::new(brain, board);
     ride.send_block(&parameters);

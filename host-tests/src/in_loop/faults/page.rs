@@ -1,8 +1,8 @@
 //! The golden page of the faults: what a person judges, and what it must keep.
 
-use model_core::link::block::{Mode, Reason};
-use model_core::link::command::Refused;
-use model_core::link::framing::Kind;
+use model_core::link::block::{BlockErrorKind, ControlMode};
+use model_core::link::command::CommandError;
+use model_core::link::framing::FrameKind;
 
 use super::Results;
 use super::bench::ACCELERATION;
@@ -102,7 +102,7 @@ fn time(periods: u32) -> String {
 }
 
 fn row(case: &Case, played: &Played) -> String {
-    let mode = if case.mode == Mode::Voltage { ", by voltage" } else { "" };
+    let mode = if case.mode == ControlMode::Voltage { ", by voltage" } else { "" };
     let opens = case.costs.map_or("all".into(), |motor| format!("wheel {motor}"));
     let dropped = match played.dropped {
         Some(0) => "same turn".into(),
@@ -149,10 +149,10 @@ fn row(case: &Case, played: &Played) -> String {
 }
 
 fn reason(to: u8, code: u8) -> String {
-    let words = if to == Kind::Commit.code() {
-        Reason::from_code(code).map(Reason::text)
+    let words = if to == FrameKind::Commit.code() {
+        BlockErrorKind::from_code(code).map(BlockErrorKind::text)
     } else {
-        Refused::ALL.into_iter().find(|reason| reason.code() == code).map(Refused::text)
+        CommandError::ALL.into_iter().find(|reason| reason.code() == code).map(CommandError::text)
     };
     words.unwrap_or("**no reason that is known**").into()
 }
@@ -186,10 +186,11 @@ pub fn broken(results: &Results) -> Vec<String> {
         must(played.same_block, "the first block is still in use");
         must(played.parted.is_none(), "the twins ask the same");
         let answer = match case.cause {
-            Cause::Block(spoilt) => Some((Kind::Commit, spoilt.reason().code())),
-            Cause::Command(v) => {
-                Some((Kind::Drive, if v.is_finite() { Refused::TooFast } else { Refused::NotFinite }.code()))
-            }
+            Cause::Block(spoilt) => Some((FrameKind::Commit, spoilt.reason().code())),
+            Cause::Command(v) => Some((
+                FrameKind::Drive,
+                if v.is_finite() { CommandError::TooFast } else { CommandError::NotFinite }.code(),
+            )),
             _ => None,
         };
         must(played.refused.map(|r| (r.to, r.reason)) == answer.map(|(to, code)| (to.code(), code)), "answered");

@@ -5,8 +5,8 @@ use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{MAX_BYTES, Parameters, checksum};
 use model_core::link::command::{Command, MAX_CHUNK, Reply};
 use model_core::link::faults::{Fault, Faults};
-use model_core::link::framing::Kind;
-use model_core::link::record::{Record, Stage};
+use model_core::link::framing::FrameKind;
+use model_core::link::record::{OperatingState, TelemetryRecord};
 
 use super::bench::{self, Bench};
 use super::case::{Case, Cause, Spoilt, is_timed};
@@ -141,7 +141,7 @@ impl<B: Brain, const N: usize> Player<B, N> {
         Ok(())
     }
 
-    fn record(&self) -> Option<&Record> {
+    fn record(&self) -> Option<&TelemetryRecord> {
         self.ride.taken.records.last()
     }
 
@@ -213,15 +213,15 @@ fn run<B: Brain, const N: usize>(case: &Case, bench: Bench<N>, brain: B) -> Resu
     }
     player.ride.lockstep.board.heal();
     let closed_after = player.go(AFTER, Host::Commands)?;
-    let stage = if case.costs.is_some() { Stage::Driving } else { Stage::Faulted };
+    let stage = if case.costs.is_some() { OperatingState::Driving } else { OperatingState::Faulted };
     let found = player.record().map_or(Faults::NONE, |last| last.faults);
-    let named = found.iter().eq([case.fault]) && player.record().is_some_and(|last| last.stage == stage);
+    let named = found.iter().eq([case.fault]) && player.record().is_some_and(|last| last.state == stage);
     let refused = player.ride.taken.replies.iter().find(|reply| !reply.taken).copied();
 
     player.clear()?;
     let closed_waiting = player.go(PAUSE, Host::Silent)?;
-    let cleared = player.record().is_some_and(|last| last.faults == Faults::NONE && last.stage == Stage::Open)
-        && player.ride.taken.replies.last() == Some(&Reply { to: Kind::Clear.code(), taken: true, reason: 0 });
+    let cleared = player.record().is_some_and(|last| last.faults == Faults::NONE && last.state == OperatingState::Open)
+        && player.ride.taken.replies.last() == Some(&Reply { to: FrameKind::Clear.code(), taken: true, reason: 0 });
     player.go(RUN_UP, Host::Commands)?;
     Ok(Played {
         seen,

@@ -1,9 +1,9 @@
 //! A robot of four wheels that goes on with three: whether it follows, and within which limits.
 
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::Mode;
+use model_core::link::block::ControlMode;
 use model_core::link::faults::{Fault, Faults};
-use model_core::link::record::Stage;
+use model_core::link::record::OperatingState;
 
 use super::bench;
 use crate::emulator::{Brain, Trouble};
@@ -22,32 +22,32 @@ pub struct Loss {
     /// What happens to it
     pub broken: Broken,
     /// How the wheels are driven
-    pub mode: Mode,
+    pub mode: ControlMode,
 }
 
 /// Wheels that are lost, each in a way that is its own.
 pub const LOSSES: [Loss; 4] = [
-    Loss { title: "none", fault: Fault::HallCode, motor: 4, broken: Broken::Bus(12.0), mode: Mode::Current },
+    Loss { title: "none", fault: Fault::HallCode, motor: 4, broken: Broken::Bus(12.0), mode: ControlMode::Current },
     Loss {
         title: "wheel 1: hall lines read 7",
         fault: Fault::HallCode,
         motor: 1,
         broken: Broken::Halls { motor: 1, code: 7 },
-        mode: Mode::Current,
+        mode: ControlMode::Current,
     },
     Loss {
         title: "wheel 1: hall lines read 7, wheels driven by voltage",
         fault: Fault::HallCode,
         motor: 1,
         broken: Broken::Halls { motor: 1, code: 7 },
-        mode: Mode::Voltage,
+        mode: ControlMode::Voltage,
     },
     Loss {
         title: "wheel 1: blocked until it was given up, then free",
         fault: Fault::Stall,
         motor: 1,
         broken: Broken::Blocked { motor: 1 },
-        mode: Mode::Current,
+        mode: ControlMode::Current,
     },
 ];
 
@@ -115,7 +115,7 @@ pub fn go_on<B: Brain>(loss: &Loss, brain: B) -> Result<Gone, Trouble> {
     let without = ride.taken.moments[moments..].iter().all(|moment| moment.enabled == left)
         && records
             .iter()
-            .all(|record| record.stage == Stage::Driving && record.faults.has(loss.fault) == (loss.motor < 4));
+            .all(|record| record.state == OperatingState::Driving && record.faults.has(loss.fault) == (loss.motor < 4));
     let found = records.iter().fold(0, |found, record| found | record.faults.bits());
     Ok(Gone { went, acceleration, without, found: Faults::from_bits(found) })
 }

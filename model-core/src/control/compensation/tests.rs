@@ -2,8 +2,8 @@ use super::*;
 use crate::effects::{catalogue, find};
 
 /// On a wheel where the effect needs one, on all otherwise.
-fn place(card: &Card) -> Option<usize> {
-    (card.place == Place::OneWheel).then_some(1)
+fn wheel_of(card: &Card) -> Option<usize> {
+    (card.scope == Scope::OneWheel).then_some(1)
 }
 
 fn typical(card: &Card) -> ([f64; 4], usize) {
@@ -20,12 +20,17 @@ fn every_effect_of_the_catalogue_is_undone_or_refused_with_its_own_reason() {
     for effect in catalogue::<f64>() {
         let card = effect.card();
         let (params, count) = typical(card);
-        let mut undo = Compensation::<4, f64>::none();
-        match undo.add(card.id, place(card), &params[..count]) {
+        let mut compensation = Compensation::<4, f64>::none();
+        match compensation.add(card.id, wheel_of(card), &params[..count]) {
             Ok(()) => {
                 undone += 1;
-                assert_ne!(undo, Compensation::none(), "{}", card.id);
-                assert_eq!(undo.add(card.id, place(card), &params[..count]), Err(NotCompensable::Twice), "{}", card.id);
+                assert_ne!(compensation, Compensation::none(), "{}", card.id);
+                assert_eq!(
+                    compensation.add(card.id, wheel_of(card), &params[..count]),
+                    Err(NotCompensable::Twice),
+                    "{}",
+                    card.id
+                );
             }
             Err(why) => {
                 let own = [NotCompensable::Delay, NotCompensable::Slip, NotCompensable::Sag, NotCompensable::Camera];
@@ -38,26 +43,26 @@ fn every_effect_of_the_catalogue_is_undone_or_refused_with_its_own_reason() {
 
 #[test]
 fn what_is_not_on_the_card_is_refused_and_changes_nothing() {
-    let mut undo = Compensation::<3, f64>::none();
-    assert_eq!(undo.add("backlash", None, &[0.1]), Err(NotCompensable::Unknown));
-    assert_eq!(undo.add("creep", Some(3), &[0.02]), Err(NotCompensable::Wheel));
-    assert_eq!(undo.add("coriolis", Some(0), &[1.0]), Err(NotCompensable::Wheel));
-    assert_eq!(undo.add("motor_mismatch", None, &[0.9, 1.0]), Err(NotCompensable::Wheel));
+    let mut compensation = Compensation::<3, f64>::none();
+    assert_eq!(compensation.add("backlash", None, &[0.1]), Err(NotCompensable::Unknown));
+    assert_eq!(compensation.add("creep", Some(3), &[0.02]), Err(NotCompensable::Wheel));
+    assert_eq!(compensation.add("coriolis", Some(0), &[1.0]), Err(NotCompensable::Wheel));
+    assert_eq!(compensation.add("motor_mismatch", None, &[0.9, 1.0]), Err(NotCompensable::Wheel));
     for params in [&[][..], &[0.02, 0.02], &[-0.01], &[0.3], &[f64::NAN], &[f64::INFINITY]] {
-        assert_eq!(undo.add("creep", None, params), Err(NotCompensable::Parameters), "{params:?}");
+        assert_eq!(compensation.add("creep", None, params), Err(NotCompensable::Parameters), "{params:?}");
     }
-    assert_eq!(undo, Compensation::none());
+    assert_eq!(compensation, Compensation::none());
 }
 
 #[test]
 fn an_effect_may_sit_on_two_wheels_but_not_twice_on_one() {
-    let mut undo = Compensation::<4, f64>::none();
-    assert_eq!(undo.add("gear_efficiency", Some(0), &[0.8]), Ok(()));
-    assert_eq!(undo.add("gear_efficiency", Some(2), &[0.9]), Ok(()));
-    assert_eq!(undo.gear_efficiency, [0.8, 1.0, 0.9, 1.0]);
-    let before = undo;
-    assert_eq!(undo.add("gear_efficiency", None, &[0.9]), Err(NotCompensable::Twice));
-    assert_eq!(undo, before);
+    let mut compensation = Compensation::<4, f64>::none();
+    assert_eq!(compensation.add("gear_efficiency", Some(0), &[0.8]), Ok(()));
+    assert_eq!(compensation.add("gear_efficiency", Some(2), &[0.9]), Ok(()));
+    assert_eq!(compensation.gear_efficiency, [0.8, 1.0, 0.9, 1.0]);
+    let before = compensation;
+    assert_eq!(compensation.add("gear_efficiency", None, &[0.9]), Err(NotCompensable::Twice));
+    assert_eq!(compensation, before);
 }
 
 #[test]
@@ -68,11 +73,11 @@ fn an_absent_effect_is_nothing_to_undo() {
         for (x, param) in params.iter_mut().zip(card.params) {
             *x = param.absent;
         }
-        let mut undo = Compensation::<4, f64>::none();
-        if undo.add(card.id, place(card), &params[..count]).is_ok() {
+        let mut compensation = Compensation::<4, f64>::none();
+        if compensation.add(card.id, wheel_of(card), &params[..count]).is_ok() {
             // the same effect may still be added: nothing is there
             let (params, count) = typical(card);
-            assert_eq!(undo.add(card.id, place(card), &params[..count]), Ok(()), "{}", card.id);
+            assert_eq!(compensation.add(card.id, wheel_of(card), &params[..count]), Ok(()), "{}", card.id);
         }
     }
     assert!(find::<f64>("coriolis").is_some());

@@ -25,16 +25,16 @@ fn noise(seed: &mut u32) -> f64 {
     f64::from(*seed >> 8) / f64::from(1_u32 << 23) - 1.0
 }
 
-fn seen(codes: [AdcCode; 3], angle: f64) -> CurrentSeen<f64> {
-    CurrentSeen { codes, offsets: OFFSETS, angle, ahead: 0.0, bus: BUS, per_bus: 1.0 / BUS }
+fn measured(codes: [AdcCode; 3], angle: f64) -> CurrentMeasurement<f64> {
+    CurrentMeasurement { codes, offsets: OFFSETS, angle, ahead: 0.0, bus: BUS, per_bus: 1.0 / BUS }
 }
 
-fn closed(current: f64, voltage: f64) -> CurrentWant<f64> {
-    CurrentWant { current, voltage, closed: true }
+fn closed(current: f64, voltage: f64) -> CurrentSetpoint<f64> {
+    CurrentSetpoint { current, voltage, closed: true }
 }
 
-fn open(voltage: f64) -> CurrentWant<f64> {
-    CurrentWant { current: 0.0, voltage, closed: false }
+fn open(voltage: f64) -> CurrentSetpoint<f64> {
+    CurrentSetpoint { current: 0.0, voltage, closed: false }
 }
 
 /// Codes that three phase currents [A] read as.
@@ -45,17 +45,17 @@ fn codes(currents: [f64; 3]) -> [AdcCode; 3] {
 
 /// Codes of a DC-equivalent current vector [A] at an angle [rad].
 fn codes_of(d: f64, q: f64, angle: f64) -> [AdcCode; 3] {
-    let vector = Rotor { d: phases::q_current(d), q: phases::q_current(q) };
-    codes(Rotation::of_angle(angle).to_stationary(vector).phases())
+    let vector = DirectQuadrature { d: phases::q_current(d), q: phases::q_current(q) };
+    codes(Rotation::of_angle(angle).inverse_park(vector).inverse_clarke())
 }
 
 fn span([a, b, c]: [f64; 3]) -> f64 {
     a.max(b).max(c) - a.min(b).min(c)
 }
 
-fn assert_close<const M: usize>(got: [f64; M], want: [f64; M], within: f64) {
-    for (g, w) in got.into_iter().zip(want) {
-        assert!((g - w).abs() <= within, "{got:?} against {want:?}");
+fn assert_close<const M: usize>(got: [f64; M], setpoint: [f64; M], within: f64) {
+    for (g, w) in got.into_iter().zip(setpoint) {
+        assert!((g - w).abs() <= within, "{got:?} against {setpoint:?}");
     }
 }
 
@@ -73,22 +73,22 @@ impl Drive {
     }
 
     /// One period: sampled in its middle, decided for the next. The DC-equivalent current that was there.
-    fn turn(&mut self, want: CurrentWant<f64>) -> Rotor<f64> {
+    fn turn(&mut self, setpoint: CurrentSetpoint<f64>) -> DirectQuadrature<f64> {
         let there = self.machine.current();
         let ahead = self.machine.speed * PERIOD;
-        let seen = CurrentSeen { ahead, ..seen(codes(self.machine.phases()), self.machine.angle) };
-        let decided = self.regulator.field_oriented(&mut self.memory, &seen, &want);
-        self.go_on(decided.duties);
+        let measured = CurrentMeasurement { ahead, ..measured(codes(self.machine.phases()), self.machine.angle) };
+        let output = self.regulator.field_oriented(&mut self.memory, &measured, &setpoint);
+        self.go_on(output.duties);
         there
     }
 
     /// The same in six steps.
-    fn step(&mut self, want: CurrentWant<f64>) -> Rotor<f64> {
+    fn step(&mut self, setpoint: CurrentSetpoint<f64>) -> DirectQuadrature<f64> {
         let there = self.machine.current();
         let sector = libm::floor(self.machine.angle / FRAC_PI_3 + 0.5) as u8 % 6;
-        let seen = seen(codes(self.machine.phases()), f64::NAN);
-        let decided = self.regulator.six_step(&mut self.memory, &seen, sector, &want);
-        self.go_on(decided.duties);
+        let measured = measured(codes(self.machine.phases()), f64::NAN);
+        let output = self.regulator.six_step(&mut self.memory, &measured, sector, &setpoint);
+        self.go_on(output.duties);
         there
     }
 
@@ -110,7 +110,7 @@ fn a_step_of_the_current_closes_as_the_bandwidth_says_at_every_angle() {
         let mut drive = Drive::new(Machine::at_rest(f64::from(k) * 0.55));
         let (mut ideal, mut error, mut before) = (0.0, 4.0, 0.0);
         for n in 0..80 {
-            let Rotor { d, q } = drive.turn(closed(4.0, 0.0));
+            let DirectQuadrature { d, q } = drive.turn(closed(4.0, 0.0));
             // the converter is coarse to 4 mA
             assert!((q - ideal).abs() < 0.008 && d.abs() < 0.008, "{k}, {n}: {d}, {q} against {ideal}");
             ideal += BANDWIDTH * PERIOD * (new * error + old * before);
@@ -143,7 +143,7 @@ fn a_turning_machine_gets_the_current_along_q_and_none_along_d() {
     for speed in [-2500.0, -600.0, 0.0, 600.0, 2500.0] {
         let mut drive = Drive::new(Machine::turning(speed));
         let emf = drive.machine.emf();
-        let mut last = Rotor::default();
+        let mut last = DirectQuadrature::default();
         for _ in 0..600 {
             last = drive.turn(closed(3.0, emf));
         }
@@ -162,9 +162,9 @@ fn a_voltage_alone_drives_the_dc_motor_of_the_model_at_every_speed() {
         }
         // i = (u − K_v·ω_m)/R; the held voltage turns against the rotor by ω_e·Δt within a period, which loses 0.07 %
         // of it at most (1 − sin x/x with x = ω_e·Δt/2)
-        let want = (voltage - drive.machine.emf()) / machine::RESISTANCE;
+        let setpoint = (voltage - drive.machine.emf()) / machine::RESISTANCE;
         let lost = 1.0e-3 * voltage.abs() / machine::RESISTANCE;
-        assert!((sum - want).abs() < lost + 0.004, "{speed}, {voltage}: {sum} against {want}");
+        assert!((sum - setpoint).abs() < lost + 0.004, "{speed}, {voltage}: {sum} against {setpoint}");
     }
 }
 
@@ -213,14 +213,14 @@ fn both_senses_of_rotation_are_mirror_images() {
         let (current, voltage) = (2.0 * noise(&mut seed), 20.0 * noise(&mut seed));
         let mut memory = CurrentMemory { d: noise(&mut seed), q: 10.0 * noise(&mut seed) };
         let mut mirrored = CurrentMemory { d: memory.d, q: -memory.q };
-        let want = CurrentWant { current, voltage, closed: k % 2 == 0 };
-        let against = CurrentWant { current: -current, voltage: -voltage, ..want };
+        let setpoint = CurrentSetpoint { current, voltage, closed: k % 2 == 0 };
+        let against = CurrentSetpoint { current: -current, voltage: -voltage, ..setpoint };
         // phases b and c change places, and the rotor turns the other way
         let [o_a, o_b, o_c] = OFFSETS;
         let [a, b, c] = codes([a, b, c]);
-        let here = CurrentSeen { ahead: 0.1, ..seen([a, b, c], angle) };
-        let there = CurrentSeen { offsets: [o_a, o_c, o_b], ahead: -0.1, ..seen([a, c, b], -angle) };
-        let one = regulator().field_oriented(&mut memory, &here, &want);
+        let here = CurrentMeasurement { ahead: 0.1, ..measured([a, b, c], angle) };
+        let there = CurrentMeasurement { offsets: [o_a, o_c, o_b], ahead: -0.1, ..measured([a, c, b], -angle) };
+        let one = regulator().field_oriented(&mut memory, &here, &setpoint);
         let other = regulator().field_oriented(&mut mirrored, &there, &against);
         let [x, y, z] = other.duties;
         assert_close(one.duties, [x, z, y], CLOSE);
@@ -236,11 +236,11 @@ fn naming_the_phases_onward_with_the_rotor_a_third_ahead_changes_nothing_else() 
         let angle = 0.01 * f64::from(k);
         let [a, b, c] = codes([(); 3].map(|()| 3.0 * noise(&mut seed)));
         let [o_a, o_b, o_c] = OFFSETS;
-        let want = closed(noise(&mut seed), 20.0 * noise(&mut seed));
+        let setpoint = closed(noise(&mut seed), 20.0 * noise(&mut seed));
         let (mut one, mut other) = (CurrentMemory::default(), CurrentMemory::default());
-        let here = regulator().field_oriented(&mut one, &seen([a, b, c], angle), &want);
-        let there = CurrentSeen { offsets: [o_c, o_a, o_b], ..seen([c, a, b], angle + TAU / 3.0) };
-        let there = regulator().field_oriented(&mut other, &there, &want);
+        let here = regulator().field_oriented(&mut one, &measured([a, b, c], angle), &setpoint);
+        let there = CurrentMeasurement { offsets: [o_c, o_a, o_b], ..measured([c, a, b], angle + TAU / 3.0) };
+        let there = regulator().field_oriented(&mut other, &there, &setpoint);
         let [x, y, z] = there.duties;
         assert_close(here.duties, [y, z, x], CLOSE);
         assert_close([here.current, here.voltage], [there.current, there.voltage], CLOSE * 10.0);
@@ -251,16 +251,17 @@ fn naming_the_phases_onward_with_the_rotor_a_third_ahead_changes_nothing_else() 
 fn in_the_middle_of_a_sector_six_steps_decide_as_field_oriented_control() {
     for sector in 0..6_u8 {
         let angle = f64::from(sector) * FRAC_PI_3;
-        for (current, want) in [(2.8, closed(4.0, 5.0)), (-2.8, closed(-4.0, 0.0)), (1.2, open(9.0)), (0.0, open(99.0))]
+        for (current, setpoint) in
+            [(2.8, closed(4.0, 5.0)), (-2.8, closed(-4.0, 0.0)), (1.2, open(9.0)), (0.0, open(99.0))]
         {
             // without quantisation along d: whole codes of the conducting pair
-            let seen = CurrentSeen { offsets: [2048.0; 3], ..seen([AdcCode(2048); 3], angle) };
+            let measured = CurrentMeasurement { offsets: [2048.0; 3], ..measured([AdcCode(2048); 3], angle) };
             let counts = libm::round(current / AMPS) as i32;
             let up_down = SIX_STEPS[usize::from(sector)].phases(counts, -counts, 0);
-            let seen = CurrentSeen { codes: up_down.map(|n| AdcCode((2048 + n) as u16)), ..seen };
+            let measured = CurrentMeasurement { codes: up_down.map(|n| AdcCode((2048 + n) as u16)), ..measured };
             let (mut one, mut other) = (CurrentMemory::default(), CurrentMemory::default());
-            let field = regulator().field_oriented(&mut one, &seen, &want);
-            let steps = regulator().six_step(&mut other, &seen, sector, &want);
+            let field = regulator().field_oriented(&mut one, &measured, &setpoint);
+            let steps = regulator().six_step(&mut other, &measured, sector, &setpoint);
             assert_close(field.duties, steps.duties, CLOSE);
             assert_close([field.current, field.voltage], [steps.current, steps.voltage], CLOSE * 10.0);
             assert_close([steps.current], [current], CLOSE);
@@ -274,18 +275,18 @@ fn duties_stay_within_their_bounds_whatever_is_seen() {
     for k in 0..20_000_u32 {
         let codes = [(); 3].map(|()| AdcCode((2047.5 * (1.0 + noise(&mut seed))) as u16));
         let huge = [1.0, 10.0, 1.0e6, 1.0e30][k as usize % 4];
-        let want =
-            CurrentWant { current: huge * noise(&mut seed), voltage: huge * noise(&mut seed), closed: k % 5 != 0 };
+        let setpoint =
+            CurrentSetpoint { current: huge * noise(&mut seed), voltage: huge * noise(&mut seed), closed: k % 5 != 0 };
         let mut memory = CurrentMemory { d: huge * noise(&mut seed), q: huge * noise(&mut seed) };
-        let seen = CurrentSeen { ahead: 0.4 * noise(&mut seed), ..seen(codes, 7.0 * noise(&mut seed)) };
+        let measured = CurrentMeasurement { ahead: 0.4 * noise(&mut seed), ..measured(codes, 7.0 * noise(&mut seed)) };
         for _ in 0..3 {
-            for decided in [
-                regulator().field_oriented(&mut memory, &seen, &want),
-                regulator().six_step(&mut memory, &seen, (k % 7) as u8, &want),
+            for output in [
+                regulator().field_oriented(&mut memory, &measured, &setpoint),
+                regulator().six_step(&mut memory, &measured, (k % 7) as u8, &setpoint),
             ] {
                 let low = 0.5 - 0.5 * MAX_DUTY - CLOSE;
-                assert!(decided.duties.iter().all(|x| (low..=1.0 - low).contains(x)), "{decided:?}");
-                assert!(f64::is_finite(decided.current) && f64::is_finite(decided.voltage), "{decided:?}");
+                assert!(output.duties.iter().all(|x| (low..=1.0 - low).contains(x)), "{output:?}");
+                assert!(f64::is_finite(output.current) && f64::is_finite(output.voltage), "{output:?}");
                 assert!(f64::is_finite(memory.d) && f64::is_finite(memory.q), "{memory:?}");
             }
         }
@@ -299,30 +300,30 @@ fn d_comes_first_and_q_gets_what_is_left_of_the_circle() {
         let d = bus_share(0.5 * MAX_DUTY * f64::from(k) / 100.0);
         for d in [d, -d] {
             let mut memory = CurrentMemory { d, q: 0.0 };
-            let idle = CurrentSeen { offsets: [2048.0; 3], ..seen([AdcCode(2048); 3], 0.3) };
-            let decided = regulator().field_oriented(&mut memory, &idle, &closed(0.0, 1000.0));
+            let idle = CurrentMeasurement { offsets: [2048.0; 3], ..measured([AdcCode(2048); 3], 0.3) };
+            let output = regulator().field_oriented(&mut memory, &idle, &closed(0.0, 1000.0));
             let circle = libm::sqrt(bus_share(MAX_DUTY) * bus_share(MAX_DUTY) - d * d);
-            assert!(decided.voltage <= circle * (1.0 + 1e-12), "{d}: {} of {circle}", decided.voltage);
-            assert!(decided.voltage >= circle - 2.0e-4 * bus_share(MAX_DUTY), "{d}: {} of {circle}", decided.voltage);
-            assert!(span(decided.duties) <= MAX_DUTY + CLOSE, "{decided:?}");
+            assert!(output.voltage <= circle * (1.0 + 1e-12), "{d}: {} of {circle}", output.voltage);
+            assert!(output.voltage >= circle - 2.0e-4 * bus_share(MAX_DUTY), "{d}: {} of {circle}", output.voltage);
+            assert!(span(output.duties) <= MAX_DUTY + CLOSE, "{output:?}");
         }
     }
     // beyond half of the bus d is held
     let mut memory = CurrentMemory { d: 1000.0, q: 0.0 };
-    let decided = regulator().field_oriented(&mut memory, &seen(codes_of(0.0, 0.0, 0.0), 0.0), &closed(0.0, 1000.0));
-    assert_close([decided.voltage], [bus_share(MAX_DUTY) * libm::sqrt(0.75)], 1.0e-9 * BUS);
+    let output = regulator().field_oriented(&mut memory, &measured(codes_of(0.0, 0.0, 0.0), 0.0), &closed(0.0, 1000.0));
+    assert_close([output.voltage], [bus_share(MAX_DUTY) * libm::sqrt(0.75)], 1.0e-9 * BUS);
 }
 
 #[test]
 fn an_open_loop_applies_its_voltage_and_remembers_nothing_of_q() {
     for angle in [0.0, 1.0, 4.0] {
-        let idle = CurrentSeen { offsets: [2048.0; 3], ..seen([AdcCode(2048); 3], angle) };
+        let idle = CurrentMeasurement { offsets: [2048.0; 3], ..measured([AdcCode(2048); 3], angle) };
         let mut memory = CurrentMemory { d: 0.0, q: 3.0 };
-        let decided = regulator().field_oriented(&mut memory, &idle, &open(7.0));
+        let output = regulator().field_oriented(&mut memory, &idle, &open(7.0));
         assert_eq!(memory.q, 0.0);
-        assert_close([decided.voltage], [7.0], CLOSE);
+        assert_close([output.voltage], [7.0], CLOSE);
         // between the terminals: the vector of amplitude u/√3 at θ + 90°
-        let u = Rotation::of_angle(angle).to_rotor(Stationary::of_phases(decided.duties.map(|x| x * BUS)));
+        let u = Rotation::of_angle(angle).park(AlphaBeta::clarke(output.duties.map(|x| x * BUS)));
         assert_close([phases::dc_voltage(u.d), phases::dc_voltage(u.q)], [0.0, 7.0], CLOSE);
     }
 }
@@ -330,8 +331,8 @@ fn an_open_loop_applies_its_voltage_and_remembers_nothing_of_q() {
 #[test]
 fn without_a_legal_sector_no_voltage_is_applied() {
     let mut memory = CurrentMemory { d: 1.0, q: 1.0 };
-    let decided = regulator().six_step(&mut memory, &seen([AdcCode(3000); 3], 0.0), 6, &closed(1.0, 1.0));
-    assert_eq!((decided.duties, decided.voltage), ([0.5; 3], 0.0));
+    let output = regulator().six_step(&mut memory, &measured([AdcCode(3000); 3], 0.0), 6, &closed(1.0, 1.0));
+    assert_eq!((output.duties, output.voltage), ([0.5; 3], 0.0));
     assert_eq!(memory, CurrentMemory::default());
 }
 
@@ -362,10 +363,10 @@ fn the_robot_decides_as_double_precision_does_to_a_few_roundings() {
         let (current, voltage) = (noise(&mut seed), 12.0 * noise(&mut seed));
         let double = regulator().field_oriented(
             &mut CurrentMemory::default(),
-            &CurrentSeen { ahead: 0.1, ..seen(codes, angle) },
+            &CurrentMeasurement { ahead: 0.1, ..measured(codes, angle) },
             &closed(current, voltage),
         );
-        let seen = CurrentSeen {
+        let measured = CurrentMeasurement {
             codes,
             offsets: OFFSETS.map(|x| x as f32),
             angle: angle as f32,
@@ -373,8 +374,8 @@ fn the_robot_decides_as_double_precision_does_to_a_few_roundings() {
             bus: BUS as f32,
             per_bus: (1.0 / BUS) as f32,
         };
-        let want = CurrentWant { current: current as f32, voltage: voltage as f32, closed: true };
-        let robot = single.field_oriented(&mut CurrentMemory::default(), &seen, &want);
+        let setpoint = CurrentSetpoint { current: current as f32, voltage: voltage as f32, closed: true };
+        let robot = single.field_oriented(&mut CurrentMemory::default(), &measured, &setpoint);
         // twenty roundings of 6·10⁻⁸ of numbers up to 1, 8 A and 24 V
         assert_close(robot.duties.map(f64::from), double.duties, 1.5e-6);
         assert_close([robot.current.into()], [double.current], 1.0e-5);

@@ -24,8 +24,8 @@ impl Rotor {
         HallCode::of_sector(if again || passed == 0 { if again { 0 } else { 5 } } else { passed as u8 - 1 })
     }
 
-    fn halls(&self) -> Halls {
-        Halls::new(self.code()).expect("a place of the rotor")
+    fn halls(&self) -> HallDecoder {
+        HallDecoder::new(self.code()).expect("a place of the rotor")
     }
 }
 
@@ -35,16 +35,16 @@ fn ahead(a: f64, b: f64) -> f64 {
     (turns - libm::round(turns)) * TAU
 }
 
-fn at_sector(sector: u8) -> Halls {
-    Halls::new(HallCode::of_sector(sector)).expect("a sector")
+fn at_sector(sector: u8) -> HallDecoder {
+    HallDecoder::new(HallCode::of_sector(sector)).expect("a sector")
 }
 
-fn turn(halls: &mut Halls, sector: u8) {
-    halls.turn(HallCode::of_sector(sector)).expect("a neighbour");
+fn turn(halls: &mut HallDecoder, sector: u8) {
+    halls.update(HallCode::of_sector(sector)).expect("a neighbour");
 }
 
 /// Goes on for so many periods without an edge.
-fn wait(halls: &mut Halls, periods: u32) {
+fn wait(halls: &mut HallDecoder, periods: u32) {
     for _ in 0..periods {
         turn(halls, halls.sector());
     }
@@ -69,7 +69,7 @@ fn the_order_of_the_codes_is_1_3_2_6_4_5_and_each_is_its_sector() {
     }
     for code in (0..=255).filter(|code| !(1..=6).contains(code)) {
         assert_eq!(HallCode(code).sector(), None);
-        assert_eq!(Halls::new(HallCode(code)), Err(HallFault::Illegal));
+        assert_eq!(HallDecoder::new(HallCode(code)), Err(HallFault::Illegal));
     }
 }
 
@@ -107,7 +107,7 @@ fn a_steady_rotor_is_followed_in_both_senses() {
             let mut halls = rotor.halls();
             for n in 0..5000 {
                 rotor.angle += speed;
-                assert_eq!(halls.turn(rotor.code()), Ok(()));
+                assert_eq!(halls.update(rotor.code()), Ok(()));
                 if n < 1500 || halls.looked_at < 6 {
                     continue;
                 }
@@ -136,7 +136,7 @@ fn edges_off_their_places_drop_out_of_the_mean_of_six() {
         let (mut worst_speed, mut worst_angle) = (0.0_f64, 0.0_f64);
         for n in 0..20_000 {
             rotor.angle += speed;
-            assert_eq!(halls.turn(rotor.code()), Ok(()));
+            assert_eq!(halls.update(rotor.code()), Ok(()));
             if n < 2000 {
                 continue;
             }
@@ -165,7 +165,7 @@ fn an_accelerating_rotor_is_never_off_by_a_sector_and_soon_by_little() {
                     break;
                 }
                 rotor.angle = start + sense * 0.5 * acceleration * t * t;
-                assert_eq!(halls.turn(rotor.code()), Ok(()));
+                assert_eq!(halls.update(rotor.code()), Ok(()));
                 let off = ahead(halls.angle(), rotor.angle).abs();
                 assert!(off <= FRAC_PI_3 + speed, "{acceleration}, {n}: {off}");
                 let turns = (rotor.angle - start).abs() / TAU;
@@ -174,8 +174,11 @@ fn an_accelerating_rotor_is_never_off_by_a_sector_and_soon_by_little() {
                     // while it lasts
                     assert!(off <= 0.25 + speed, "{acceleration}, {n}: {off} after {turns} turns");
                     // a mean from before, and measured to a period of a sector that takes about 1/speed of them
-                    let told = halls.electrical_speed::<f64>() * sense;
-                    assert!((0.7..1.02 + speed).contains(&(told / speed)), "{acceleration}, {n}: {told} of {speed}");
+                    let estimated = halls.electrical_speed::<f64>() * sense;
+                    assert!(
+                        (0.7..1.02 + speed).contains(&(estimated / speed)),
+                        "{acceleration}, {n}: {estimated} of {speed}"
+                    );
                 }
             }
         }
@@ -194,7 +197,7 @@ fn the_angle_is_within_its_sector_whatever_the_codes() {
             18 => HallCode((seed >> 16) as u8),
             _ => HallCode::of_sector(halls.sector()),
         };
-        let _ = halls.turn(code);
+        let _ = halls.update(code);
         let off = ahead(halls.angle(), f64::from(halls.sector()) * FRAC_PI_3);
         assert!(off.abs() <= FRAC_PI_6 + 2.0 * FINE, "{off}");
         assert!((0.0..TAU).contains(&halls.angle::<f64>()));
@@ -244,7 +247,7 @@ fn an_illegal_code_is_told_and_not_believed() {
     }
     let before = halls;
     for code in [0, 7, 8, 255] {
-        assert_eq!(halls.turn(HallCode(code)), Err(HallFault::Illegal));
+        assert_eq!(halls.update(HallCode(code)), Err(HallFault::Illegal));
     }
     assert_eq!((halls.sector(), halls.edges(), halls.interval()), (3, 3, before.interval()));
     // time has gone on, and the edge that was on its way is taken as it comes
@@ -260,10 +263,10 @@ fn a_skipped_sector_is_told_and_the_new_place_believed() {
         let mut halls = at_sector(0);
         for sector in [4, 5, 0] {
             wait(&mut halls, 9);
-            let _ = halls.turn(HallCode::of_sector(sector));
+            let _ = halls.update(HallCode::of_sector(sector));
         }
         halls.edges = 0;
-        assert_eq!(halls.turn(HallCode::of_sector(to)), Err(HallFault::Skipped), "{to}");
+        assert_eq!(halls.update(HallCode::of_sector(to)), Err(HallFault::Skipped), "{to}");
         assert_eq!((halls.sector(), halls.edges(), halls.since_edge()), (to, edges, 0));
         assert_eq!((halls.electrical_speed::<f64>(), halls.interval()), (0.0, 0));
         turn(&mut halls, (to + 1) % 6);
@@ -319,7 +322,7 @@ fn robot_and_host_are_told_the_same_angle_from_the_recorded_code() {
     let mut halls = rotor.halls();
     for _ in 0..3000 {
         rotor.angle += 0.05;
-        let _ = halls.turn(rotor.code());
+        let _ = halls.update(rotor.code());
         assert_eq!(halls.angle::<f32>(), angle_of_code::<f32>(halls.angle_code()));
         // a rounding of the constant and one of the product
         assert!((f64::from(halls.angle::<f32>()) - halls.angle::<f64>()).abs() <= 8e-7);

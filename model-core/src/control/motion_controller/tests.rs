@@ -25,7 +25,7 @@ impl Draw {
 pub(super) fn settings<const N: usize, T: Real>(robot: Robot<N, T>) -> Settings<N, T> {
     Settings {
         robot,
-        undo: Compensation::none(),
+        compensation: Compensation::none(),
         acceleration: [T::lit(3.0), T::lit(3.0), T::lit(20.0)],
         current_limit: T::lit(8.0),
         max_duty: T::lit(0.95),
@@ -61,12 +61,12 @@ fn agrees_with_the_plain_inverse<const N: usize>(robot: Robot<N, f64>) {
     for _ in 0..200 {
         let (x, a) = (draw.twist([1.5, 1.5, 8.0]), draw.twist([3.0, 3.0, 20.0]));
         for x in [x, BodyTwist::default()] {
-            let asked = controller.feedforward(x, a, 0.0);
-            let plain = robot.demand(x, a);
+            let demand = controller.feedforward(x, a, 0.0);
+            let plain = robot.inverse_dynamics(x, a);
             // the same sums in another order: some ten roundings of numbers up to 20
-            assert!(gap(asked.current, plain.current) < 1e-13, "{asked:?} {plain:?}");
-            assert!(gap(asked.voltage, plain.voltage) < 1e-13);
-            assert!(gap(asked.wheel_speed, robot.wheels.wheel_speeds(x)) < 1e-12);
+            assert!(gap(demand.current, plain.current) < 1e-13, "{demand:?} {plain:?}");
+            assert!(gap(demand.voltage, plain.voltage) < 1e-13);
+            assert!(gap(demand.wheel_speed, robot.wheels.wheel_speeds(x)) < 1e-12);
         }
     }
 }
@@ -94,10 +94,10 @@ fn strays<const N: usize>(robot: Robot<N, f64>) -> f64 {
         if k % 1000 == 750 {
             want = BodyTwist::default();
         }
-        let seen = Seen { wheel_speed: robot.wheels.wheel_speeds(state.twist), bus: 12.0 };
-        let decided = controller.tick(&mut memory, &seen, want);
-        assert_eq!((decided.headroom, decided.steady), (1.0, 1.0));
-        plant.step(&mut state, &mut [], &Input::Voltage(decided.voltage), 1e-3);
+        let measured = Measurement { wheel_speed: robot.wheels.wheel_speeds(state.twist), bus: 12.0 };
+        let output = controller.tick(&mut memory, &measured, want);
+        assert_eq!((output.headroom, output.steady), (1.0, 1.0));
+        plant.step(&mut state, &mut [], &Input::Voltage(output.voltage), 1e-3);
         let [v, vn, w] = state.twist.to_array();
         let x = memory.reference;
         worst = worst.max((v - x.v).abs()).max((vn - x.vn).abs()).max(0.1 * (w - x.w).abs());
@@ -120,9 +120,9 @@ fn the_reference_arrives_and_stays() {
     let want = BodyTwist { v: 0.3, vn: -0.4, w: 1.0 };
     let mut turns = 0;
     while memory.reference != want {
-        let seen = Seen { wheel_speed: [0.0; 4], bus: f64::INFINITY };
+        let measured = Measurement { wheel_speed: [0.0; 4], bus: f64::INFINITY };
         let before = memory.reference;
-        controller.tick(&mut memory, &seen, want);
+        controller.tick(&mut memory, &measured, want);
         let after = memory.reference;
         let a = [after.v - before.v, after.vn - before.vn, after.w - before.w].map(|change| change / 1e-3);
         assert!((a[0] * a[0] + a[1] * a[1]).sqrt() <= 3.0 + 1e-9 && a[2].abs() <= 20.0 + 1e-9);
@@ -147,9 +147,9 @@ fn lag(feedback: f64, integral: f64, feedforward: bool) -> f64 {
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
     let want = BodyTwist { v: 0.5, vn: 0.3, w: 2.0 };
     for _ in 0..1500 {
-        let seen = Seen { wheel_speed: robot.wheels.wheel_speeds(state.twist), bus: 12.0 };
-        let decided = controller.tick(&mut memory, &seen, want);
-        plant.step(&mut state, &mut [], &Input::Voltage(decided.voltage), 1e-3);
+        let measured = Measurement { wheel_speed: robot.wheels.wheel_speeds(state.twist), bus: 12.0 };
+        let output = controller.tick(&mut memory, &measured, want);
+        plant.step(&mut state, &mut [], &Input::Voltage(output.voltage), 1e-3);
     }
     let [v, vn, w] = state.twist.to_array();
     (v - want.v).abs().max((vn - want.vn).abs()).max(0.1 * (w - want.w).abs())
@@ -171,11 +171,11 @@ fn feedback_on_a_robot_that_follows_does_nothing() {
     let mut draw = Draw(5);
     for _ in 0..50 {
         let reference = draw.twist([1.0, 1.0, 5.0]);
-        let seen = Seen { wheel_speed: robot.wheels.wheel_speeds(reference), bus: 12.0 };
+        let measured = Measurement { wheel_speed: robot.wheels.wheel_speeds(reference), bus: 12.0 };
         let want = draw.twist([1.0, 1.0, 5.0]);
         let start = Memory { reference, ..Memory::default() };
         let (mut a, mut b) = (start, start);
-        let (a, b) = (with.tick(&mut a, &seen, want), without.tick(&mut b, &seen, want));
+        let (a, b) = (with.tick(&mut a, &measured, want), without.tick(&mut b, &measured, want));
         // an error that is rounding, times gains below 1
         assert!(gap(a.current, b.current) < 1e-12 && gap(a.voltage, b.voltage) < 1e-12);
     }
@@ -189,9 +189,10 @@ fn four_wheels_that_disagree_are_not_set_against_each_other() {
     // speeds that no motion of the body explains: the parity of the wheels alone
     let parity = robot.wheels.parity_vector().map(|n| 3.0 * n);
     for _ in 0..1000 {
-        let decided = controller.tick(&mut memory, &Seen { wheel_speed: parity, bus: 12.0 }, BodyTwist::default());
+        let output =
+            controller.tick(&mut memory, &Measurement { wheel_speed: parity, bus: 12.0 }, BodyTwist::default());
         // sums of four terms that cancel
-        assert!(gap(decided.current, [0.0; 4]) < 1e-12);
+        assert!(gap(output.current, [0.0; 4]) < 1e-12);
     }
 }
 
@@ -202,8 +203,8 @@ fn coulomb_friction_follows_the_reference_and_not_the_measurement() {
     let mut currents = [[0.0; 4]; 2];
     for (k, current) in currents.iter_mut().enumerate() {
         let noise = if k == 0 { 0.5 } else { -0.5 };
-        let seen = Seen { wheel_speed: [noise; 4], bus: 12.0 };
-        *current = controller.tick(&mut Memory::default(), &seen, BodyTwist::default()).current;
+        let measured = Measurement { wheel_speed: [noise; 4], bus: 12.0 };
+        *current = controller.tick(&mut Memory::default(), &measured, BodyTwist::default()).current;
     }
     assert_eq!(currents, [[0.0; 4]; 2]);
 }
@@ -226,9 +227,9 @@ fn single_precision_decides_what_double_precision_does() {
         let mut wide_memory = Memory { reference: wide(narrow(x)), ..Memory::default() };
         let mut narrow_memory = Memory { reference: narrow(x), ..Memory::default() };
         let wheel_speed = speed.map(|w| w as f32);
-        let b = single.tick(&mut narrow_memory, &Seen { wheel_speed, bus: bus as f32 }, narrow(want));
-        let seen = Seen { wheel_speed: wheel_speed.map(f64::from), bus };
-        let a = double.tick(&mut wide_memory, &seen, wide(narrow(want)));
+        let b = single.tick(&mut narrow_memory, &Measurement { wheel_speed, bus: bus as f32 }, narrow(want));
+        let measured = Measurement { wheel_speed: wheel_speed.map(f64::from), bus };
+        let a = double.tick(&mut wide_memory, &measured, wide(narrow(want)));
         // 24 bits of currents up to 10 A and voltages up to 30 V, after some twenty operations
         assert!(gap(a.current, b.current.map(f64::from)) < 5e-5, "{a:?} {b:?}");
         assert!(gap(a.voltage, b.voltage.map(f64::from)) < 2e-4, "{a:?} {b:?}");

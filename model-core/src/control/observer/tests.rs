@@ -10,19 +10,19 @@ struct Wheel {
     speed: f64,
     edges: i32,
     since_edge: u16,
-    observed: Observed,
+    observed: WheelEstimate,
 }
 
 impl Wheel {
     fn at(angle: f64, speed: f64) -> Self {
-        Self { angle, speed, edges: 0, since_edge: REST, observed: Observed::default() }
+        Self { angle, speed, edges: 0, since_edge: REST, observed: WheelEstimate::default() }
     }
 
     /// A turn of twenty periods: accelerates with `a` [rad/s²], was to do so with `wanted`.
     fn turn(&mut self, a: f64, wanted: f64, reference: f64) {
-        let told = Told { edges: self.edges, since_edge: self.since_edge, speed: self.speed as f32 };
-        let observer = Observer::new(SECTOR as f32, DT as f32, 50e-6);
-        observer.turn(&mut self.observed, told, (wanted * DT) as f32, reference as f32);
+        let halls = HallReading { edges: self.edges, since_edge: self.since_edge, speed: self.speed as f32 };
+        let observer = SpeedObserver::new(SECTOR as f32, DT as f32, 50e-6);
+        observer.update(&mut self.observed, halls, (wanted * DT) as f32, reference as f32);
         for _ in 0..20 {
             self.speed += a * 50e-6;
             self.angle += self.speed * 50e-6;
@@ -98,13 +98,13 @@ fn a_wheel_that_stands_and_is_to_stand_has_no_speed() {
 
 #[test]
 fn edges_that_cannot_be_begin_anew_with_the_speed_of_edge_times() {
-    let observer = Observer::new(SECTOR as f32, DT as f32, 50e-6);
-    let mut wheel = Observed::default();
-    let told = Told { edges: 0, since_edge: 3, speed: 1.0 };
-    observer.turn(&mut wheel, told, 0.0, 1.0);
-    observer.turn(&mut wheel, Told { edges: 1000, speed: 7.0, ..told }, 0.0, 1.0);
+    let observer = SpeedObserver::new(SECTOR as f32, DT as f32, 50e-6);
+    let mut wheel = WheelEstimate::default();
+    let halls = HallReading { edges: 0, since_edge: 3, speed: 1.0 };
+    observer.update(&mut wheel, halls, 0.0, 1.0);
+    observer.update(&mut wheel, HallReading { edges: 1000, speed: 7.0, ..halls }, 0.0, 1.0);
     assert_eq!(wheel.speed, 7.0);
     // no number comes of a count that wraps
-    observer.turn(&mut wheel, Told { edges: i32::MIN, speed: 7.0, ..told }, 0.0, 1.0);
+    observer.update(&mut wheel, HallReading { edges: i32::MIN, speed: 7.0, ..halls }, 0.0, 1.0);
     assert!(wheel.speed.is_finite());
 }

@@ -40,9 +40,9 @@ fn a_balanced_set_is_a_vector_of_its_amplitude_and_angle() {
     for k in 0..360 {
         let angle = f64::from(k) * TAU / 360.0;
         let phases = [0.0, 1.0, 2.0].map(|k| 7.0 * libm::cos(angle - k * TAU / 3.0));
-        let vector = Stationary::of_phases(phases);
+        let vector = AlphaBeta::clarke(phases);
         assert_close([vector.alpha, vector.beta], [7.0 * libm::cos(angle), 7.0 * libm::sin(angle)], CLOSE);
-        let rotor = Rotation::of_angle(angle).to_rotor(vector);
+        let rotor = Rotation::of_angle(angle).park(vector);
         assert_close([rotor.d, rotor.q], [7.0, 0.0], CLOSE);
     }
 }
@@ -52,16 +52,16 @@ fn three_phases_come_back_from_the_rotor_at_every_angle() {
     let mut seed = 1;
     for k in 0..1000 {
         let (phases, rotation) = (three(&mut seed), Rotation::of_angle(0.05 * f64::from(k) - 20.0));
-        let rotor = rotation.to_rotor(Stationary::of_phases(phases));
-        assert_close(rotation.to_stationary(rotor).phases(), phases, CLOSE);
+        let rotor = rotation.park(AlphaBeta::clarke(phases));
+        assert_close(rotation.inverse_park(rotor).inverse_clarke(), phases, CLOSE);
     }
 }
 
 #[test]
 fn what_the_phases_have_in_common_drops_out() {
-    let Stationary { alpha, beta } = Stationary::of_phases([3.0, 3.0, 3.0]);
+    let AlphaBeta { alpha, beta } = AlphaBeta::clarke([3.0, 3.0, 3.0]);
     assert_close([alpha, beta], [0.0, 0.0], CLOSE);
-    let (x, y) = (Stationary::of_phases([1.0, -2.0, 0.5]), Stationary::of_phases([5.0, 2.0, 4.5]));
+    let (x, y) = (AlphaBeta::clarke([1.0, -2.0, 0.5]), AlphaBeta::clarke([5.0, 2.0, 4.5]));
     assert_close([x.alpha, x.beta], [y.alpha, y.beta], CLOSE);
 }
 
@@ -71,7 +71,7 @@ fn power_is_that_of_the_three_phases_and_of_the_dc_equivalent_motor() {
     for k in 0..1000 {
         let (u, i) = (three(&mut seed), three(&mut seed));
         let rotation = Rotation::of_angle(0.1 * f64::from(k));
-        let (u_dq, i_dq) = (rotation.to_rotor(Stationary::of_phases(u)), rotation.to_rotor(Stationary::of_phases(i)));
+        let (u_dq, i_dq) = (rotation.park(AlphaBeta::clarke(u)), rotation.park(AlphaBeta::clarke(i)));
         // u_a·i_a + u_b·i_b + u_c·i_c = 3/2·(u_d·i_d + u_q·i_q)
         let power = dot(u, i);
         assert!((power - 1.5 * (u_dq.d * i_dq.d + u_dq.q * i_dq.q)).abs() <= 10.0 * CLOSE);
@@ -85,7 +85,7 @@ fn heat_is_that_of_the_three_resistances() {
     let mut seed = 3;
     for _ in 0..100 {
         let i = three(&mut seed);
-        let Stationary { alpha, beta } = Stationary::of_phases(i);
+        let AlphaBeta { alpha, beta } = AlphaBeta::clarke(i);
         let (x, y) = (dc_current(alpha), dc_current(beta));
         // R_phase·(i_a² + i_b² + i_c²) = 2·R_phase·i²
         assert!((0.7 * dot(i, i) - dc_impedance(0.7) * (x * x + y * y)).abs() <= 10.0 * CLOSE);
@@ -110,8 +110,8 @@ fn naming_the_phases_onward_turns_the_vector_by_a_third() {
     let mut seed = 4;
     for _ in 0..100 {
         let [a, b, c] = three(&mut seed);
-        let x = Stationary::of_phases([a, b, c]);
-        let y = Stationary::of_phases([c, a, b]);
+        let x = AlphaBeta::clarke([a, b, c]);
+        let y = AlphaBeta::clarke([c, a, b]);
         let (sin, cos) = (libm::sin(TAU / 3.0), libm::cos(TAU / 3.0));
         assert_close([y.alpha, y.beta], [cos * x.alpha - sin * x.beta, sin * x.alpha + cos * x.beta], CLOSE);
         let duties = space_vector(x, 0.02);
@@ -128,12 +128,12 @@ fn a_sinusoidal_machine_has_the_torque_and_the_back_emf_of_its_dc_equivalent() {
         let angle = f64::from(k) * TAU / 720.0;
         let rotation = Rotation::of_angle(angle);
         // phase currents of 1.3 A DC-equivalent along q, as three sine waves
-        let i = rotation.to_stationary(Rotor { d: 0.0, q: q_current(1.3) }).phases();
+        let i = rotation.inverse_park(DirectQuadrature { d: 0.0, q: q_current(1.3) }).inverse_clarke();
         let back = emf(angle).map(|e| e * electrical * flux);
         // τ = Σ e_k·i_k/ω_m is K_t·i with K_t = K_v, at every angle
         assert!((dot(back, i) / speed - kv * 1.3).abs() <= 1e-15, "{angle}");
         // and the back-EMF is K_v·ω_m, all of it along q
-        let e = rotation.to_rotor(Stationary::of_phases(back));
+        let e = rotation.park(AlphaBeta::clarke(back));
         assert_close([dc_voltage(e.d), dc_voltage(e.q)], [0.0, kv * speed], 1e-13);
     }
 }
@@ -150,11 +150,11 @@ fn duties_give_the_voltages_between_the_terminals_and_are_centred() {
     let mut seed = 5;
     for _ in 0..1000 {
         let u = three(&mut seed);
-        let [a, b, c] = space_vector(Stationary::of_phases(u), 1.0 / 24.0);
+        let [a, b, c] = space_vector(AlphaBeta::clarke(u), 1.0 / 24.0);
         assert_close([24.0 * (a - b), 24.0 * (b - c), 24.0 * (c - a)], [u[0] - u[1], u[1] - u[2], u[2] - u[0]], CLOSE);
         assert!((a.max(b).max(c) + a.min(b).min(c) - 1.0).abs() <= CLOSE, "{a} {b} {c}");
     }
-    assert_eq!(space_vector(Stationary::<f64>::default(), 0.1), [0.5; 3]);
+    assert_eq!(space_vector(AlphaBeta::<f64>::default(), 0.1), [0.5; 3]);
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn the_whole_bus_is_reached_at_every_angle_and_just_reached_at_six() {
     let mut widest = 0.0_f64;
     for k in 0..3600 {
         let rotation = Rotation::of_angle(f64::from(k) * TAU / 3600.0);
-        let vector = rotation.to_stationary(Rotor { d: 0.0, q: q_voltage(24.0) });
+        let vector = rotation.inverse_park(DirectQuadrature { d: 0.0, q: q_voltage(24.0) });
         let duties = space_vector(vector, 1.0 / 24.0);
         widest = widest.max(span(duties));
         // sine waves without the common part would already need 2/√3 of the bus
@@ -176,9 +176,9 @@ fn in_the_middle_of_a_sector_six_steps_are_field_oriented_control() {
     for (k, step) in SIX_STEPS.into_iter().enumerate() {
         let rotation = Rotation::of_angle(k as f64 * FRAC_PI_3);
         // u between the two terminals, the third at mid-voltage
-        let u = rotation.to_rotor(Stationary::of_phases(step.phases(5.0, -5.0, 0.0)));
+        let u = rotation.park(AlphaBeta::clarke(step.phases(5.0, -5.0, 0.0)));
         assert_close([dc_voltage(u.d), dc_voltage(u.q)], [0.0, 10.0], CLOSE);
-        let i = rotation.to_rotor(Stationary::of_phases(step.phases(2.0, -2.0, 0.0)));
+        let i = rotation.park(AlphaBeta::clarke(step.phases(2.0, -2.0, 0.0)));
         assert_close([dc_current(i.d), dc_current(i.q)], [0.0, 2.0], CLOSE);
     }
 }
@@ -186,7 +186,8 @@ fn in_the_middle_of_a_sector_six_steps_are_field_oriented_control() {
 #[test]
 fn every_phase_is_up_down_and_idle_twice_in_a_turn() {
     for phase in [Phase::A, Phase::B, Phase::C] {
-        let count = |part: fn(Step) -> Phase| SIX_STEPS.into_iter().filter(|step| part(*step) == phase).count();
+        let count =
+            |part: fn(CommutationStep) -> Phase| SIX_STEPS.into_iter().filter(|step| part(*step) == phase).count();
         assert_eq!((count(|s| s.up), count(|s| s.down), count(|s| s.idle)), (2, 2, 2));
     }
     for k in 0..6 {
@@ -223,8 +224,8 @@ fn the_robots_duties_are_those_of_double_precision_to_a_few_roundings() {
     for k in 0..1000 {
         let (d, q) = (3.0 * noise(&mut seed), 12.0 * noise(&mut seed));
         let angle = 0.01 * f64::from(k) as f32;
-        let single = Rotation::of_angle(angle).to_stationary(Rotor { d: d as f32, q: q as f32 });
-        let double = Rotation::of_angle(f64::from(angle)).to_stationary(Rotor { d, q });
+        let single = Rotation::of_angle(angle).inverse_park(DirectQuadrature { d: d as f32, q: q as f32 });
+        let double = Rotation::of_angle(f64::from(angle)).inverse_park(DirectQuadrature { d, q });
         let (single, double) = (space_vector(single, 1.0 / 24.0), space_vector(double, 1.0 / 24.0));
         // ten roundings of 6·10⁻⁸ and the error of the sine, of numbers up to 1
         assert_close(single.map(f64::from), double, 7e-7);

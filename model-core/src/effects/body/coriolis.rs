@@ -21,8 +21,8 @@
 //! Source: derivative of a vector in a turning frame; catalogue note B1.
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Body};
+use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::seams::{Body, EffectContext};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
 
@@ -34,7 +34,7 @@ pub const CARD: Card = Card {
     equation: "dv/dt += k·ω·vn,  dvn/dt −= k·ω·v",
     source: "derivative of a vector in a turning frame; catalogue B1",
     seams: &[Seam::Body],
-    place: Place::Robot,
+    scope: Scope::Robot,
     params: &[Param {
         key: "factor",
         symbol: "k",
@@ -67,7 +67,7 @@ impl<T: Real> Effect<T> for Coriolis {
         &CARD
     }
 
-    fn body(&self, p: &[T], _: &[T], at: &At<T>, x: &mut Body<T>) {
+    fn body(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Body<T>) {
         let &[factor] = p else { return };
         let [v, vn] = force(factor, x.mass, at.twist);
         // 0 − a, taken away: a term that is absent then keeps even the sign of a zero
@@ -91,7 +91,7 @@ mod tests {
     const TWIST: BodyTwist<f64> = BodyTwist { v: 0.7, vn: -0.4, w: 3.1 };
 
     fn moved(factor: f64, twist: BodyTwist<f64>) -> Body<f64> {
-        let at = At { twist, ..At::default() };
+        let at = EffectContext { twist, ..EffectContext::default() };
         let mut x = Body {
             mass: 2.34,
             inertia: 0.0228,

@@ -24,8 +24,8 @@
 //! Source: gravity on an inclined plane; size from catalogue note B5 (0.2–2°).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Body, STANDARD_GRAVITY};
+use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::seams::{Body, EffectContext, STANDARD_GRAVITY};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -36,7 +36,7 @@ pub const CARD: Card = Card {
     equation: "F = M·g·sin β · (cos(φ − θ), sin(φ − θ))",
     source: "gravity on an inclined plane; sizes: catalogue B5",
     seams: &[Seam::Body],
-    place: Place::Robot,
+    scope: Scope::Robot,
     params: &[
         Param {
             key: "tilt_rad",
@@ -95,7 +95,7 @@ impl<T: Real> Effect<T> for FloorTilt {
         &CARD
     }
 
-    fn body(&self, p: &[T], _: &[T], at: &At<T>, x: &mut Body<T>) {
+    fn body(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Body<T>) {
         let &[tilt, direction] = p else { return };
         let [v, vn] = pull(tilt, direction - at.pose.theta);
         // 0 − a, taken away: a force that is absent then keeps even the sign of a zero
@@ -111,7 +111,7 @@ mod tests {
     use core::f64::consts::PI;
 
     fn pulled(p: [f64; 2], theta: f64, force: [f64; 3]) -> [f64; 3] {
-        let at = At { pose: Pose { x: 0.4, y: -0.2, theta }, ..At::default() };
+        let at = EffectContext { pose: Pose { x: 0.4, y: -0.2, theta }, ..EffectContext::default() };
         let mut x = Body { mass: 2.34, inertia: 0.0228, force, rate: [[0.0; 3]; 3], budget: [0.0; 3] };
         FloorTilt.body(&p, &[], &at, &mut x);
         x.force

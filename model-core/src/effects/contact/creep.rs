@@ -18,8 +18,8 @@
 //! Source: brush model at small slip; size from catalogue note C5 (0.005–0.05 (m/s)/N).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, LookAlike, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Contact};
+use crate::effects::card::{Card, LookAlike, Param, Role, Scope, Seam};
+use crate::effects::seams::{Contact, EffectContext};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -30,7 +30,7 @@ pub const CARD: Card = Card {
     equation: "r·ω = cos α·v + sin α·vn + d·ω + c·f",
     source: "brush model at small slip; sizes: catalogue C5",
     seams: &[Seam::Contact],
-    place: Place::Wheels,
+    scope: Scope::Wheels,
     params: &[Param {
         key: "creep_m_s_per_N",
         symbol: "c",
@@ -65,7 +65,7 @@ impl<T: Real> Effect<T> for Creep {
         &CARD
     }
 
-    fn contact(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Contact<T>) {
+    fn contact(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Contact<T>) {
         let &[creep] = p else { return };
         x.creep += creep;
     }
@@ -87,7 +87,7 @@ mod tests {
             stiffness: 0.0,
             shape: 1.0,
         };
-        Creep.contact(&[creep], &[], &At::default(), &mut x);
+        Creep.contact(&[creep], &[], &EffectContext::default(), &mut x);
         x.creep
     }
 

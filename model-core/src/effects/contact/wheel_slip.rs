@@ -24,8 +24,8 @@
 //! Source: Pacejka, Tire and Vehicle Dynamics; size from catalogue notes C6 and C7 (μ 0.2–0.8).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, LookAlike, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Contact};
+use crate::effects::card::{Card, LookAlike, Param, Role, Scope, Seam};
+use crate::effects::seams::{Contact, EffectContext};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -36,7 +36,7 @@ pub const CARD: Card = Card {
     equation: "f = μ·N · sin(C · atan(B·s))",
     source: "Pacejka's formula in its short form; sizes: catalogue C6, C7",
     seams: &[Seam::Contact],
-    place: Place::Wheels,
+    scope: Scope::Wheels,
     params: &[
         Param {
             key: "friction_coefficient",
@@ -99,7 +99,7 @@ impl<T: Real> Effect<T> for WheelSlip {
         &CARD
     }
 
-    fn contact(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Contact<T>) {
+    fn contact(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Contact<T>) {
         let &[friction_coefficient, stiffness, shape] = p else { return };
         if friction_coefficient > T::zero() {
             x.grip = friction_coefficient;
@@ -124,7 +124,7 @@ mod tests {
             stiffness: 0.0,
             shape: 1.0,
         };
-        WheelSlip.contact(&p, &[], &At::default(), &mut x);
+        WheelSlip.contact(&p, &[], &EffectContext::default(), &mut x);
         x
     }
 

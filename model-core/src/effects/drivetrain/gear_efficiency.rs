@@ -23,8 +23,8 @@
 //! Source: definition of efficiency in both directions; size from catalogue note D1 (0.75–0.95).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Gear};
+use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::seams::{EffectContext, Gear};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -35,7 +35,7 @@ pub const CARD: Card = Card {
     equation: "τ_loss = (1 − η)·|τ_m| driving, (1/η − 1)·|τ_m| driven",
     source: "definition of efficiency in both directions; sizes: catalogue D1",
     seams: &[Seam::Gear],
-    place: Place::Wheels,
+    scope: Scope::Wheels,
     params: &[Param {
         key: "efficiency",
         symbol: "η",
@@ -75,7 +75,7 @@ impl<T: Real> Effect<T> for GearEfficiency {
         &CARD
     }
 
-    fn gear(&self, p: &[T], _: &[T], at: &At<T>, x: &mut Gear<T>) {
+    fn gear(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Gear<T>) {
         let &[efficiency] = p else { return };
         x.budget += loss(efficiency, x.motor_torque, at.wheel_speed);
     }
@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     fn budget(efficiency: f64, motor_torque: f64, wheel_speed: f64) -> f64 {
-        let at = At { wheel_speed, ..At::default() };
+        let at = EffectContext { wheel_speed, ..EffectContext::default() };
         let mut x = Gear {
             motor_torque,
             coulomb_share: 0.02,

@@ -21,8 +21,8 @@
 //! Source: kinetic energy of the turning parts; size from catalogue note D9 (3e-5 to 2e-4 kg·m²).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, LookAlike, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Gear};
+use crate::effects::card::{Card, LookAlike, Param, Role, Scope, Seam};
+use crate::effects::seams::{EffectContext, Gear};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -33,7 +33,7 @@ pub const CARD: Card = Card {
     equation: "J_w = l²·J_rotor + J_wheel",
     source: "kinetic energy of the turning parts; sizes: catalogue D9",
     seams: &[Seam::Gear],
-    place: Place::Wheels,
+    scope: Scope::Wheels,
     params: &[Param {
         key: "inertia_at_wheel_kg_m2",
         symbol: "J_w",
@@ -74,7 +74,7 @@ impl<T: Real> Effect<T> for RotorInertia {
         &CARD
     }
 
-    fn gear(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Gear<T>) {
+    fn gear(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Gear<T>) {
         let &[inertia] = p else { return };
         x.inertia += inertia;
     }
@@ -87,7 +87,7 @@ mod tests {
     fn geared(inertia: f64) -> Gear<f64> {
         let mut x =
             Gear { motor_torque: 0.1, coulomb_share: 0.02, torque: 0.1, budget: 0.02, damping: 1e-4, inertia: 2e-5 };
-        RotorInertia.gear(&[inertia], &[], &At::default(), &mut x);
+        RotorInertia.gear(&[inertia], &[], &EffectContext::default(), &mut x);
         x
     }
 

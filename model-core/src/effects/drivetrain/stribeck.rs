@@ -21,8 +21,8 @@
 //! Source: curve after Stribeck in the form of Bo and Pavelescu; sizes from catalogue note D3 (20–100 %, a = 1–2).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Gear};
+use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::seams::{EffectContext, Gear};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -33,7 +33,7 @@ pub const CARD: Card = Card {
     equation: "τ_C → τ_C · (1 + e · exp(−(|v| / v_s)^a))",
     source: "Stribeck curve in the form of Bo and Pavelescu; sizes: catalogue D3",
     seams: &[Seam::Gear],
-    place: Place::Wheels,
+    scope: Scope::Wheels,
     params: &[
         Param {
             key: "static_excess",
@@ -86,7 +86,7 @@ impl<T: Real> Effect<T> for Stribeck {
         &CARD
     }
 
-    fn gear(&self, p: &[T], _: &[T], at: &At<T>, x: &mut Gear<T>) {
+    fn gear(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Gear<T>) {
         let &[static_excess, stribeck_speed, exponent] = p else { return };
         x.budget += x.coulomb_share * static_excess * left(stribeck_speed, exponent, at.rim_speed);
     }
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     fn budget(p: [f64; 3], rim_speed: f64) -> f64 {
-        let at = At { rim_speed, ..At::default() };
+        let at = EffectContext { rim_speed, ..EffectContext::default() };
         let mut x =
             Gear { motor_torque: 0.1, coulomb_share: 0.02, torque: 0.1, budget: 0.02, damping: 1e-4, inertia: 2e-5 };
         Stribeck.gear(&p, &[], &at, &mut x);

@@ -25,8 +25,8 @@
 //! Source: held input behind a pure delay; size from catalogue note E13 (1–10 ms over radio).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Drive, Turn};
+use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::seams::{Bridge, EffectContext, StepOutcome};
 use crate::number::scalar::Real;
 
 /// Changes of command that are remembered.
@@ -42,8 +42,8 @@ pub const CARD: Card = Card {
     summary: "The voltage reaches the motors later than it was commanded.",
     equation: "ū = 1/Δt · ∫ u(τ − t_d) dτ over [t, t + Δt]",
     source: "held input behind a pure delay; sizes: catalogue E13",
-    seams: &[Seam::Drive],
-    place: Place::Wheels,
+    seams: &[Seam::Bridge],
+    scope: Scope::Wheels,
     params: &[Param {
         key: "delay_s",
         symbol: "t_d",
@@ -64,7 +64,7 @@ pub const CARD: Card = Card {
 ///
 /// `past` holds (time at which it began, command), newest first; the oldest is taken to have stood for ever.
 #[inline]
-pub fn outstanding<T: Real>(delay: T, at: &At<T>, command: T, past: impl Iterator<Item = [T; 2]>) -> (T, T) {
+pub fn outstanding<T: Real>(delay: T, at: &EffectContext<T>, command: T, past: impl Iterator<Item = [T; 2]>) -> (T, T) {
     let (mut mean, mut sampled) = (T::zero(), T::zero());
     let (mut began, mut newer) = (at.time, command);
     for [time, older] in past {
@@ -105,7 +105,7 @@ impl<T: Real> Effect<T> for ActuationDelay {
         &CARD
     }
 
-    fn drive(&self, p: &[T], s: &[T], at: &At<T>, x: &mut Drive<T>) {
+    fn bridge(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Bridge<T>) {
         let &[delay] = p else { return };
         let (mean, sampled) = outstanding(delay.max(T::zero()), at, x.command, newest_first(s));
         let gain = x.bus / at.nominal_supply;
@@ -113,7 +113,7 @@ impl<T: Real> Effect<T> for ActuationDelay {
         x.sampled -= sampled * gain;
     }
 
-    fn advance(&self, _: &[T], s: &mut [T], at: &At<T>, done: &Turn<T>) {
+    fn advance(&self, _: &[T], s: &mut [T], at: &EffectContext<T>, done: &StepOutcome<T>) {
         let last = newest_first(s).next().map_or(T::zero(), |[_, command]| command);
         if done.command == last {
             return;
@@ -136,19 +136,19 @@ mod tests {
     const NOMINAL: f64 = 12.0;
 
     /// The drive as the plant describes it, after the hook.
-    fn driven(s: &[f64], delay: f64, at: &At<f64>, command: f64, bus: f64) -> Drive<f64> {
+    fn driven(s: &[f64], delay: f64, at: &EffectContext<f64>, command: f64, bus: f64) -> Bridge<f64> {
         let voltage = command * (bus / NOMINAL);
-        let mut x = Drive { command, bus, current: 0.3, voltage, sampled: voltage };
-        ActuationDelay.drive(&[delay], s, at, &mut x);
+        let mut x = Bridge { command, bus, current: 0.3, voltage, sampled: voltage };
+        ActuationDelay.bridge(&[delay], s, at, &mut x);
         x
     }
 
-    fn at(time: f64, dt: f64) -> At<f64> {
-        At { time, dt, nominal_supply: NOMINAL, ..At::default() }
+    fn at(time: f64, dt: f64) -> EffectContext<f64> {
+        EffectContext { time, dt, nominal_supply: NOMINAL, ..EffectContext::default() }
     }
 
-    fn advance(s: &mut [f64], at: &At<f64>, command: f64) {
-        ActuationDelay.advance(&[], s, at, &Turn { command, ..Turn::default() });
+    fn advance(s: &mut [f64], at: &EffectContext<f64>, command: f64) {
+        ActuationDelay.advance(&[], s, at, &StepOutcome { command, ..StepOutcome::default() });
     }
 
     #[test]
@@ -212,11 +212,11 @@ mod tests {
         let (mut time, mut before) = (0.0_f32, [0.0_f32; 2]);
         for k in 0_u8..=200 {
             let command = f32::from(k % 7);
-            let at = At { time, dt: 0.005, nominal_supply: 12.0, ..At::default() };
-            let mut x = Drive { command, bus: 12.0, current: 0.0, voltage: command, sampled: command };
-            ActuationDelay.drive(&[0.010], &s, &at, &mut x);
+            let at = EffectContext { time, dt: 0.005, nominal_supply: 12.0, ..EffectContext::default() };
+            let mut x = Bridge { command, bus: 12.0, current: 0.0, voltage: command, sampled: command };
+            ActuationDelay.bridge(&[0.010], &s, &at, &mut x);
             assert_eq!(x.sampled, before[0]);
-            ActuationDelay.advance(&[0.010], &mut s, &at, &Turn { command, ..Turn::default() });
+            ActuationDelay.advance(&[0.010], &mut s, &at, &StepOutcome { command, ..StepOutcome::default() });
             before = [before[1], command];
             time += 0.005;
         }

@@ -19,8 +19,8 @@
 //! Source: size from catalogue note E2 (0.05–0.6 V); the paper sees it as part of R (section 5.4).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, LookAlike, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Drive};
+use crate::effects::card::{Card, LookAlike, Param, Role, Scope, Seam};
+use crate::effects::seams::{Bridge, EffectContext};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -30,8 +30,8 @@ pub const CARD: Card = Card {
     summary: "The bridge loses a fixed voltage against the sign of the current, so that small commands do nothing.",
     equation: "Δu = V_d · sat(i / i₀)",
     source: "average of the sign of a current with triangular ripple; sizes: catalogue E2",
-    seams: &[Seam::Drive],
-    place: Place::Wheels,
+    seams: &[Seam::Bridge],
+    scope: Scope::Wheels,
     params: &[
         Param {
             key: "voltage_loss_V",
@@ -83,7 +83,7 @@ impl<T: Real> Effect<T> for DeadTime {
         &CARD
     }
 
-    fn drive(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Drive<T>) {
+    fn bridge(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Bridge<T>) {
         let &[voltage_loss, smoothing_current] = p else { return };
         let lost = loss(voltage_loss, smoothing_current, x.current);
         x.voltage -= lost;

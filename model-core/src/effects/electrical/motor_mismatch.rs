@@ -21,8 +21,8 @@
 //! Source: equations of the DC motor; sizes from catalogue notes E8 (−5 to −30 %) and E9 (+5 to +50 %).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Winding};
+use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::seams::{EffectContext, Winding};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -33,7 +33,7 @@ pub const CARD: Card = Card {
     equation: "K_v → k·K_v,  K_t → k·K_t,  R → ρ·R",
     source: "equations of the DC motor; sizes: catalogue E8, E9",
     seams: &[Seam::Winding],
-    place: Place::OneWheel,
+    scope: Scope::OneWheel,
     params: &[
         Param {
             key: "torque_constant_ratio",
@@ -82,7 +82,7 @@ impl<T: Real> Effect<T> for MotorMismatch {
         &CARD
     }
 
-    fn winding(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Winding<T>) {
+    fn winding(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Winding<T>) {
         let &[torque_constant_ratio, resistance_ratio] = p else { return };
         *x = odd(torque_constant_ratio, resistance_ratio, *x);
     }
@@ -103,7 +103,7 @@ mod tests {
 
     fn wound(p: [f64; 2]) -> Winding<f64> {
         let mut x = PLAIN;
-        MotorMismatch.winding(&p, &[], &At::default(), &mut x);
+        MotorMismatch.winding(&p, &[], &EffectContext::default(), &mut x);
         x
     }
 

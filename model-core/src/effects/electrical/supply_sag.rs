@@ -22,8 +22,8 @@
 //! Source: voltage source behind a resistance; size from catalogue note E3 (0.05–0.3 Ω).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, LookAlike, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Supply};
+use crate::effects::card::{Card, LookAlike, Param, Role, Scope, Seam};
+use crate::effects::seams::{EffectContext, Supply};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -34,7 +34,7 @@ pub const CARD: Card = Card {
     equation: "u_bus = U_oc − R_b · I,  u_eff = u · u_bus / u_nominal",
     source: "voltage source behind a resistance; sizes: catalogue E3",
     seams: &[Seam::Supply],
-    place: Place::Robot,
+    scope: Scope::Robot,
     params: &[
         Param {
             key: "internal_resistance_ohm",
@@ -80,7 +80,7 @@ impl<T: Real> Effect<T> for SupplySag {
         &CARD
     }
 
-    fn supply(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Supply<T>) {
+    fn supply(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Supply<T>) {
         let &[internal_resistance, open_circuit_voltage] = p else { return };
         let open = if open_circuit_voltage > T::zero() { open_circuit_voltage } else { x.voltage };
         x.voltage = bus(internal_resistance, open, x.current);
@@ -93,7 +93,7 @@ mod tests {
 
     fn supplied(p: [f64; 2], current: f64) -> f64 {
         let mut x = Supply { current, voltage: 12.3 };
-        SupplySag.supply(&p, &[], &At::default(), &mut x);
+        SupplySag.supply(&p, &[], &EffectContext::default(), &mut x);
         x.voltage
     }
 

@@ -23,8 +23,8 @@
 //! Source: pure delay; size from catalogue note S1 (20–90 ms; one camera frame is 40 ms).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Sense, Turn};
+use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::seams::{EffectContext, Sense, StepOutcome};
 use crate::geometry::frames::Pose;
 use crate::number::scalar::Real;
 
@@ -45,7 +45,7 @@ pub const CARD: Card = Card {
     equation: "pose_read(t) = pose(t − t_d)",
     source: "pure delay; sizes: catalogue S1",
     seams: &[Seam::Sense],
-    place: Place::Robot,
+    scope: Scope::Robot,
     params: &[Param {
         key: "latency_s",
         symbol: "t_d",
@@ -119,17 +119,17 @@ impl<T: Real> Effect<T> for CameraLatency {
         &CARD
     }
 
-    fn sense(&self, p: &[T], s: &[T], at: &At<T>, x: &mut Sense<T>) {
+    fn sense(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Sense<T>) {
         let &[latency] = p else { return };
         x.pose = delayed(latency.max(T::zero()), at.time, x.pose, newest_first(s));
     }
 
-    fn unsense(&self, p: &[T], at: &At<T>, x: &mut Sense<T>) {
+    fn invert_sensing(&self, p: &[T], at: &EffectContext<T>, x: &mut Sense<T>) {
         let &[latency] = p else { return };
         x.pose = x.pose.moved(at.twist, latency.max(T::zero()));
     }
 
-    fn restart(&self, p: &[T], s: &mut [T], at: &At<T>) {
+    fn restart(&self, p: &[T], s: &mut [T], at: &EffectContext<T>) {
         let &[latency] = p else { return };
         s.fill(T::zero());
         for k in (0..=PIECES).rev() {
@@ -138,7 +138,7 @@ impl<T: Real> Effect<T> for CameraLatency {
         }
     }
 
-    fn advance(&self, _: &[T], s: &mut [T], at: &At<T>, _: &Turn<T>) {
+    fn advance(&self, _: &[T], s: &mut [T], at: &EffectContext<T>, _: &StepOutcome<T>) {
         let recent = newest_first(s).next().is_some_and(|[time, ..]| at.time - time < T::lit(SPACING));
         if !recent {
             remember(s, at.time, at.pose);
@@ -166,11 +166,11 @@ mod tests {
         Pose { x: start.x + twist.v / twist.w * (s - s0), y: start.y + twist.v / twist.w * (c0 - c), theta }
     }
 
-    fn at(twist: BodyTwist<f64>, time: f64) -> At<f64> {
-        At { time, pose: truth(twist, time), twist, ..At::default() }
+    fn at(twist: BodyTwist<f64>, time: f64) -> EffectContext<f64> {
+        EffectContext { time, pose: truth(twist, time), twist, ..EffectContext::default() }
     }
 
-    fn read(latency: f64, s: &[f64], at: &At<f64>) -> Pose<f64> {
+    fn read(latency: f64, s: &[f64], at: &EffectContext<f64>) -> Pose<f64> {
         let mut x = Sense { pose: at.pose, ..Sense::default() };
         CameraLatency.sense(&[latency], s, at, &mut x);
         x.pose
@@ -189,7 +189,7 @@ mod tests {
         let mut s = [0.0; CARD.memory];
         let (mut time, mut worst) = (0.0, 0.0_f64);
         for dt in steps.iter().cycle() {
-            CameraLatency.advance(&[latency], &mut s, &at(twist, time), &Turn::default());
+            CameraLatency.advance(&[latency], &mut s, &at(twist, time), &StepOutcome::default());
             time += dt;
             if time > end {
                 break;
@@ -210,11 +210,11 @@ mod tests {
             let here = at(CURVE, 0.005 * f64::from(k));
             assert_eq!(bits(read(0.0, &s, &here)), bits(here.pose));
             let mut x = Sense { pose: here.pose, ..Sense::default() };
-            CameraLatency.unsense(&[0.0], &here, &mut x);
+            CameraLatency.invert_sensing(&[0.0], &here, &mut x);
             assert_eq!(bits(x.pose), bits(here.pose));
-            CameraLatency.advance(&[0.0], &mut s, &here, &Turn::default());
+            CameraLatency.advance(&[0.0], &mut s, &here, &StepOutcome::default());
         }
-        let zero = At { time: 0.6, pose: Pose { x: -0.0, y: 0.0, theta: -0.0 }, ..At::default() };
+        let zero = EffectContext { time: 0.6, pose: Pose { x: -0.0, y: 0.0, theta: -0.0 }, ..EffectContext::default() };
         assert_eq!(bits(read(0.0, &s, &zero)), bits(zero.pose));
     }
 
@@ -241,7 +241,7 @@ mod tests {
     fn before_it_has_seen_anything_older_the_first_pose_stands() {
         let mut s = [0.0; CARD.memory];
         assert_eq!(bits(read(0.040, &s, &at(STRAIGHT, 0.0))), bits(truth(STRAIGHT, 0.0)));
-        CameraLatency.advance(&[0.040], &mut s, &at(STRAIGHT, 0.0), &Turn::default());
+        CameraLatency.advance(&[0.040], &mut s, &at(STRAIGHT, 0.0), &StepOutcome::default());
         assert_eq!(bits(read(0.040, &s, &at(STRAIGHT, 0.005))), bits(truth(STRAIGHT, 0.0)));
     }
 
@@ -251,8 +251,8 @@ mod tests {
             for latency in [0.003, 0.040, 0.15] {
                 let measured = Pose { x: 0.31, y: -1.2, theta: 2.8 };
                 let mut x = Sense { pose: measured, ..Sense::default() };
-                let mut here = At { time, twist: CURVE, ..At::default() };
-                CameraLatency.unsense(&[latency], &here, &mut x);
+                let mut here = EffectContext { time, twist: CURVE, ..EffectContext::default() };
+                CameraLatency.invert_sensing(&[latency], &here, &mut x);
                 here.pose = x.pose;
                 let mut s = [7.0; CARD.memory];
                 CameraLatency.restart(&[latency], &mut s, &here);
@@ -270,7 +270,7 @@ mod tests {
             for k in 0..200 {
                 let here = at(STRAIGHT, start + 0.004 * f64::from(k));
                 assert!(off(read(latency, &s, &here), truth(STRAIGHT, here.time - latency)) < 1e-12);
-                CameraLatency.advance(&[latency], &mut s, &here, &Turn::default());
+                CameraLatency.advance(&[latency], &mut s, &here, &StepOutcome::default());
             }
         }
     }

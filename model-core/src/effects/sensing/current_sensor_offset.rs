@@ -16,8 +16,8 @@
 //! Source: zero error of a shunt amplifier; size from catalogue note S9 (10–100 mA).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Place, Role, Seam};
-use crate::effects::seams::{At, Sense};
+use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::seams::{EffectContext, Sense};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -28,7 +28,7 @@ pub const CARD: Card = Card {
     equation: "i_read = i + o",
     source: "zero error of a shunt amplifier; sizes: catalogue S9",
     seams: &[Seam::Sense],
-    place: Place::Wheels,
+    scope: Scope::Wheels,
     params: &[Param {
         key: "offset_A",
         symbol: "o",
@@ -60,12 +60,12 @@ impl<T: Real> Effect<T> for CurrentSensorOffset {
         &CARD
     }
 
-    fn sense(&self, p: &[T], _: &[T], _: &At<T>, x: &mut Sense<T>) {
+    fn sense(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Sense<T>) {
         let &[offset] = p else { return };
         x.current = reading(offset, x.current);
     }
 
-    fn unsense(&self, p: &[T], _: &At<T>, x: &mut Sense<T>) {
+    fn invert_sensing(&self, p: &[T], _: &EffectContext<T>, x: &mut Sense<T>) {
         let &[offset] = p else { return };
         x.current -= offset;
     }
@@ -77,7 +77,7 @@ mod tests {
 
     fn sensed(offset: f64, current: f64) -> Sense<f64> {
         let mut x = Sense { current, wheel_speed: 3.0, ..Sense::default() };
-        CurrentSensorOffset.sense(&[offset], &[], &At::default(), &mut x);
+        CurrentSensorOffset.sense(&[offset], &[], &EffectContext::default(), &mut x);
         x
     }
 
@@ -86,7 +86,7 @@ mod tests {
         for current in [0.0, -0.0, 0.7, -1.3] {
             let mut x = sensed(0.0, current);
             assert_eq!(x.current.to_bits(), current.to_bits());
-            CurrentSensorOffset.unsense(&[0.0], &At::default(), &mut x);
+            CurrentSensorOffset.invert_sensing(&[0.0], &EffectContext::default(), &mut x);
             assert_eq!(x.current.to_bits(), current.to_bits());
         }
     }
@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn reading_backwards_gives_the_truth() {
         let mut x = sensed(0.05, 0.7);
-        CurrentSensorOffset.unsense(&[0.05], &At::default(), &mut x);
+        CurrentSensorOffset.invert_sensing(&[0.05], &EffectContext::default(), &mut x);
         assert!((x.current - 0.7).abs() < 1e-15);
     }
 

@@ -2,27 +2,27 @@
 
 use core::f32::consts::TAU;
 
-use super::{Limits, Reason, Refused};
+use super::{BlockError, BlockErrorKind, Limits};
 
 /// A number of a block: its key in the robot file, and its bounds in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Field {
+pub struct BoundedField {
     /// Its key in a robot file.
     pub key: &'static str,
     /// The least and the most that it may be.
     pub within: (f32, f32),
 }
 
-const fn field(key: &'static str, low: f32, high: f32) -> Field {
-    Field { key, within: (low, high) }
+const fn field(key: &'static str, low: f32, high: f32) -> BoundedField {
+    BoundedField { key, within: (low, high) }
 }
 
 /// Of every wheel; the key of the first names degrees, the block holds radians.
-pub const WHEEL: [Field; 3] =
+pub const WHEEL: [BoundedField; 3] =
     [field("drive_angle_deg", -TAU, TAU), field("distance_m", 0.005, 2.0), field("radius_m", 0.002, 0.5)];
 
 /// Of the robot, in the order of the form.
-pub const SCALARS: [Field; 26] = [
+pub const SCALARS: [BoundedField; 26] = [
     field("gear_ratio", 0.1, 1000.0),
     field("resistance_ohm", 1e-3, 1000.0),
     field("emf_constant_V_s", 1e-5, 10.0),
@@ -52,7 +52,7 @@ pub const SCALARS: [Field; 26] = [
 ];
 
 /// Of the motor.
-pub const POLE_PAIRS: Field = field("pole_pairs", 1.0, 50.0);
+pub const POLE_PAIRS: BoundedField = field("pole_pairs", 1.0, 50.0);
 
 /// Counts from the middle of the converter's range that a limit of current may take. A DC-equivalent current is √3/2 of
 /// the phases' crest, which so stays below 1733; from there to 1887 the bridges can be opened, and the rest is for zeros.
@@ -61,24 +61,29 @@ pub const USABLE_COUNTS: f32 = 1500.0;
 /// The highest code of the converter.
 const HIGHEST_CODE: f32 = 4095.0;
 
-impl Field {
+impl BoundedField {
     /// Refuses a number that is not within the bounds.
-    pub fn holds(&self, value: f32) -> Result<(), Refused> {
-        let Field { key: field, within } = *self;
+    pub fn check(&self, value: f32) -> Result<(), BlockError> {
+        let BoundedField { key: field, within } = *self;
         let (low, high) = within;
         if !value.is_finite() {
-            Err(Refused { reason: Reason::NotFinite, field, value, within })
+            Err(BlockError { reason: BlockErrorKind::NotFinite, field, value, within })
         } else if low <= value && value <= high {
             Ok(())
         } else {
-            Err(Refused { reason: Reason::OutOfBounds, field, value, within })
+            Err(BlockError { reason: BlockErrorKind::OutOfBounds, field, value, within })
         }
     }
 }
 
 /// Refuses limits that contradict the supply, or that the sensors could not see being broken.
-pub fn together(supply: f32, limits: &Limits, amps_per_count: f32, bus_volts_per_count: f32) -> Result<(), Refused> {
-    field("current_A", 0.0, USABLE_COUNTS * amps_per_count).holds(limits.current)?;
-    field("under_voltage_V", 0.0, supply).holds(limits.under_voltage)?;
-    field("over_voltage_V", supply, HIGHEST_CODE * bus_volts_per_count).holds(limits.over_voltage)
+pub fn check_limits(
+    supply: f32,
+    limits: &Limits,
+    amps_per_count: f32,
+    bus_volts_per_count: f32,
+) -> Result<(), BlockError> {
+    field("current_A", 0.0, USABLE_COUNTS * amps_per_count).check(limits.current)?;
+    field("under_voltage_V", 0.0, supply).check(limits.under_voltage)?;
+    field("over_voltage_V", supply, HIGHEST_CODE * bus_volts_per_count).check(limits.over_voltage)
 }

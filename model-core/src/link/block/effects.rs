@@ -1,66 +1,66 @@
 //! The effects in a block: a number each, that never changes its meaning, and their parameters.
 
-use super::{Field, Reason, Refused};
+use super::{BlockError, BlockErrorKind, BoundedField};
 use crate::effects::active::MAX_EFFECTS;
-use crate::effects::card::{Card, MAX_PARAMS, Place};
+use crate::effects::card::{Card, MAX_PARAMS, Scope};
 use crate::effects::{body, contact, drivetrain, electrical, sensing};
 use crate::link::bytes::Reader;
 
 /// An effect that a block may name.
 #[derive(Clone, Copy, Debug)]
-pub struct Known {
+pub struct EffectCode {
     /// Its number in a block.
     pub code: u8,
     /// Its id in the catalogue.
     pub id: &'static str,
     /// Where it sits.
-    pub place: Place,
+    pub scope: Scope,
     count: usize,
-    fields: [Field; MAX_PARAMS],
+    fields: [BoundedField; MAX_PARAMS],
 }
 
 /// Every effect with its number. A number stays with its effect for ever; a new effect gets the next one.
-pub static KNOWN: [Known; 13] = [
-    known(1, &electrical::actuation_delay::CARD),
-    known(2, &electrical::supply_sag::CARD),
-    known(3, &electrical::dead_time::CARD),
-    known(4, &electrical::motor_mismatch::CARD),
-    known(5, &drivetrain::gear_efficiency::CARD),
-    known(6, &drivetrain::stribeck::CARD),
-    known(7, &drivetrain::rotor_inertia::CARD),
-    known(8, &contact::wheel_slip::CARD),
-    known(9, &contact::creep::CARD),
-    known(10, &body::coriolis::CARD),
-    known(11, &body::floor_tilt::CARD),
-    known(12, &sensing::camera_latency::CARD),
-    known(13, &sensing::current_sensor_offset::CARD),
+pub static EFFECT_CODES: [EffectCode; 13] = [
+    effect_code(1, &electrical::actuation_delay::CARD),
+    effect_code(2, &electrical::supply_sag::CARD),
+    effect_code(3, &electrical::dead_time::CARD),
+    effect_code(4, &electrical::motor_mismatch::CARD),
+    effect_code(5, &drivetrain::gear_efficiency::CARD),
+    effect_code(6, &drivetrain::stribeck::CARD),
+    effect_code(7, &drivetrain::rotor_inertia::CARD),
+    effect_code(8, &contact::wheel_slip::CARD),
+    effect_code(9, &contact::creep::CARD),
+    effect_code(10, &body::coriolis::CARD),
+    effect_code(11, &body::floor_tilt::CARD),
+    effect_code(12, &sensing::camera_latency::CARD),
+    effect_code(13, &sensing::current_sensor_offset::CARD),
 ];
 
 /// What a block needs of a card, in single precision; made when the program is built.
-const fn known(code: u8, card: &Card) -> Known {
-    let mut fields = [Field { key: "", within: (0.0, 0.0) }; MAX_PARAMS];
+const fn effect_code(code: u8, card: &Card) -> EffectCode {
+    let mut fields = [BoundedField { key: "", within: (0.0, 0.0) }; MAX_PARAMS];
     let mut k = 0;
     while k < card.params.len() {
         let (low, high) = card.params[k].within;
-        fields[k] = Field { key: card.params[k].key, within: (low as f32, high as f32) };
+        fields[k] = BoundedField { key: card.params[k].key, within: (low as f32, high as f32) };
         k += 1;
     }
-    Known { code, id: card.id, place: card.place, count: card.params.len(), fields }
+    EffectCode { code, id: card.id, scope: card.scope, count: card.params.len(), fields }
 }
 
-impl Known {
+impl EffectCode {
     /// The effect of this number.
-    pub fn by_code(code: u8) -> Option<&'static Known> {
-        KNOWN.iter().find(|known| known.code == code)
+    pub fn by_code(code: u8) -> Option<&'static EffectCode> {
+        EFFECT_CODES.iter().find(|known| known.code == code)
     }
 
     /// The effect of this id.
-    pub fn by_id(id: &str) -> Option<&'static Known> {
-        KNOWN.iter().find(|known| known.id == id)
+    pub fn by_id(id: &str) -> Option<&'static EffectCode> {
+        EFFECT_CODES.iter().find(|known| known.id == id)
     }
 
     /// Its parameters' keys and bounds, in the card's order.
-    pub fn fields(&self) -> &[Field] {
+    pub fn fields(&self) -> &[BoundedField] {
         self.fields.get(..self.count).unwrap_or_default()
     }
 }
@@ -71,7 +71,7 @@ pub(super) const EVERY_WHEEL: u8 = 0xff;
 /// An effect with its parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct BlockEffect {
-    known: &'static Known,
+    known: &'static EffectCode,
     wheel: Option<u8>,
     params: [f32; MAX_PARAMS],
 }
@@ -80,25 +80,26 @@ impl BlockEffect {
     /// The effect of this id on a wheel, or on all where there is none; parameters in the card's order.
     ///
     /// # Errors
-    /// [`Refused`] where there is no such effect, or it has another number of parameters.
-    pub fn new(id: &str, wheel: Option<u8>, params: &[f32]) -> Result<Self, Refused> {
-        let known = Known::by_id(id).ok_or(Refused::because(Reason::UnknownEffect, "effects"))?;
+    /// [`BlockError`] where there is no such effect, or it has another number of parameters.
+    pub fn new(id: &str, wheel: Option<u8>, params: &[f32]) -> Result<Self, BlockError> {
+        let known = EffectCode::by_id(id).ok_or(BlockError::because(BlockErrorKind::UnknownEffect, "effects"))?;
         if params.len() != known.count {
-            return Err(Refused::because(Reason::Length, known.id));
+            return Err(BlockError::because(BlockErrorKind::Length, known.id));
         }
         let mut effect = Self { known, wheel, params: [0.0; MAX_PARAMS] };
-        effect.params.iter_mut().zip(params).for_each(|(place, x)| *place = *x);
+        effect.params.iter_mut().zip(params).for_each(|(slot, x)| *slot = *x);
         Ok(effect)
     }
 
-    pub(super) fn read(reader: &mut Reader, short: Refused) -> Result<Self, Refused> {
+    pub(super) fn read(reader: &mut Reader, short: BlockError) -> Result<Self, BlockError> {
         let [code, wheel] = reader.array().ok_or(short)?;
-        let unknown = Refused { value: f32::from(code), ..Refused::because(Reason::UnknownEffect, "effects") };
-        let known = Known::by_code(code).ok_or(unknown)?;
+        let unknown =
+            BlockError { value: f32::from(code), ..BlockError::because(BlockErrorKind::UnknownEffect, "effects") };
+        let known = EffectCode::by_code(code).ok_or(unknown)?;
         let mut effect =
             Self { known, wheel: Some(wheel).filter(|wheel| *wheel != EVERY_WHEEL), params: [0.0; MAX_PARAMS] };
-        for place in effect.params.iter_mut().take(known.count) {
-            *place = reader.f32().ok_or(short)?;
+        for slot in effect.params.iter_mut().take(known.count) {
+            *slot = reader.f32().ok_or(short)?;
         }
         Ok(effect)
     }
@@ -123,16 +124,16 @@ impl BlockEffect {
         self.params.get(..self.known.count).unwrap_or_default()
     }
 
-    fn check(&self, wheels: usize) -> Result<(), Refused> {
-        let fits = match (self.wheel, self.known.place) {
-            (Some(wheel), place) => place != Place::Robot && usize::from(wheel) < wheels,
-            (None, place) => place != Place::OneWheel,
+    fn check(&self, wheels: usize) -> Result<(), BlockError> {
+        let fits = match (self.wheel, self.known.scope) {
+            (Some(wheel), scope) => scope != Scope::Robot && usize::from(wheel) < wheels,
+            (None, scope) => scope != Scope::OneWheel,
         };
         if !fits {
             let value = f32::from(self.wheel.unwrap_or(EVERY_WHEEL));
-            return Err(Refused { value, ..Refused::because(Reason::EffectWheel, self.known.id) });
+            return Err(BlockError { value, ..BlockError::because(BlockErrorKind::EffectWheel, self.known.id) });
         }
-        self.known.fields().iter().zip(self.params).try_for_each(|(field, x)| field.holds(x))
+        self.known.fields().iter().zip(self.params).try_for_each(|(field, x)| field.check(x))
     }
 }
 
@@ -147,12 +148,12 @@ impl BlockEffects {
     /// Adds an effect.
     ///
     /// # Errors
-    /// [`Refused`] where it is there already on this wheel, or there is no room.
-    pub fn push(&mut self, effect: BlockEffect) -> Result<(), Refused> {
+    /// [`BlockError`] where it is there already on this wheel, or there is no room.
+    pub fn push(&mut self, effect: BlockEffect) -> Result<(), BlockError> {
         if self.iter().any(|other| other.code() == effect.code() && other.wheel == effect.wheel) {
-            return Err(Refused::because(Reason::EffectTwice, effect.id()));
+            return Err(BlockError::because(BlockErrorKind::EffectTwice, effect.id()));
         }
-        let full = Refused::because(Reason::TooManyEffects, "effects");
+        let full = BlockError::because(BlockErrorKind::TooManyEffects, "effects");
         *self.items.get_mut(self.len).ok_or(full)? = Some(effect);
         self.len += 1;
         Ok(())
@@ -173,7 +174,7 @@ impl BlockEffects {
         self.len == 0
     }
 
-    pub(super) fn check(&self, wheels: usize) -> Result<(), Refused> {
+    pub(super) fn check(&self, wheels: usize) -> Result<(), BlockError> {
         self.iter().try_for_each(|effect| effect.check(wheels))
     }
 }

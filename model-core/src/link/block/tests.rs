@@ -15,7 +15,7 @@ fn with<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
         feedforward: true,
         robot,
         inductance: 0.5e-3,
-        mode: Mode::Current,
+        mode: ControlMode::Current,
         commutation: Commutation::SixStep,
         pole_pairs: 8,
         limits: Limits {
@@ -47,7 +47,7 @@ fn resealed(mut bytes: [u8; MAX_BYTES], length: usize) -> [u8; MAX_BYTES] {
     bytes
 }
 
-fn refusal(bytes: &[u8]) -> Refused {
+fn refusal(bytes: &[u8]) -> BlockError {
     Parameters::decode(bytes).map(|_| ()).expect_err("to be refused")
 }
 
@@ -59,7 +59,7 @@ fn a_block_comes_back_as_it_was_written() {
     let Ok(Parameters::Four(block)) = Parameters::decode(&bytes[..length]) else { panic!("four wheels") };
     assert_eq!(encoded(&block), (bytes, length));
     assert_eq!(block.robot.wheels, paper::four_wheels().wheels);
-    assert_eq!((block.limits, block.mode, block.pole_pairs), (four().limits, Mode::Current, 8));
+    assert_eq!((block.limits, block.mode, block.pole_pairs), (four().limits, ControlMode::Current, 8));
     assert_eq!((block.robot.motor, block.robot.friction), (four().robot.motor, four().robot.friction));
     let effects: [_; 3] =
         core::array::from_fn(|k| block.effects.iter().nth(k).map(|e| (e.id(), e.wheel(), e.params())));
@@ -67,11 +67,12 @@ fn a_block_comes_back_as_it_was_written() {
         [("stribeck", None, &[0.4, 0.05, 1.0]), ("motor_mismatch", Some(2), &[0.88, 1.1]), ("coriolis", None, &[1.0])];
     assert_eq!(effects, expected.map(Some));
 
-    let three = Block { mode: Mode::Voltage, commutation: Commutation::FieldOriented, ..with(paper::three_wheels()) };
+    let three =
+        Block { mode: ControlMode::Voltage, commutation: Commutation::FieldOriented, ..with(paper::three_wheels()) };
     let (bytes, length) = encoded(&three);
     let Ok(Parameters::Three(block)) = Parameters::decode(&bytes[..length]) else { panic!("three wheels") };
     assert_eq!(encoded(&block), (bytes, length));
-    assert_eq!((block.mode, block.commutation), (Mode::Voltage, Commutation::FieldOriented));
+    assert_eq!((block.mode, block.commutation), (ControlMode::Voltage, Commutation::FieldOriented));
 }
 
 #[test]
@@ -104,25 +105,27 @@ fn every_shorter_block_is_refused() {
         let mut changed = bytes;
         changed[6..8].copy_from_slice(&(said as u16).to_le_bytes());
         let changed = if said >= HEADER { resealed(changed, said) } else { changed };
-        assert_eq!(refusal(&changed).reason, Reason::Length, "{said} bytes");
+        assert_eq!(refusal(&changed).reason, BlockErrorKind::Length, "{said} bytes");
     }
 }
 
 #[test]
 fn flash_that_was_erased_is_no_block() {
-    assert_eq!(refusal(&[0xff; MAX_BYTES]).reason, Reason::Magic);
-    assert_eq!(refusal(&[0; MAX_BYTES]).reason, Reason::Magic);
-    assert_eq!(refusal(&[]).reason, Reason::Magic);
+    assert_eq!(refusal(&[0xff; MAX_BYTES]).reason, BlockErrorKind::Magic);
+    assert_eq!(refusal(&[0; MAX_BYTES]).reason, BlockErrorKind::Magic);
+    assert_eq!(refusal(&[]).reason, BlockErrorKind::Magic);
 }
 
 #[test]
 fn another_version_is_refused_as_newer_or_older() {
     let (bytes, length) = encoded(&four());
-    for (version, reason) in [(0_u16, Reason::Older), (VERSION + 1, Reason::Newer), (u16::MAX, Reason::Newer)] {
+    for (version, reason) in
+        [(0_u16, BlockErrorKind::Older), (VERSION + 1, BlockErrorKind::Newer), (u16::MAX, BlockErrorKind::Newer)]
+    {
         let mut changed = bytes;
         changed[4..6].copy_from_slice(&version.to_le_bytes());
-        let told = refusal(&resealed(changed, length));
-        assert_eq!((told.reason, told.value), (reason, f32::from(version)));
+        let error = refusal(&resealed(changed, length));
+        assert_eq!((error.reason, error.value), (reason, f32::from(version)));
     }
 }
 
@@ -130,11 +133,11 @@ fn another_version_is_refused_as_newer_or_older() {
 fn ways_of_driving_and_numbers_of_wheels_that_do_not_exist_are_refused() {
     let (bytes, length) = encoded(&four());
     for (at, value, reason) in [
-        (8, 2, Reason::Wheels),
-        (8, 5, Reason::Wheels),
-        (9, 2, Reason::Mode),
-        (10, 2, Reason::Mode),
-        (11, 2, Reason::Mode),
+        (8, 2, BlockErrorKind::Wheels),
+        (8, 5, BlockErrorKind::Wheels),
+        (9, 2, BlockErrorKind::Mode),
+        (10, 2, BlockErrorKind::Mode),
+        (11, 2, BlockErrorKind::Mode),
     ] {
         let mut changed = bytes;
         changed[at] = value;
@@ -154,22 +157,22 @@ fn every_number_is_held_to_its_bounds_on_both_sides() {
         let (low, high) = field.within;
         let out = [low - 0.01 * low.abs() - 1e-6, high + 0.01 * high.abs(), -f32::MAX, f32::MAX];
         for (x, reason) in out
-            .map(|x| (x, Reason::OutOfBounds))
+            .map(|x| (x, BlockErrorKind::OutOfBounds))
             .into_iter()
-            .chain([f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(|x| (x, Reason::NotFinite)))
+            .chain([f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(|x| (x, BlockErrorKind::NotFinite)))
         {
             let mut changed = bytes;
             changed[at..at + 4].copy_from_slice(&x.to_le_bytes());
-            let told = refusal(&resealed(changed, length));
-            assert_eq!((told.reason, told.field), (reason, field.key), "{x}");
-            assert!(told.value == x || x.is_nan());
+            let error = refusal(&resealed(changed, length));
+            assert_eq!((error.reason, error.field), (reason, field.key), "{x}");
+            assert!(error.value == x || x.is_nan());
         }
     }
     for pole_pairs in [0, 51, 255] {
         let mut changed = bytes;
         changed[12] = pole_pairs;
-        let told = refusal(&resealed(changed, length));
-        assert_eq!((told.reason, told.field), (Reason::OutOfBounds, "pole_pairs"));
+        let error = refusal(&resealed(changed, length));
+        assert_eq!((error.reason, error.field), (BlockErrorKind::OutOfBounds, "pole_pairs"));
     }
 }
 
@@ -203,7 +206,7 @@ fn numbers_that_contradict_each_other_are_refused() {
     let along_one_line = |b: &mut Block<4>| {
         b.robot.wheels = Wheels::new(b.robot.wheels.wheels().map(|wheel| Wheel { drive_angle: 0.0, ..wheel }));
     };
-    assert_eq!(change(along_one_line).reason, Reason::Wheels);
+    assert_eq!(change(along_one_line).reason, BlockErrorKind::Wheels);
 }
 
 #[test]
@@ -215,17 +218,17 @@ fn effects_are_held_to_the_catalogue() {
         changes.iter().for_each(|(k, value)| changed[at + k] = *value);
         refusal(&resealed(changed, length)).reason
     };
-    assert_eq!(changed(&[(1, 0)]), Reason::UnknownEffect);
-    assert_eq!(changed(&[(1, 14)]), Reason::UnknownEffect);
+    assert_eq!(changed(&[(1, 0)]), BlockErrorKind::UnknownEffect);
+    assert_eq!(changed(&[(1, 14)]), BlockErrorKind::UnknownEffect);
     // stribeck on a wheel that is not there; motor_mismatch on none; coriolis on one
-    assert_eq!(changed(&[(2, 4)]), Reason::EffectWheel);
-    assert_eq!(changed(&[(16, EVERY)]), Reason::EffectWheel);
-    assert_eq!(changed(&[(26, 1)]), Reason::EffectWheel);
-    assert_eq!(changed(&[(0, 2)]), Reason::Length);
-    assert_eq!(changed(&[(0, 4)]), Reason::Length);
+    assert_eq!(changed(&[(2, 4)]), BlockErrorKind::EffectWheel);
+    assert_eq!(changed(&[(16, EVERY)]), BlockErrorKind::EffectWheel);
+    assert_eq!(changed(&[(26, 1)]), BlockErrorKind::EffectWheel);
+    assert_eq!(changed(&[(0, 2)]), BlockErrorKind::Length);
+    assert_eq!(changed(&[(0, 4)]), BlockErrorKind::Length);
 
-    for known in &KNOWN {
-        let wheel = (known.place == crate::effects::card::Place::OneWheel).then_some(0);
+    for known in &EFFECT_CODES {
+        let wheel = (known.scope == crate::effects::card::Scope::OneWheel).then_some(0);
         for (k, field) in known.fields().iter().enumerate() {
             let (low, high) = field.within;
             for (x, good) in [(low, true), (high, true), (low - 1.0, false), (high + 1.0, false), (f32::NAN, false)] {
@@ -252,20 +255,20 @@ fn there_is_room_for_twelve_effects_each_once_and_the_longest_block_fits() {
         effects.push(BlockEffect::new("dead_time", wheel, &[0.3, 0.05]).unwrap()).unwrap();
         effects.push(BlockEffect::new("wheel_slip", wheel, &[0.5, 10.0, 1.2]).unwrap()).unwrap();
     }
-    assert_eq!(effects.push(stribeck(Some(1))).unwrap_err().reason, Reason::EffectTwice);
-    assert_eq!(effects.push(stribeck(Some(3))).unwrap_err().reason, Reason::TooManyEffects);
+    assert_eq!(effects.push(stribeck(Some(1))).unwrap_err().reason, BlockErrorKind::EffectTwice);
+    assert_eq!(effects.push(stribeck(Some(3))).unwrap_err().reason, BlockErrorKind::TooManyEffects);
     assert_eq!(effects.len(), MAX_EFFECTS);
     let (bytes, length) = encoded(&Block { effects, ..four() });
     assert!(length <= LONGEST && Parameters::decode(&bytes[..length]).is_ok(), "{length}");
-    assert_eq!(BlockEffect::new("creep", None, &[]).unwrap_err().reason, Reason::Length);
-    assert_eq!(BlockEffect::new("gremlins", None, &[]).unwrap_err().reason, Reason::UnknownEffect);
+    assert_eq!(BlockEffect::new("creep", None, &[]).unwrap_err().reason, BlockErrorKind::Length);
+    assert_eq!(BlockEffect::new("gremlins", None, &[]).unwrap_err().reason, BlockErrorKind::UnknownEffect);
 }
 
 #[test]
 fn reasons_have_codes_and_words_of_their_own() {
-    for (k, reason) in Reason::ALL.into_iter().enumerate() {
+    for (k, reason) in BlockErrorKind::ALL.into_iter().enumerate() {
         assert_eq!(usize::from(reason.code()), k + 1);
-        assert_eq!(Reason::from_code(reason.code()), Some(reason));
-        assert!(Reason::ALL.into_iter().skip(k + 1).all(|other| other.text() != reason.text()));
+        assert_eq!(BlockErrorKind::from_code(reason.code()), Some(reason));
+        assert!(BlockErrorKind::ALL.into_iter().skip(k + 1).all(|other| other.text() != reason.text()));
     }
 }

@@ -3,7 +3,7 @@ use super::*;
 /// The frame of a payload, and how long it is.
 fn framed(kind: u8, payload: &[u8]) -> ([u8; MAX_FRAME], usize) {
     let mut out = [0xaa; MAX_FRAME];
-    let len = frame(kind, payload, &mut out).expect("a payload that fits").len();
+    let len = encode_frame(kind, payload, &mut out).expect("a payload that fits").len();
     (out, len)
 }
 
@@ -18,8 +18,8 @@ impl Dice {
 
     /// Bytes of which many are zero.
     fn fill(&mut self, into: &mut [u8]) {
-        for place in into {
-            *place = if self.byte() < 80 { 0 } else { self.byte() };
+        for slot in into {
+            *slot = if self.byte() < 80 { 0 } else { self.byte() };
         }
     }
 }
@@ -36,7 +36,7 @@ fn the_checksum_and_the_stuffing_are_those_of_the_books() {
 #[test]
 fn every_length_of_payload_goes_through_and_a_longer_one_is_refused() {
     let mut dice = Dice(1);
-    let mut decoder = Decoder::new();
+    let mut decoder = FrameDecoder::new();
     for len in 0..=MAX_PAYLOAD {
         for filling in 0..3_u8 {
             let mut payload = [filling; MAX_PAYLOAD];
@@ -51,14 +51,14 @@ fn every_length_of_payload_goes_through_and_a_longer_one_is_refused() {
         }
     }
     assert_eq!((decoder.good(), decoder.bad()), (3 * 241, 0));
-    assert!(frame(1, &[1; MAX_PAYLOAD + 1], &mut [0; MAX_FRAME]).is_none());
+    assert!(encode_frame(1, &[1; MAX_PAYLOAD + 1], &mut [0; MAX_FRAME]).is_none());
 }
 
 #[test]
 fn a_decoder_is_in_step_again_after_any_garbage() {
     for seed in 0..500 {
         let mut dice = Dice(seed);
-        let mut decoder = Decoder::new();
+        let mut decoder = FrameDecoder::new();
         let mut garbage = [0; 600];
         let len = usize::from(dice.byte()) + usize::from(dice.byte());
         if seed % 2 == 0 {
@@ -86,7 +86,7 @@ fn lost_doubled_and_changed_bytes_cost_at_most_two_frames() {
         let (out, len) = framed(9, &payload);
         let hurt_at = usize::from(dice.byte()) % len;
         let how = dice.byte() % 3;
-        let mut decoder = Decoder::new();
+        let mut decoder = FrameDecoder::new();
         let mut arrived = 0;
         for k in 0..5 {
             for (at, byte) in out[..len].iter().enumerate() {
@@ -115,7 +115,7 @@ fn every_single_bit_that_flips_in_a_frame_is_found() {
     for bit in 0..8 * (len - 1) {
         let mut hurt = out;
         hurt[bit / 8] ^= 1 << (bit % 8);
-        let mut decoder = Decoder::new();
+        let mut decoder = FrameDecoder::new();
         assert!(hurt[..len].iter().all(|byte| decoder.push(*byte).is_none()), "bit {bit}");
     }
 }
@@ -123,7 +123,7 @@ fn every_single_bit_that_flips_in_a_frame_is_found() {
 #[test]
 fn joining_in_the_middle_of_a_frame_is_no_fault() {
     let (out, len) = framed(3, &[1, 2, 3]);
-    let mut decoder = Decoder::new();
+    let mut decoder = FrameDecoder::new();
     assert_eq!(out[2..len].iter().chain(&out[..len]).filter(|byte| decoder.push(**byte).is_some()).count(), 1);
     assert_eq!((decoder.good(), decoder.bad()), (1, 0));
 }

@@ -1,7 +1,7 @@
 //! A sinusoidal machine of three windings that turns at a held speed, solved exactly.
 
 use super::AMPS;
-use crate::control::phases::{self, Rotation, Rotor, Stationary};
+use crate::control::phases::{self, AlphaBeta, DirectQuadrature, Rotation};
 
 /// DC-equivalent, between two terminals [Ω].
 pub const RESISTANCE: f64 = 1.5;
@@ -39,20 +39,20 @@ impl Machine {
 
     /// Phase currents [A].
     pub fn phases(&self) -> [f64; 3] {
-        Stationary { alpha: self.current[0], beta: self.current[1] }.phases()
+        AlphaBeta { alpha: self.current[0], beta: self.current[1] }.inverse_clarke()
     }
 
     /// DC-equivalent current as the rotor sees it [A].
-    pub fn current(&self) -> Rotor<f64> {
-        let vector = Stationary { alpha: self.current[0], beta: self.current[1] };
-        let Rotor { d, q } = Rotation::of_angle(self.angle).to_rotor(vector);
-        Rotor { d: phases::dc_current(d), q: phases::dc_current(q) }
+    pub fn current(&self) -> DirectQuadrature<f64> {
+        let vector = AlphaBeta { alpha: self.current[0], beta: self.current[1] };
+        let DirectQuadrature { d, q } = Rotation::of_angle(self.angle).park(vector);
+        DirectQuadrature { d: phases::dc_current(d), q: phases::dc_current(q) }
     }
 
     /// The legs stand at these duties of the bus [V] for `dt` [s].
     pub fn run(&mut self, duties: [f64; 3], bus: f64, dt: f64) {
         let (r, l) = (0.5 * RESISTANCE, 0.5 * INDUCTANCE);
-        let Stationary { alpha, beta } = Stationary::of_phases(duties.map(|x| x * bus));
+        let AlphaBeta { alpha, beta } = AlphaBeta::clarke(duties.map(|x| x * bus));
         // L·di/dt = u − R·i − j·ω·λ·e^(jθ):  i = u/R − j·ω·λ·e^(jθ)/(R + j·ω·L) and what fades as e^(−R·t/L)
         let settled = |angle: f64| {
             let (sin, cos) = (libm::sin(angle), libm::cos(angle));

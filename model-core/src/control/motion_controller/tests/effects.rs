@@ -32,16 +32,16 @@ const CASES: [Case; 11] = [
 /// Motions with a rim slower than `slowest` [m/s] are left out.
 fn errors<const N: usize>(robot: Robot<N, f64>, cases: &[&Case], by_current: bool, slowest: f64) -> [f64; 2] {
     let mut effects = Effects::default();
-    let mut undo = Compensation::none();
+    let mut compensation = Compensation::none();
     for case in cases {
         effects.add(find(case.id).unwrap(), case.wheel, case.params).unwrap();
-        undo.add(case.id, case.wheel, case.params).unwrap();
+        compensation.add(case.id, case.wheel, case.params).unwrap();
     }
     let plant = Plant::new(robot, effects);
     let mut memory = [0.0; 8];
     let memory = &mut memory[..plant.memory_len()];
-    [undo, Compensation::none()].map(|undo| {
-        let controller = Controller::new(&Settings { undo, dt: MOMENT, ..settings(robot) });
+    [compensation, Compensation::none()].map(|compensation| {
+        let controller = Controller::new(&Settings { compensation, dt: MOMENT, ..settings(robot) });
         let mut draw = Draw(3);
         let mut worst = 0.0_f64;
         for _ in 0..100 {
@@ -50,11 +50,11 @@ fn errors<const N: usize>(robot: Robot<N, f64>, cases: &[&Case], by_current: boo
             if robot.wheels.rim_speeds(x).iter().any(|v| v.abs() < slowest) {
                 continue;
             }
-            let asked = controller.feedforward(x, a, theta);
+            let demand = controller.feedforward(x, a, theta);
             let mut state = plant.start(0.0, Pose { theta, ..Pose::default() }, x);
             // a wheel that creeps is ahead already
-            state.wheel_speed = asked.wheel_speed;
-            let input = if by_current { Input::Current(asked.current) } else { Input::Voltage(asked.voltage) };
+            state.wheel_speed = demand.wheel_speed;
+            let input = if by_current { Input::Current(demand.current) } else { Input::Voltage(demand.voltage) };
             plant.step(&mut state, memory, &input, MOMENT);
             let [x, a, next] = [x.to_array(), a.to_array(), state.twist.to_array()];
             for (k, scale) in [1.0, 1.0, 0.1].into_iter().enumerate() {
@@ -110,31 +110,31 @@ fn any_two_effects_are_undone_together_and_so_are_eight() {
 fn a_robot_starts_from_rest_on_a_tilted_sticky_floor() {
     let robot = paper::four_wheels::<f64>();
     let cases = [&CASES[1], &CASES[2], &CASES[6], &CASES[9]];
-    let (mut effects, mut undo) = (Effects::default(), Compensation::none());
+    let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
     for case in cases {
         effects.add(find(case.id).unwrap(), None, case.params).unwrap();
-        undo.add(case.id, None, case.params).unwrap();
+        compensation.add(case.id, None, case.params).unwrap();
     }
     let plant = Plant::new(robot, effects);
-    let [with, without] = [undo, Compensation::none()].map(|undo| {
-        let controller = Controller::new(&Settings { undo, ..settings(robot) });
+    let [with, without] = [compensation, Compensation::none()].map(|compensation| {
+        let controller = Controller::new(&Settings { compensation, ..settings(robot) });
         let mut memory = Memory::default();
         let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
         let want = BodyTwist { v: 0.3, vn: 0.2, w: 2.0 };
         let (mut worst, mut before) = (0.0_f64, 0.0);
         for k in 0..600 {
             let want = if k < 400 { want } else { BodyTwist::default() };
-            let seen = Seen { wheel_speed: robot.wheels.wheel_speeds(state.twist), bus: 12.0 };
-            let decided = controller.tick(&mut memory, &seen, want);
+            let measured = Measurement { wheel_speed: robot.wheels.wheel_speeds(state.twist), bus: 12.0 };
+            let output = controller.tick(&mut memory, &measured, want);
             for _ in 0..10 {
-                plant.step(&mut state, &mut [], &Input::Voltage(decided.voltage), 1e-4);
+                plant.step(&mut state, &mut [], &Input::Voltage(output.voltage), 1e-4);
             }
             let x = memory.reference;
             worst = worst.max((state.twist.v - x.v).abs()).max((state.twist.vn - x.vn).abs());
             before += x.w * 1e-3;
         }
         // the heading that the controller keeps is that of the reference
-        assert!(undo == Compensation::none() || (memory.heading - before).abs() < 1e-2);
+        assert!(compensation == Compensation::none() || (memory.heading - before).abs() < 1e-2);
         worst
     });
     // back-EMF at the turn's beginning: 1.5 mm/s
@@ -145,43 +145,44 @@ fn a_robot_starts_from_rest_on_a_tilted_sticky_floor() {
 fn the_wanted_speed_of_a_creeping_wheel_is_the_one_it_has() {
     let robot = paper::four_wheels::<f64>();
     let case = &CASES[10];
-    let (mut effects, mut undo) = (Effects::default(), Compensation::none());
+    let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
     effects.add(find(case.id).unwrap(), None, case.params).unwrap();
-    undo.add(case.id, None, case.params).unwrap();
+    compensation.add(case.id, None, case.params).unwrap();
     let plant = Plant::new(robot, effects);
-    let controller = Controller::new(&Settings { undo, ..settings(robot) });
+    let controller = Controller::new(&Settings { compensation, ..settings(robot) });
     let (x, a) = (BodyTwist { v: 0.4, vn: -0.2, w: 1.0 }, BodyTwist { v: 2.0, vn: 1.0, w: -5.0 });
-    let asked = controller.feedforward(x, a, 0.0);
+    let demand = controller.feedforward(x, a, 0.0);
     let mut state = plant.start(0.0, Pose::default(), x);
-    let reading = plant.step(&mut state, &mut [], &Input::Voltage(asked.voltage), MOMENT);
+    let reading = plant.step(&mut state, &mut [], &Input::Voltage(demand.voltage), MOMENT);
     // Newton ends within 1e-7 of the speed
-    assert!(gap(reading.wheel_speed, asked.wheel_speed) < 1e-5, "{reading:?} {asked:?}");
-    assert!(gap(robot.wheels.wheel_speeds(x), asked.wheel_speed) > 0.5);
+    assert!(gap(reading.wheel_speed, demand.wheel_speed) < 1e-5, "{reading:?} {demand:?}");
+    assert!(gap(robot.wheels.wheel_speeds(x), demand.wheel_speed) > 0.5);
 }
 
 #[test]
 fn a_loop_closed_on_a_sensor_with_an_offset_gives_the_current_wanted() {
     let robot = paper::four_wheels::<f64>();
-    let (mut effects, mut undo) = (Effects::default(), Compensation::none());
+    let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
     effects.add(find("current_sensor_offset").unwrap(), Some(2), &[0.2]).unwrap();
-    undo.add("current_sensor_offset", Some(2), &[0.2]).unwrap();
+    compensation.add("current_sensor_offset", Some(2), &[0.2]).unwrap();
     let plant = Plant::new(robot, effects);
     let (x, a) = (BodyTwist { v: 0.4, vn: -0.2, w: 1.0 }, BodyTwist { v: 2.0, vn: 1.0, w: -5.0 });
-    let asked = Controller::new(&Settings { undo, ..settings(robot) }).feedforward(x, a, 0.0);
+    let demand = Controller::new(&Settings { compensation, ..settings(robot) }).feedforward(x, a, 0.0);
     let plain = Controller::new(&settings(robot)).feedforward(x, a, 0.0);
     // the true currents are the plain ones, and the sensors show what is asked of the loops
     let mut state = plant.start(0.0, Pose::default(), x);
     let reading = plant.step(&mut state, &mut [], &Input::Current(plain.current), MOMENT);
-    assert!(gap(reading.current, asked.current) < 1e-15 && gap(asked.current, plain.current) > 0.19);
-    assert_eq!(asked.voltage, plain.voltage);
+    assert!(gap(reading.current, demand.current) < 1e-15 && gap(demand.current, plain.current) > 0.19);
+    assert_eq!(demand.voltage, plain.voltage);
 }
 
 #[test]
 fn without_feedforward_only_losses_of_the_motors_are_undone() {
-    let mut undo = Compensation::<4, f64>::none();
-    undo.add("coriolis", None, &[1.0]).unwrap();
-    undo.add("floor_tilt", None, &[0.0175, 0.5]).unwrap();
-    let controller = Controller::new(&Settings { undo, feedforward: false, ..settings(paper::four_wheels::<f64>()) });
-    let asked = controller.feedforward(BodyTwist { v: 1.0, vn: 1.0, w: 3.0 }, BodyTwist::default(), 0.0);
-    assert_eq!((asked.current, asked.voltage), ([0.0; 4], [0.0; 4]));
+    let mut compensation = Compensation::<4, f64>::none();
+    compensation.add("coriolis", None, &[1.0]).unwrap();
+    compensation.add("floor_tilt", None, &[0.0175, 0.5]).unwrap();
+    let controller =
+        Controller::new(&Settings { compensation, feedforward: false, ..settings(paper::four_wheels::<f64>()) });
+    let demand = controller.feedforward(BodyTwist { v: 1.0, vn: 1.0, w: 3.0 }, BodyTwist::default(), 0.0);
+    assert_eq!((demand.current, demand.voltage), ([0.0; 4], [0.0; 4]));
 }

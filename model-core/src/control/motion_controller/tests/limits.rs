@@ -25,36 +25,36 @@ fn keeps_the_direction<const N: usize>(robot: Robot<N, f64>) {
         let bus = 8.0 + 6.0 * draw.next();
         let start = Memory { reference, ..Memory::default() };
         let (mut memory, mut free) = (start, start);
-        let seen = Seen { wheel_speed: robot.wheels.wheel_speeds(reference), bus };
-        let decided = controller.tick(&mut memory, &seen, want);
+        let measured = Measurement { wheel_speed: robot.wheels.wheel_speeds(reference), bus };
+        let output = controller.tick(&mut memory, &measured, want);
         let wide = Controller::new(&Settings { acceleration, current_limit: 1e9, ..settings(robot) });
-        let wish = wide.tick(&mut free, &Seen { bus: f64::INFINITY, ..seen }, want);
+        let wish = wide.tick(&mut free, &Measurement { bus: f64::INFINITY, ..measured }, want);
         let changes = |after: &Memory<f64>| {
             let (x, next) = (start.reference.to_array(), after.reference.to_array());
             [0, 1, 2].map(|k| (next[k] - x[k]) / 1e-3)
         };
         for j in 0..N {
-            assert!(decided.voltage[j].abs() <= 0.95 * bus);
+            assert!(output.voltage[j].abs() <= 0.95 * bus);
         }
-        if decided.steady == 1.0 {
+        if output.steady == 1.0 {
             let accelerated = changes(&memory);
             let wished = changes(&free);
             // a = s·a, to the rounding of a speed over a turn
             for k in 0..3 {
-                assert!((accelerated[k] - decided.headroom * wished[k]).abs() < 1e-9);
+                assert!((accelerated[k] - output.headroom * wished[k]).abs() < 1e-9);
             }
             for j in 0..N {
-                assert!(decided.current[j].abs() <= current_limit + 1e-12);
+                assert!(output.current[j].abs() <= current_limit + 1e-12);
             }
             // and the currents do just that: F(i) = F_steady + s·F_accelerating
-            let gain = body_force(&robot, decided.current);
-            let asked = body_force(&robot, wish.current);
+            let gain = body_force(&robot, output.current);
+            let demand = body_force(&robot, wish.current);
             let mass = [robot.mass, robot.mass, robot.inertia];
             for k in 0..3 {
-                let less = (1.0 - decided.headroom) * mass[k] * wished[k];
-                assert!((asked[k] - less - gain[k]).abs() < 1e-10, "{k}");
+                let less = (1.0 - output.headroom) * mass[k] * wished[k];
+                assert!((demand[k] - less - gain[k]).abs() < 1e-10, "{k}");
             }
-            scaled_only += usize::from(decided.headroom < 1.0);
+            scaled_only += usize::from(output.headroom < 1.0);
         } else {
             all += 1;
         }
@@ -73,21 +73,21 @@ fn headroom_keeps_the_direction_of_the_acceleration() {
 fn where_even_the_steady_part_is_too_much_all_voltages_or_all_currents_shrink_together() {
     let robot = paper::four_wheels::<f64>();
     let reference = BodyTwist { v: 1.5, vn: -0.7, w: 3.0 };
-    let seen = Seen { wheel_speed: robot.wheels.wheel_speeds(reference), bus: 5.0 };
+    let measured = Measurement { wheel_speed: robot.wheels.wheel_speeds(reference), bus: 5.0 };
     let start = Memory { reference, ..Memory::default() };
     let (mut a, mut b) = (start, start);
     let controller = Controller::new(&settings(robot));
-    let decided = controller.tick(&mut a, &seen, reference);
-    let wish = controller.tick(&mut b, &Seen { bus: f64::INFINITY, ..seen }, reference);
-    assert!(decided.steady < 1.0 && decided.headroom == 1.0);
-    assert!(gap(decided.voltage, wish.voltage.map(|u| decided.steady * u)) < 1e-12);
+    let output = controller.tick(&mut a, &measured, reference);
+    let wish = controller.tick(&mut b, &Measurement { bus: f64::INFINITY, ..measured }, reference);
+    assert!(output.steady < 1.0 && output.headroom == 1.0);
+    assert!(gap(output.voltage, wish.voltage.map(|u| output.steady * u)) < 1e-12);
     // the reference comes back on a straight line, within its limits
     let back = [a.reference.v - reference.v, a.reference.vn - reference.vn].map(|change| change / 1e-3);
     assert!((back[0] * reference.vn - back[1] * reference.v).abs() < 1e-9);
     assert!(back[0] * reference.v < 0.0 && back[0] * back[0] + back[1] * back[1] <= 9.0 + 1e-9);
     // and with little current allowed the force on the body keeps its direction
     let controller = Controller::new(&Settings { current_limit: 0.2, ..settings(robot) });
-    let weak = controller.tick(&mut start.clone(), &Seen { bus: 100.0, ..seen }, reference);
+    let weak = controller.tick(&mut start.clone(), &Measurement { bus: 100.0, ..measured }, reference);
     let less = cross_gap(body_force(&robot, weak.current), body_force(&robot, wish.current));
     assert!(weak.steady < 1.0 && less < 1e-12, "{less}");
 }
@@ -98,10 +98,10 @@ fn an_infinite_bus_scales_nothing() {
     let mut draw = Draw(4);
     for _ in 0..100 {
         let mut memory = Memory { reference: draw.twist([50.0, 50.0, 300.0]), ..Memory::default() };
-        let seen = Seen { wheel_speed: [0.0; 4], bus: f64::INFINITY };
-        let decided = controller.tick(&mut memory, &seen, draw.twist([50.0, 50.0, 300.0]));
-        assert_eq!((decided.headroom, decided.steady), (1.0, 1.0));
-        assert!(decided.voltage.iter().all(|u| u.is_finite()));
+        let measured = Measurement { wheel_speed: [0.0; 4], bus: f64::INFINITY };
+        let output = controller.tick(&mut memory, &measured, draw.twist([50.0, 50.0, 300.0]));
+        assert_eq!((output.headroom, output.steady), (1.0, 1.0));
+        assert!(output.voltage.iter().all(|u| u.is_finite()));
     }
 }
 
@@ -120,9 +120,9 @@ fn a_mirrored_robot_decides_the_mirror_image() {
     let mut draw = Draw(6);
     for k in 0..200 {
         let (x, want) = (draw.twist([1.0, 1.0, 5.0]), draw.twist([2.0, 2.0, 9.0]));
-        let seen = Seen { wheel_speed: [0.0; 4], bus: if k % 2 == 0 { 12.0 } else { 4.0 } };
-        let a = one.tick(&mut Memory { reference: x, ..Memory::default() }, &seen, want);
-        let b = other.tick(&mut Memory { reference: mirror(x), ..Memory::default() }, &seen, mirror(want));
+        let measured = Measurement { wheel_speed: [0.0; 4], bus: if k % 2 == 0 { 12.0 } else { 4.0 } };
+        let a = one.tick(&mut Memory { reference: x, ..Memory::default() }, &measured, want);
+        let b = other.tick(&mut Memory { reference: mirror(x), ..Memory::default() }, &measured, mirror(want));
         // cosines of α and −α, and an inverse worked out anew
         assert!(gap(a.current, b.current) < 1e-11 && gap(a.voltage, b.voltage) < 1e-11);
     }
@@ -138,15 +138,15 @@ fn wheels_numbered_anew_get_the_same_currents_in_their_new_order() {
     for _ in 0..200 {
         let (x, want) = (draw.twist([1.0, 1.0, 5.0]), draw.twist([2.0, 2.0, 9.0]));
         let start = Memory { reference: x, ..Memory::default() };
-        let seen = Seen { wheel_speed: [0.0; 4], bus: 7.0 };
-        let p = one.tick(&mut start.clone(), &seen, want).current;
-        let q = other.tick(&mut start.clone(), &seen, want).current;
+        let measured = Measurement { wheel_speed: [0.0; 4], bus: 7.0 };
+        let p = one.tick(&mut start.clone(), &measured, want).current;
+        let q = other.tick(&mut start.clone(), &measured, want).current;
         assert!(gap([p[1], p[2], p[3], p[0]], q) < 1e-11);
     }
 }
 
 fn finite_everywhere<const N: usize>(robot: Robot<N, f32>) {
-    let mut undo = Compensation::none();
+    let mut compensation = Compensation::none();
     for (id, wheel, params) in [
         ("coriolis", None, &[1.0_f32][..]),
         ("floor_tilt", None, &[0.1, 3.0]),
@@ -158,11 +158,12 @@ fn finite_everywhere<const N: usize>(robot: Robot<N, f32>) {
         ("creep", None, &[0.2]),
         ("current_sensor_offset", Some(2), &[-0.5]),
     ] {
-        undo.add(id, wheel, params).unwrap();
+        compensation.add(id, wheel, params).unwrap();
     }
     let mut draw = Draw(8);
-    for undo in [Compensation::none(), undo] {
-        let controller = Controller::new(&Settings { undo, feedback: 0.3, feedback_integral: 3.0, ..settings(robot) });
+    for compensation in [Compensation::none(), compensation] {
+        let controller =
+            Controller::new(&Settings { compensation, feedback: 0.3, feedback_integral: 3.0, ..settings(robot) });
         let mut memory = Memory::default();
         for k in 0..20_000 {
             let size = [0.0, 1e-30, 1.0, 20.0, 1e4][k % 5];
@@ -170,7 +171,7 @@ fn finite_everywhere<const N: usize>(robot: Robot<N, f32>) {
             let want = BodyTwist { v: want.v as f32, vn: want.vn as f32, w: want.w as f32 };
             let wheel_speed = array::from_fn(|_| ([0.0, 1.0, 1e4, 1e6][k % 4] * draw.next()) as f32);
             let bus = [0.0, 1e-3, 12.0, 60.0, f32::INFINITY, -1.0][k % 6];
-            let d = controller.tick(&mut memory, &Seen { wheel_speed, bus }, want);
+            let d = controller.tick(&mut memory, &Measurement { wheel_speed, bus }, want);
             let all = d.current.iter().chain(&d.voltage).chain(&memory.integral);
             let finite = all
                 .chain(&memory.reference.to_array())
@@ -179,7 +180,7 @@ fn finite_everywhere<const N: usize>(robot: Robot<N, f32>) {
             assert!(finite, "{d:?} {memory:?}");
             assert!((0.0..=1.0).contains(&d.headroom) && (0.0..=1.0).contains(&d.steady));
             assert!(memory.heading.abs() < 3.2);
-            let most = (0.95 * bus).max(0.0) + if undo.dead_time[0].voltage > 0.0 { 1.5 } else { 0.0 };
+            let most = (0.95 * bus).max(0.0) + if compensation.dead_time[0].voltage > 0.0 { 1.5 } else { 0.0 };
             assert!(d.voltage.iter().all(|u| u.abs() <= most * 1.000_001), "{d:?} {bus}");
         }
     }
@@ -196,12 +197,12 @@ fn the_integral_does_not_wind_up_on_a_robot_that_is_held() {
     let robot = paper::four_wheels::<f64>();
     let controller = Controller::new(&Settings { feedback: 0.1, feedback_integral: 2.0, ..settings(robot) });
     let mut memory = Memory::default();
-    let held = Seen { wheel_speed: [0.0; 4], bus: 12.0 };
+    let held = Measurement { wheel_speed: [0.0; 4], bus: 12.0 };
     let want = BodyTwist { v: 1.0, vn: 0.0, w: 0.0 };
     let mut most = 0.0_f64;
     for _ in 0..20_000 {
-        let decided = controller.tick(&mut memory, &held, want);
-        most = decided.voltage.iter().fold(most, |most, u| most.max(u.abs()));
+        let output = controller.tick(&mut memory, &held, want);
+        most = output.voltage.iter().fold(most, |most, u| most.max(u.abs()));
     }
     // what the bus can push at standstill: 11.4 V through 4.3 Ω
     let push = 2.0 * robot.motor.torque(11.4 / robot.motor.resistance) / 0.0325;
@@ -221,13 +222,13 @@ fn a_robot_of_four_goes_on_with_three_wheels() {
         let mut draw = Draw(10);
         for _ in 0..100 {
             let (x, a) = (draw.twist([0.8, 0.8, 4.0]), draw.twist([1.0, 1.0, 5.0]));
-            let asked = controller.feedforward(x, a, 0.0);
-            assert_eq!((asked.current[lost], asked.voltage[lost]), (0.0, 0.0));
-            let force = body_force(&robot, asked.current);
+            let demand = controller.feedforward(x, a, 0.0);
+            assert_eq!((demand.current[lost], demand.voltage[lost]), (0.0, 0.0));
+            let force = body_force(&robot, demand.current);
             // the body gets what it would get from four
             assert!(gap(force, robot.body_force_for(x, a)) < 1e-11, "{force:?}");
             let mut state = plant.start(0.0, Pose::default(), x);
-            plant.step(&mut state, &mut [], &Input::Current(asked.current), 1e-6);
+            plant.step(&mut state, &mut [], &Input::Current(demand.current), 1e-6);
             // a microsecond's change of friction
             assert!((state.twist.v - x.v - 1e-6 * a.v).abs() < 1e-10);
         }
@@ -244,10 +245,10 @@ fn with_a_wheel_lost_no_motor_is_asked_for_more_than_before() {
         let mut worst = 0.0_f64;
         for k in 0..360 {
             let (sin, cos) = (f64::from(k) * 0.017_453_3).sin_cos();
-            let seen = Seen { wheel_speed: [0.0; 4], bus: f64::INFINITY };
-            let decided =
-                controller.tick(&mut Memory::default(), &seen, BodyTwist { v: 9.0 * cos, vn: 9.0 * sin, w: 0.0 });
-            worst = decided.current.iter().fold(worst, |most, i| most.max(i.abs()));
+            let measured = Measurement { wheel_speed: [0.0; 4], bus: f64::INFINITY };
+            let output =
+                controller.tick(&mut Memory::default(), &measured, BodyTwist { v: 9.0 * cos, vn: 9.0 * sin, w: 0.0 });
+            worst = output.current.iter().fold(worst, |most, i| most.max(i.abs()));
         }
         worst
     };
@@ -265,8 +266,8 @@ fn a_robot_that_has_lost_too_much_stays() {
     assert!(!three.moves());
     let mut memory = Memory { reference: BodyTwist { v: 1.0, vn: 0.0, w: 0.0 }, ..Memory::default() };
     let want = BodyTwist { v: 1.0, vn: 1.0, w: 1.0 };
-    let decided = three.tick(&mut memory, &Seen { wheel_speed: [3.0; 3], bus: 12.0 }, want);
-    assert_eq!((decided.current, decided.voltage), ([0.0; 3], [0.0; 3]));
+    let output = three.tick(&mut memory, &Measurement { wheel_speed: [3.0; 3], bus: 12.0 }, want);
+    assert_eq!((output.current, output.voltage), ([0.0; 3], [0.0; 3]));
     // and does not go on where it was once the wheel is back
     assert_eq!(memory.reference, BodyTwist::default());
 }

@@ -5,7 +5,7 @@
 use core::array;
 
 use super::{Controller, Memory};
-use crate::control::compensation::{Excess, Loss};
+use crate::control::compensation::{DeadTimeLoss, StribeckExcess};
 use crate::effects::body::{coriolis, floor_tilt};
 use crate::effects::contact::creep;
 use crate::effects::drivetrain::{gear_efficiency, stribeck};
@@ -16,7 +16,7 @@ use crate::number::linalg::{Mat3, dot};
 use crate::number::scalar::Real;
 
 /// The robot cannot move.
-pub(super) const STAYS: u32 = 1;
+pub(super) const IMMOBILE: u32 = 1;
 /// `coriolis` is undone.
 pub(super) const CORIOLIS: u32 = 1 << 1;
 /// `floor_tilt` is undone.
@@ -42,7 +42,7 @@ const STILL: f64 = 1e-5;
 
 /// The effects' numbers, folded.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Undo<const N: usize, T> {
+pub(super) struct CompensationTerms<const N: usize, T> {
     /// R [Ω] and l·K_v [V·s] of each motor
     pub winding: [(T, T); N],
     /// k of coriolis [1]
@@ -56,7 +56,7 @@ pub(super) struct Undo<const N: usize, T> {
     /// Half a turn [s]
     pub half: T,
     /// Stribeck's numbers
-    pub stribeck: [Excess<T>; N],
+    pub stribeck: [StribeckExcess<T>; N],
     /// e·τ_C of each wheel [N·m]
     pub static_excess: [T; N],
     /// G_j/r_j of every wheel, a lost one too [1/m, 1/m, 1]
@@ -70,7 +70,7 @@ pub(super) struct Undo<const N: usize, T> {
     /// Motor torque over torque wanted at the wheel: driving, driven [1]
     pub gear: [[T; 2]; N],
     /// Dead time's numbers
-    pub dead_time: [Loss<T>; N],
+    pub dead_time: [DeadTimeLoss<T>; N],
     /// Voltage that is kept free for the dead time [V]
     pub kept: T,
     /// c of each contact [(m/s)/N]
@@ -86,8 +86,8 @@ pub(super) struct Undo<const N: usize, T> {
 impl<const N: usize, T: Real> Controller<N, T> {
     /// Effects on the body and at the rims: force to give; by how much the wheels lead the floor [rad/s].
     #[inline(always)]
-    pub(super) fn undo_forces(&self, x: [T; 3], a: [T; 3], heading: T, force: &mut [T; 3]) -> [T; N] {
-        let u = &self.undo;
+    pub(super) fn compensate_forces(&self, x: [T; 3], a: [T; 3], heading: T, force: &mut [T; 3]) -> [T; N] {
+        let u = &self.compensation;
         let mut lead = [T::zero(); N];
         if self.flags & CORIOLIS != 0 {
             // the force that is there already, k·M·ω·(vn, −v)
@@ -107,7 +107,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
                 let rim = radius * dot(row, x);
                 // where the rim goes in the middle of the turn
                 let going = rim + u.half * (radius * dot(row, a));
-                let Excess { speed, exponent, .. } = u.stribeck[j];
+                let StribeckExcess { speed, exponent, .. } = u.stribeck[j];
                 let left = stribeck::left(speed, exponent, rim);
                 // τ = e·τ_C·exp(−(|v|/v_s)^a)·sign(v)
                 let sense = (going * T::lit(1.0 / STILL)).clamp(-T::one(), T::one());
@@ -118,15 +118,15 @@ impl<const N: usize, T: Real> Controller<N, T> {
             }
         }
         if self.flags & COUPLING != 0 {
-            self.undo_coupling(a, force);
+            self.compensate_coupling(a, force);
         }
         if self.flags & CREEP != 0 {
-            let speed = array::from_fn(|j| dot(self.drives[j].row, x));
-            let mut current = array::from_fn(|j| dot(self.drives[j].share, *force));
-            self.undo_losses(&speed, &mut current);
+            let speed = array::from_fn(|j| dot(self.wheels[j].row, x));
+            let mut current = array::from_fn(|j| dot(self.wheels[j].share, *force));
+            self.compensate_gear_losses(&speed, &mut current);
             lead = array::from_fn(|j| {
                 // f = (l·K_t·i − J_w·dω/dt)/r
-                let traction = u.push[j] * current[j] - u.spin[j] * dot(self.drives[j].row, a);
+                let traction = u.push[j] * current[j] - u.spin[j] * dot(self.wheels[j].row, a);
                 // r·ω = G_j·x + c·f
                 creep::slip(u.creep[j], traction) * u.per_radius[j]
             });
@@ -136,9 +136,9 @@ impl<const N: usize, T: Real> Controller<N, T> {
 
     /// The part of what turns with the wheels that couples the axes.
     #[inline(always)]
-    pub(super) fn undo_coupling(&self, a: [T; 3], force: &mut [T; 3]) {
+    pub(super) fn compensate_coupling(&self, a: [T; 3], force: &mut [T; 3]) {
         if self.flags & COUPLING != 0 {
-            let m = &self.undo.turning;
+            let m = &self.compensation.turning;
             force[0] += m[0][1] * a[1] + m[0][2] * a[2];
             force[1] += m[1][0] * a[0] + m[1][2] * a[2];
             force[2] += m[2][0] * a[0] + m[2][1] * a[1];
@@ -147,7 +147,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
 
     /// Losses of the gears: current to give.
     #[inline(always)]
-    pub(super) fn undo_losses(&self, speed: &[T; N], current: &mut [T; N]) {
+    pub(super) fn compensate_gear_losses(&self, speed: &[T; N], current: &mut [T; N]) {
         if self.flags & GEAR != 0 {
             *current = array::from_fn(|j| current[j] * self.over_efficiency(j, current[j], speed[j]));
         }
@@ -155,7 +155,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
 
     /// The same for a part of the currents `whole`.
     #[inline(always)]
-    pub(super) fn undo_losses_as(&self, speed: &[T; N], whole: &[T; N], part: &mut [T; N]) {
+    pub(super) fn compensate_gear_losses_as(&self, speed: &[T; N], whole: &[T; N], part: &mut [T; N]) {
         if self.flags & GEAR != 0 {
             *part = array::from_fn(|j| part[j] * self.over_efficiency(j, whole[j], speed[j]));
         }
@@ -164,31 +164,31 @@ impl<const N: usize, T: Real> Controller<N, T> {
     /// Motor torque over torque at the wheel [1].
     #[inline(always)]
     fn over_efficiency(&self, j: usize, current: T, speed: T) -> T {
-        let [driving, driven] = self.undo.gear[j];
+        let [driving, driven] = self.compensation.gear[j];
         if gear_efficiency::drives(current, speed) { driving } else { driven }
     }
 
     /// Losses of the bridges and offsets of the sensors, after the headroom.
     #[inline(always)]
-    pub(super) fn undo_last(&self, current: &mut [T; N], voltage: &mut [T; N]) {
+    pub(super) fn compensate_bridges_and_sensors(&self, current: &mut [T; N], voltage: &mut [T; N]) {
         if self.flags & DEAD_TIME != 0 {
             for j in 0..N {
-                let Loss { voltage: lost, smoothing } = self.undo.dead_time[j];
+                let DeadTimeLoss { voltage: lost, smoothing } = self.compensation.dead_time[j];
                 voltage[j] += dead_time::loss(lost, smoothing, current[j]);
             }
         }
         if self.flags & OFFSET != 0 {
-            *current = array::from_fn(|j| current_sensor_offset::reading(self.undo.offset[j], current[j]));
+            *current = array::from_fn(|j| current_sensor_offset::reading(self.compensation.offset[j], current[j]));
         }
     }
 
     /// Turns the heading along with the reference, whose ω was `before` [rad/s] at the beginning of the turn.
     #[inline(always)]
-    pub(super) fn turn_heading(&self, memory: &mut Memory<T>, before: T) {
+    pub(super) fn advance_heading(&self, memory: &mut Memory<T>, before: T) {
         if self.flags & TILT != 0 {
             let (pi, whole) = (T::lit(core::f64::consts::PI), T::lit(2.0 * core::f64::consts::PI));
             // θ ← θ + ½·(ω + ω⁺)·Δt
-            let heading = memory.heading + self.undo.half * (before + memory.reference.w);
+            let heading = memory.heading + self.compensation.half * (before + memory.reference.w);
             memory.heading = if heading > pi {
                 heading - whole
             } else if heading < -pi {

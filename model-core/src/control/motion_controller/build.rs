@@ -2,10 +2,10 @@
 
 use core::array;
 
-use super::undo::{self, Undo};
-use super::{Controller, Drive, Settings};
+use super::compensate::{self, CompensationTerms};
+use super::{Controller, Settings, WheelMap};
 use crate::control::compensation::Compensation;
-use crate::control::reference::Limiter;
+use crate::control::reference::AccelerationLimiter;
 use crate::effects::body::floor_tilt;
 use crate::effects::drivetrain::gear_efficiency;
 use crate::effects::electrical::motor_mismatch;
@@ -60,7 +60,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
     /// A robot that has lost more than its wheels allow gets one that stays: see [`Controller::moves`].
     pub fn new(settings: &Settings<N, T>) -> Self {
         let (zero, one) = (T::zero(), T::one());
-        let Settings { robot, undo, dt, .. } = settings;
+        let Settings { robot, compensation, dt, .. } = settings;
         let dt = *dt;
         let shares = shares(&robot.wheels, &settings.working);
         let moves = shares.is_some();
@@ -68,7 +68,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let kt = robot.motor.wheel_torque_constant();
         let on = if settings.feedforward { one } else { zero };
 
-        let mut drives = [Drive::default(); N];
+        let mut drives = [WheelMap::default(); N];
         let mut all_rows = [[zero; 3]; N];
         let mut push = [zero; N];
         let mut windings = [(zero, zero); N];
@@ -77,8 +77,8 @@ impl<const N: usize, T: Real> Controller<N, T> {
             let rim = robot.wheels.wheels()[j].rim();
             let row = robot.wheels.rows()[j];
             let winding = motor_mismatch::odd(
-                undo.torque_constant_ratio[j],
-                undo.resistance_ratio[j],
+                compensation.torque_constant_ratio[j],
+                compensation.resistance_ratio[j],
                 Winding {
                     current: zero,
                     speed: zero,
@@ -89,21 +89,21 @@ impl<const N: usize, T: Real> Controller<N, T> {
                 },
             );
             all_rows[j] = row.map(|g| rim.wheel_speed(g));
-            drives[j] = Drive {
+            drives[j] = WheelMap {
                 row: if settings.working[j] { all_rows[j] } else { [zero; 3] },
                 share: rows[j].map(|share| rim.wheel_torque(share) / winding.torque_constant),
             };
             windings[j] = (winding.resistance, winding.emf_constant * on);
             push[j] = rim.force(winding.torque_constant);
             // M → M + Σ J_w/r²·G_jᵀ·G_j: a lost wheel turns along
-            accumulate_outer(&mut turning, rim.mass(undo.rotor_inertia[j]), row);
+            accumulate_outer(&mut turning, rim.mass(compensation.rotor_inertia[j]), row);
         }
         let couples = |i: usize, k: usize| {
             let bound = T::lit(1e-12) * turning[i][i] * turning[k][k];
             turning[i][k] * turning[i][k] > bound
         };
         let coupled = couples(0, 1) || couples(0, 2) || couples(1, 2);
-        let excess = array::from_fn(|j| undo.stribeck[j].excess * robot.coulomb_shares()[j]);
+        let excess = array::from_fn(|j| compensation.stribeck[j].excess * robot.coulomb_shares()[j]);
         let acceleration = settings.acceleration;
         let mass = [
             on * (robot.mass + turning[0][0]),
@@ -112,7 +112,10 @@ impl<const N: usize, T: Real> Controller<N, T> {
         ];
         Self {
             flags: flags(settings, moves, coupled),
-            limiter: Limiter::new([acceleration[0] * plane, acceleration[1] * plane, acceleration[2] * turn], dt),
+            limiter: AccelerationLimiter::new(
+                [acceleration[0] * plane, acceleration[1] * plane, acceleration[2] * turn],
+                dt,
+            ),
             rate: one / dt,
             mass,
             push: mass.map(|m| m / dt),
@@ -124,35 +127,41 @@ impl<const N: usize, T: Real> Controller<N, T> {
             max_duty: settings.max_duty,
             resistance: robot.motor.resistance,
             emf: robot.motor.wheel_emf_constant() * on,
-            drives,
-            undo: fold(undo, robot.mass, dt, &robot.wheels, Rows { windings, rows: all_rows, excess, push, turning }),
+            wheels: drives,
+            compensation: compensation_terms(
+                compensation,
+                robot.mass,
+                dt,
+                &robot.wheels,
+                Rows { windings, rows: all_rows, excess, push, turning },
+            ),
         }
     }
 
     /// True if the robot can move with the wheels that work.
     pub fn moves(&self) -> bool {
-        self.flags & undo::STAYS == 0
+        self.flags & compensate::IMMOBILE == 0
     }
 }
 
-/// Which parts of a turn's `undo` there is something to do in.
+/// Which parts of a turn's `compensation` there is something to do in.
 fn flags<const N: usize, T: Real>(settings: &Settings<N, T>, moves: bool, coupled: bool) -> u32 {
-    let undo = &settings.undo;
+    let compensation = &settings.compensation;
     let none = Compensation::<N, T>::none();
     let motion = settings.feedforward;
-    let mismatch =
-        undo.torque_constant_ratio != none.torque_constant_ratio || undo.resistance_ratio != none.resistance_ratio;
+    let mismatch = compensation.torque_constant_ratio != none.torque_constant_ratio
+        || compensation.resistance_ratio != none.resistance_ratio;
     let bit = |there: bool, bit: u32| if there { bit } else { 0 };
-    bit(!moves, undo::STAYS)
-        | bit(motion && undo.coriolis != none.coriolis, undo::CORIOLIS)
-        | bit(motion && undo.tilt != none.tilt, undo::TILT)
-        | bit(motion && undo.stribeck.iter().any(|s| s.excess != T::zero()), undo::STRIBECK)
-        | bit(motion && coupled, undo::COUPLING)
-        | bit(undo.gear_efficiency != none.gear_efficiency, undo::GEAR)
-        | bit(undo.dead_time.iter().any(|d| d.voltage != T::zero()), undo::DEAD_TIME)
-        | bit(motion && undo.creep != none.creep, undo::CREEP)
-        | bit(mismatch, undo::MISMATCH)
-        | bit(undo.current_offset != none.current_offset, undo::OFFSET)
+    bit(!moves, compensate::IMMOBILE)
+        | bit(motion && compensation.coriolis != none.coriolis, compensate::CORIOLIS)
+        | bit(motion && compensation.tilt != none.tilt, compensate::TILT)
+        | bit(motion && compensation.stribeck.iter().any(|s| s.excess != T::zero()), compensate::STRIBECK)
+        | bit(motion && coupled, compensate::COUPLING)
+        | bit(compensation.gear_efficiency != none.gear_efficiency, compensate::GEAR)
+        | bit(compensation.dead_time.iter().any(|d| d.voltage != T::zero()), compensate::DEAD_TIME)
+        | bit(motion && compensation.creep != none.creep, compensate::CREEP)
+        | bit(mismatch, compensate::MISMATCH)
+        | bit(compensation.current_offset != none.current_offset, compensate::OFFSET)
 }
 
 /// What the wheels give to the effects.
@@ -164,39 +173,39 @@ struct Rows<const N: usize, T> {
     turning: Mat3<T>,
 }
 
-fn fold<const N: usize, T: Real>(
-    undo: &Compensation<N, T>,
+fn compensation_terms<const N: usize, T: Real>(
+    compensation: &Compensation<N, T>,
     mass: T,
     dt: T,
     wheels: &Wheels<N, T>,
     of: Rows<N, T>,
-) -> Undo<N, T> {
+) -> CompensationTerms<N, T> {
     let one = T::one();
-    Undo {
+    CompensationTerms {
         winding: of.windings,
-        coriolis: undo.coriolis,
+        coriolis: compensation.coriolis,
         mass,
-        steepest: floor_tilt::steepest(undo.tilt),
-        downhill: undo.downhill,
+        steepest: floor_tilt::steepest(compensation.tilt),
+        downhill: compensation.downhill,
         half: T::lit(0.5) * dt,
-        stribeck: undo.stribeck,
+        stribeck: compensation.stribeck,
         static_excess: of.excess,
         rows: of.rows,
         radius: wheels.wheels().map(|wheel| wheel.radius),
         per_radius: wheels.wheels().map(|wheel| one / wheel.radius),
         turning: of.turning,
         // driving: τ_w = τ_m − loss, driven: τ_w = τ_m + loss, and the loss is in proportion to τ_m
-        gear: undo.gear_efficiency.map(|efficiency| {
+        gear: compensation.gear_efficiency.map(|efficiency| {
             [
                 one / (one - gear_efficiency::loss(efficiency, one, one)),
                 one / (one + gear_efficiency::loss(efficiency, one, -one)),
             ]
         }),
-        dead_time: undo.dead_time,
-        kept: undo.dead_time.iter().fold(T::zero(), |most, d| most.max(d.voltage)),
-        creep: undo.creep,
+        dead_time: compensation.dead_time,
+        kept: compensation.dead_time.iter().fold(T::zero(), |most, d| most.max(d.voltage)),
+        creep: compensation.creep,
         push: of.push,
-        spin: array::from_fn(|j| wheels.wheels()[j].rim().force(undo.rotor_inertia[j])),
-        offset: undo.current_offset,
+        spin: array::from_fn(|j| wheels.wheels()[j].rim().force(compensation.rotor_inertia[j])),
+        offset: compensation.current_offset,
     }
 }
