@@ -10,6 +10,7 @@
 //! - [`printed`]: every figure that the paper prints, beside what comes out when it is computed;
 //! - [`generated`]: the paper's robots as Rust, from their robot files;
 //! - [`catalogue`]: the benchmark of the diagnosis, on recordings whose truth is known;
+//! - [`frozen`]: whole reports that stay as they are while walls move;
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
 //! - [`real`]: what the diagnosis says of recordings of real robots;
 //! - [`virtual_board`]: what the robot's electronics see, without the robot;
@@ -31,6 +32,7 @@ pub mod costs;
 pub mod emulator;
 pub mod excite;
 pub mod flow;
+pub mod frozen;
 pub mod generated;
 pub mod golden;
 pub mod identification;

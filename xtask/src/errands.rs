@@ -60,6 +60,12 @@ pub const ERRANDS: &[Errand] = &[
         does: "diagnose the recordings of real robots in FOLDER (or in OMNI_GAP_DATA)",
         run: on_recordings,
     },
+    Errand {
+        name: "frozen",
+        takes: "[FOLDER]",
+        does: "compare whole reports with the frozen ones, with FOLDER real recordings' too (BLESS=1: freeze anew)",
+        run: frozen,
+    },
     Errand { name: "help", takes: "", does: "print this list", run: help },
 ];
 
@@ -146,6 +152,15 @@ fn image(_: Option<OsString>) -> Result<(), String> {
 fn on_recordings(argument: Option<OsString>) -> Result<(), String> {
     let folder = real::folder(argument, std::env::var_os(real::VARIABLE))?;
     announced(Line::of("cargo run --release -p host-tests --bin real --").word(folder))
+}
+
+fn frozen(argument: Option<OsString>) -> Result<(), String> {
+    let line = Line::of("cargo run --release -p host-tests --bin frozen --");
+    let variable = std::env::var_os(real::VARIABLE);
+    announced(match argument.is_some() || variable.is_some() {
+        true => line.word(real::folder(argument, variable)?),
+        false => line,
+    })
 }
 
 fn help(_: Option<OsString>) -> Result<(), String> {

@@ -145,30 +145,45 @@ fn numbers(case: &Case, report: &Report, file: &RobotFile) -> Vec<Number> {
     }
 }
 
+/// The cause that a report puts first, with its wheel; none where it names none.
+fn first(report: &Report) -> Option<(&str, Option<usize>)> {
+    let id = report.causes.first()?;
+    Some((id, report.cause(id).and_then(|which| which.wheel)))
+}
+
+/// Causes that a report cannot tell from its first.
+fn alike(report: &Report) -> &[String] {
+    let first = report.causes.first().and_then(|id| report.cause(id));
+    first.map_or(&[], |which| &which.not_told_apart_from)
+}
+
+/// How good an answer is, where the truth is known.
+pub fn judge(hidden: &Hidden, report: &Report) -> Judged {
+    let Some((cause, wheel)) = hidden.cause() else {
+        return if report.verdict == Verdict::NoGap { Judged::First } else { Judged::Wrong };
+    };
+    let in_place = report.cause(cause).is_some_and(|which| which.wheel == wheel);
+    match first(report) {
+        Some((first, _)) if first == cause && in_place => Judged::First,
+        Some(_) if in_place && alike(report).iter().any(|id| id == cause) => Judged::Named,
+        _ => Judged::Wrong,
+    }
+}
+
 impl Outcome {
     /// The cause that the diagnosis puts first, with its wheel; none where it names none.
     pub fn first(&self) -> Option<(&str, Option<usize>)> {
-        let id = self.report.causes.first()?;
-        Some((id, self.report.cause(id).and_then(|which| which.wheel)))
+        first(&self.report)
     }
 
     /// Causes that the diagnosis cannot tell from its first.
     pub fn alike(&self) -> &[String] {
-        let first = self.report.causes.first().and_then(|id| self.report.cause(id));
-        first.map_or(&[], |which| &which.not_told_apart_from)
+        alike(&self.report)
     }
 
     /// How good the answer is.
     pub fn judged(&self) -> Judged {
-        let Some((cause, wheel)) = self.case.hidden.cause() else {
-            return if self.report.verdict == Verdict::NoGap { Judged::First } else { Judged::Wrong };
-        };
-        let in_place = self.report.cause(cause).is_some_and(|which| which.wheel == wheel);
-        match self.first() {
-            Some((first, _)) if first == cause && in_place => Judged::First,
-            Some(_) if in_place && self.alike().iter().any(|id| id == cause) => Judged::Named,
-            _ => Judged::Wrong,
-        }
+        judge(&self.case.hidden, &self.report)
     }
 
     /// What the true model closes of its gap; none where there is none worth dividing by.

@@ -13,8 +13,14 @@ use omni_gap::stage::{Stage, stage};
 /// The seed of the first session; the others count up from it, in the order of [`cases`]. Nobody chose them by result.
 pub const FIRST_SEED: u64 = 2000;
 
+/// The seed of the reduced benchmark's first session.
+pub const FIRST_SHORT_SEED: u64 = 4000;
+
 /// Sessions with nothing hidden, on each robot.
 pub const NOTHING_EACH: usize = 5;
+
+/// The same, of the reduced benchmark.
+pub const NOTHING_EACH_SHORT: usize = 3;
 
 /// The wheel of an effect that sits on one wheel alone.
 pub const THE_WHEEL: usize = 1;
@@ -77,6 +83,16 @@ impl fmt::Display for Hidden {
     }
 }
 
+/// How much is recorded of a robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Length {
+    /// As much as [`Stage`] records by default.
+    Full,
+    /// Eight runs of 3 s at 200 rows a second, of which two are held out: one alone has too few windows to be sure of an
+    /// effect.
+    Short,
+}
+
 /// One session of the benchmark.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -86,19 +102,30 @@ pub struct Case {
     pub wheels: usize,
     /// What the simulator does not know.
     pub hidden: Hidden,
+    /// How much is recorded.
+    pub length: Length,
 }
 
 /// All sessions, in the order of their seeds.
 pub fn cases() -> Vec<Case> {
+    numbered(FIRST_SEED, NOTHING_EACH, Length::Full)
+}
+
+/// The reduced benchmark: the same, short, with seeds of its own and fewer sessions with nothing hidden.
+pub fn short_cases() -> Vec<Case> {
+    numbered(FIRST_SHORT_SEED, NOTHING_EACH_SHORT, Length::Short)
+}
+
+fn numbered(first_seed: u64, nothing_each: usize, length: Length) -> Vec<Case> {
     let effects = effects::catalogue::<f64>().iter().map(|effect| {
         let card = effect.card();
         Hidden::Effect(Carried::typical(card, (card.scope == Scope::OneWheel).then_some(THE_WHEEL)))
     });
-    let nothing = std::iter::repeat_n(Hidden::Nothing, NOTHING_EACH);
+    let nothing = std::iter::repeat_n(Hidden::Nothing, nothing_each);
     let all = effects.chain(nothing).chain(WRONG.map(Hidden::Parameter));
     let on_both = all.flat_map(|hidden| WHEELS.map(|wheels| (wheels, hidden.clone())));
-    let numbered = (FIRST_SEED..).zip(on_both);
-    numbered.map(|(seed, (wheels, hidden))| Case { seed, wheels, hidden }).collect()
+    let seeded = (first_seed..).zip(on_both);
+    seeded.map(|(seed, (wheels, hidden))| Case { seed, wheels, hidden, length }).collect()
 }
 
 /// The text of the true robot's file.
@@ -110,9 +137,13 @@ pub fn truth(wheels: usize) -> &'static str {
 }
 
 impl Case {
-    /// How it is staged: as long, as noisy and as uncertain as [`Stage`] is by default.
+    /// How it is staged: as noisy and as uncertain as [`Stage`] is by default.
     pub fn plan(&self) -> Stage {
-        let mut plan = Stage { seed: self.seed, ..Stage::default() };
+        let mut plan = match self.length {
+            Length::Full => Stage::default(),
+            Length::Short => Stage { runs: 8, duration: 3.0, rate: 200.0, ..Stage::default() },
+        };
+        plan.seed = self.seed;
         match &self.hidden {
             Hidden::Effect(effect) => plan.hidden.push(effect.clone()),
             Hidden::Nothing => {}
@@ -126,7 +157,17 @@ impl Case {
     /// # Errors
     /// Where the true robot's file is not sound.
     pub fn session(&self) -> Result<Session> {
-        stage(truth(self.wheels), &self.plan(), &known_effects())
+        self.session_with(&[])
+    }
+
+    /// The same, of a robot that has these effects too.
+    ///
+    /// # Errors
+    /// Where the true robot's file is not sound.
+    pub fn session_with(&self, more: &[Carried]) -> Result<Session> {
+        let mut plan = self.plan();
+        plan.hidden.extend_from_slice(more);
+        stage(truth(self.wheels), &plan, &known_effects())
     }
 }
 
@@ -144,6 +185,20 @@ mod tests {
         assert_eq!(count(|h| matches!(h, Hidden::Nothing)), 10);
         assert_eq!(count(|h| matches!(h, Hidden::Parameter(_))), 6);
         assert!(all.windows(2).all(|pair| pair[1].seed == pair[0].seed + 1));
+    }
+
+    #[test]
+    fn the_reduced_benchmark_hides_the_same_and_shares_no_seed() {
+        let (all, short) = (cases(), short_cases());
+        let hidden = |cases: &[Case]| {
+            let mut named: Vec<String> = cases.iter().map(|c| format!("{} on {}", c.hidden, c.wheels)).collect();
+            named.sort();
+            named.dedup();
+            named
+        };
+        assert_eq!(hidden(&all), hidden(&short));
+        assert_eq!(short.iter().filter(|case| case.hidden == Hidden::Nothing).count(), 6);
+        assert!(short.iter().all(|case| all.iter().all(|other| other.seed != case.seed)));
     }
 
     #[test]

@@ -34,7 +34,7 @@ impl Report {
         );
         must(self.causes.iter().all(|c| self.cause(c).is_some()), "a cause is not among `which`");
         must(self.shrink.closed.is_some() || self.shrink.reason.is_some(), "`closed` is null and no reason is given");
-        must((self.verdict == Verdict::UnfitData) != self.faults.is_empty(), "faults stand with unfit_data only");
+        must(self.verdict != Verdict::UnfitData || !self.faults.is_empty(), "unfit_data names no fault");
         must(self.every_number_is_finite(), "a number is not finite");
         found
     }

@@ -1,0 +1,53 @@
+//! # Frozen: whole reports that stay as they are while walls move
+//!
+//! While code is moved and answers are not meant to change, every field of `report.json` and the corrected robot file of
+//! many [`recordings`] is held to what it was: one line of `golden/frozen.jsonl` a recording. A field that is new is left
+//! aside ([`compare`]); everything else has to be the same number, bit for bit. `cargo xtask frozen` compares all of
+//! them, and with a folder of real recordings those too (`golden/frozen-real.jsonl`).
+
+pub mod compare;
+pub mod layouts;
+pub mod recordings;
+
+use omni_gap::error::Result;
+use omni_gap::{Diagnosis, Options, Session};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use crate::real::sessions::SESSIONS;
+use recordings::Recording;
+
+/// The file of the recordings that are made here.
+pub const FILE: &str = "frozen.jsonl";
+
+/// The file of the real ones.
+pub const REAL_FILE: &str = "frozen-real.jsonl";
+
+/// What a diagnosis leaves, as one value.
+fn answer(name: &str, session: &Session) -> Value {
+    let diagnosis = Diagnosis::of(session, &Options::default());
+    json!({ "recording": name, "report": diagnosis.report, "corrected_robot": diagnosis.corrected_robot })
+}
+
+/// The answers to recordings, in their order; as many at once as there are threads.
+///
+/// # Errors
+/// Where a recording cannot be made.
+pub fn answers(recordings: &[Recording]) -> Result<Vec<Value>> {
+    recordings.par_iter().map(|recording| Ok(answer(&recording.name, &recording.session()?))).collect()
+}
+
+/// The answers to the real recordings in a folder.
+///
+/// # Errors
+/// Where one of them is not there or not sound.
+pub fn real_answers(folder: &std::path::Path) -> Result<Vec<Value>> {
+    // where the recordings lie on this machine is nobody's business
+    let place = format!("{}/", folder.display());
+    let answered = |real: &crate::real::sessions::Real| -> Result<Value> {
+        let mut session = real.session(folder)?;
+        session.notices.iter_mut().for_each(|notice| *notice = notice.replace(&place, ""));
+        Ok(answer(real.title, &session))
+    };
+    SESSIONS.par_iter().map(answered).collect()
+}
