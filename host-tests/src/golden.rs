@@ -1,11 +1,12 @@
 //! # Golden: pages that a program makes and is held to
 //!
 //! With `BLESS=1` in the environment the page is written, otherwise it is compared with the one that stands in `golden/`.
-//! What counts as a difference is the page's own affair; a page of prose and tables is compared line by line.
+//! What counts as a difference is the page's own affair; a page of prose and tables is compared line by line. What takes
+//! too long to be made in every run of the tests is a [`record`], and says so.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 
 use omni_gap::error::Result;
 use omni_gap::log::write_whole;
@@ -29,6 +30,30 @@ pub fn keeps(name: &str, page: &str, differences: impl FnOnce(&str) -> Vec<Strin
     let found = differences(&std::fs::read_to_string(path(name)).unwrap_or_default());
     found.iter().for_each(|what| println!("not as in host-tests/golden/{name} (BLESS=1 rewrites it): {what}"));
     Ok(found.is_empty())
+}
+
+/// What the last line of a record begins with.
+pub const RECORD: &str = "A record of a long run, not compared by the test command: made by `";
+
+/// Writes a page that is too long in the making to be compared: its last line names the command and the commit.
+///
+/// # Errors
+/// Where the page cannot be written.
+pub fn record(name: &str, page: &str, command: &str) -> Result<()> {
+    write_whole(&path(name), format!("{page}\n---\n\n{RECORD}{command}` at commit {}.\n", commit()).as_bytes())?;
+    println!("written: host-tests/golden/{name}; read the difference before you commit it: git diff");
+    Ok(())
+}
+
+/// The commit of this tree, as git abbreviates it; said where files differ from it.
+fn commit() -> String {
+    let git = |arguments: &[&str]| {
+        let done = Command::new("git").args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).output().ok()?;
+        done.status.success().then(|| String::from_utf8_lossy(&done.stdout).trim().to_owned())
+    };
+    let changed = git(&["status", "--porcelain", "--untracked-files=no"]).is_some_and(|said| !said.is_empty());
+    let hash = git(&["rev-parse", "--short", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
+    if changed { format!("{hash} with changes") } else { hash }
 }
 
 /// The lines in which two pages differ, where `same` tells lines that do not.

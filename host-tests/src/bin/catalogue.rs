@@ -2,14 +2,13 @@
 //!
 //! With a word, only the sessions with that word in their name, at more length and without a page.
 
-use std::path::Path;
 use std::process::ExitCode;
 
 use host_tests::catalogue::outcome::{Judged, Outcome, diagnosed};
 use host_tests::catalogue::page::{page, plain, promises, word};
 use host_tests::catalogue::sessions::cases;
+use host_tests::golden::record;
 use omni_gap::Error;
-use omni_gap::log::write_whole;
 use omni_gap::report::{num, percent, terminal};
 
 fn main() -> ExitCode {
@@ -47,9 +46,7 @@ fn benchmark(only: Option<&str>) -> Result<(), Error> {
         seconds.iter().sum::<f64>() / seconds.len() as f64
     );
     if only.is_none() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join("catalogue.md");
-        write_whole(&path, page(&outcomes).as_bytes())?;
-        println!("written: host-tests/golden/catalogue.md; read the difference before you commit it: git diff");
+        record("catalogue.md", &page(&outcomes), "cargo xtask benchmark")?;
     }
     Ok(())
 }

@@ -3,11 +3,11 @@
 //! With a number, at most so many seeds a case; with a second word, only the cases with that word in their title. Then
 //! the page is printed and not kept.
 
-use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
 use host_tests::catalogue::sessions::WHEELS;
+use host_tests::golden::record;
 use host_tests::identification::Results;
 use host_tests::identification::case::{CASES, Case};
 use host_tests::identification::idle::{ASKED, idle};
@@ -15,7 +15,6 @@ use host_tests::identification::missing::{Group, SEEDS, missing};
 use host_tests::identification::page::page;
 use host_tests::identification::promises::promises;
 use host_tests::identification::study::studied;
-use omni_gap::log::write_whole;
 
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
@@ -35,15 +34,13 @@ fn main() -> ExitCode {
         println!("{text}");
         return ExitCode::SUCCESS;
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join("identification.md");
-    if let Err(why) = write_whole(&path, text.as_bytes()) {
+    if let Err(why) = record("identification.md", &text, "cargo xtask identification") {
         eprintln!("{why}");
         return ExitCode::FAILURE;
     }
     for promise in promises(&results).iter().filter(|p| !p.kept()) {
         println!("not kept: {}: {} ({}), {:?}", promise.what, promise.found, promise.at, promise.bar);
     }
-    println!("written: host-tests/golden/identification.md; read the difference before you commit it: git diff");
     ExitCode::SUCCESS
 }
 

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
+use host_tests::golden::record;
 use host_tests::real::page::{page, warning};
 use host_tests::real::sessions::SESSIONS;
-use omni_gap::log::write_whole;
 use omni_gap::report::terminal;
 use omni_gap::{Diagnosis, Error, Options};
 
@@ -43,8 +43,5 @@ fn diagnosed(folder: &Path) -> Result<(), Error> {
         println!();
         answered.push((real, report));
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join("real.md");
-    write_whole(&path, page(&answered).as_bytes())?;
-    println!("written: host-tests/golden/real.md; read the difference before you commit it: git diff");
-    Ok(())
+    record("real.md", &page(&answered), "cargo xtask real FOLDER")
 }
