@@ -144,7 +144,7 @@ fn reduced(case: Case) -> Recording {
     }
 }
 
-fn card(id: &str) -> &'static model_core::card::Card {
+fn card(id: &str) -> &'static model_core::effects::card::Card {
     model_core::effects::find::<f64>(id).expect("the catalogue has it").card()
 }
 
