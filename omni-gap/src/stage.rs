@@ -7,13 +7,14 @@
 
 use std::path::{Path, PathBuf};
 
+use model_core::effects::nominal::{self, Number, Table};
 use model_core::plant::{Input, Plant};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::error::Result;
-use crate::log::{Catalogue, DEFAULT_UNCERTAINTY, RobotFile, Run, Session, corrected};
+use crate::log::{Catalogue, RobotFile, Run, Session, corrected};
 use crate::simulate::{Carried, Excitation, Model, NominalKey, Recording, excite, record};
 
 /// What is staged.
@@ -62,7 +63,9 @@ pub fn stage(truth: &str, plan: &Stage, catalogue: &Catalogue) -> Result<Session
     let file = RobotFile::parse(truth, path, catalogue)?;
     let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
     let mut changes = Vec::new();
-    for (key, _) in DEFAULT_UNCERTAINTY {
+    // friction is drawn last
+    let (friction, others): (Vec<&Number>, Vec<_>) = nominal::numbers().partition(|n| n.table == Table::Friction);
+    for key in others.iter().chain(&friction).map(|number| number.key) {
         let draw: f64 = StandardNormal.sample(&mut random);
         let sigma = file.relative_uncertainty(key).unwrap_or(0.0);
         let off = if plan.uncertain { (sigma * draw).exp() } else { 1.0 };

@@ -58,18 +58,10 @@ fn key_of(p: Nominal) -> &'static NominalKey {
     NominalKey::alone(p).expect("every number has a key")
 }
 
-/// How a number is written.
+/// How a number is written; K_v goes along with K_t, and the two go by the latter.
 pub const fn symbol(p: Nominal) -> &'static str {
     match p {
-        Nominal::Resistance => "R",
-        Nominal::TorqueConstant => "K_t",
-        Nominal::Inertia => "J",
-        Nominal::ViscousV => "B_v",
-        Nominal::ViscousVn => "B_vn",
-        Nominal::ViscousW => "B_ω",
-        Nominal::CoulombV => "C_v",
-        Nominal::CoulombVn => "C_vn",
-        Nominal::CoulombW => "C_ω",
-        _ => "?",
+        Nominal::TorqueConstant => Nominal::KtOverKv.number().symbol,
+        _ => p.number().symbol,
     }
 }

@@ -2,6 +2,8 @@
 //!
 //! Its order is the order in which effects act at a seam that they share.
 
+use super::card::{Card, Stage};
+use super::nominal::{NOMINAL, NominalCard};
 use super::{Effect, body, contact, drivetrain, electrical, sensing};
 use crate::number::scalar::Real;
 
@@ -29,4 +31,50 @@ pub fn catalogue<T: Real>() -> &'static [&'static dyn Effect<T>] {
 /// The effect of this id.
 pub fn find<T: Real>(id: &str) -> Option<&'static dyn Effect<T>> {
     catalogue::<T>().iter().copied().find(|e| e.card().id == id)
+}
+
+/// Anything that a gap can come from: its page as data.
+#[derive(Clone, Copy, Debug)]
+pub enum CauseCard {
+    /// Something that the model leaves out.
+    Effect(&'static Card),
+    /// A number that the model has wrong.
+    Nominal(&'static NominalCard),
+}
+
+impl CauseCard {
+    /// The name that files and reports use.
+    pub const fn id(self) -> &'static str {
+        match self {
+            CauseCard::Effect(card) => card.id,
+            CauseCard::Nominal(card) => card.id,
+        }
+    }
+
+    /// Its name for people.
+    pub const fn title(self) -> &'static str {
+        match self {
+            CauseCard::Effect(card) => card.title,
+            CauseCard::Nominal(card) => card.title,
+        }
+    }
+
+    /// The stage where a report places it.
+    pub const fn stage(self) -> Stage {
+        match self {
+            CauseCard::Effect(card) => card.stage(),
+            CauseCard::Nominal(card) => card.stage,
+        }
+    }
+}
+
+/// Every cause that there is: the effects, then the nominal parameters.
+pub fn causes() -> impl Iterator<Item = CauseCard> {
+    let effects = catalogue::<f64>().iter().map(|effect| CauseCard::Effect(effect.card()));
+    effects.chain(NOMINAL.into_iter().map(CauseCard::Nominal))
+}
+
+/// The cause of this id.
+pub fn cause(id: &str) -> Option<CauseCard> {
+    causes().find(|cause| cause.id() == id)
 }

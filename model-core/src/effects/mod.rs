@@ -26,8 +26,11 @@ pub mod body;
 
 pub mod sensing;
 
+// The numbers that a robot file can have wrong
+pub mod nominal;
+
 mod catalogue;
-pub use catalogue::{catalogue, find};
+pub use catalogue::{CauseCard, catalogue, cause, causes, find};
 
 // The effects of one model
 pub mod active;

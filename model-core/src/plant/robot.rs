@@ -41,8 +41,9 @@ pub struct Robot<const N: usize, T = f32> {
 
 /// What a nominal value may be wrong by: a factor on each, one where it is right.
 ///
-/// These are the free numbers of a re-fit. Radius and distance are common to all wheels: what sets one wheel apart is
-/// an effect.
+/// These are the free numbers of a re-fit; what each one is called and how it is measured says its card in
+/// [`effects::nominal`](crate::effects::nominal). Radius and distance are common to all wheels: what sets one wheel apart
+/// is an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nominal {
     /// M
@@ -93,31 +94,6 @@ impl Nominal {
         Nominal::WheelRadius,
         Nominal::CenterDistance,
     ];
-
-    /// The body axis (v, vn, ω: 0, 1, 2) that a friction belongs to.
-    pub const fn axis(self) -> Option<usize> {
-        match self {
-            Nominal::ViscousV | Nominal::CoulombV => Some(0),
-            Nominal::ViscousVn | Nominal::CoulombVn => Some(1),
-            Nominal::ViscousW | Nominal::CoulombW => Some(2),
-            _ => None,
-        }
-    }
-
-    /// The cause that a report names for it.
-    pub const fn cause(self) -> &'static str {
-        match self {
-            Nominal::Mass => "mass",
-            Nominal::Inertia => "inertia",
-            Nominal::Resistance => "resistance",
-            Nominal::TorqueConstant => "torque_constant",
-            Nominal::KtOverKv => "kt_over_kv",
-            Nominal::ViscousV | Nominal::ViscousVn | Nominal::ViscousW => "viscous_friction",
-            Nominal::CoulombV | Nominal::CoulombVn | Nominal::CoulombW => "coulomb_friction",
-            Nominal::WheelRadius => "wheel_radius",
-            Nominal::CenterDistance => "center_distance",
-        }
-    }
 }
 
 impl<const N: usize, T: Real> Robot<N, T> {

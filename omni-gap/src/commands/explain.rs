@@ -4,16 +4,13 @@ use std::fmt::Write;
 
 use model_core::effects;
 use model_core::effects::card::{Card, Role, Scope};
+use model_core::effects::nominal::{NOMINAL, NominalCard};
 use omni_gap::log::nearest;
 use omni_gap::report::num;
 use omni_gap::simulate::NOMINAL_KEYS;
 
 use super::voice::wrapped;
 use super::{DONE, Done, Stop, Voice};
-
-mod parameters;
-
-use parameters::{PARAMETERS, Parameter};
 
 /// Explain an effect or a parameter that can be the cause of a gap; without a name, list all
 #[derive(Debug, clap::Args)]
@@ -32,7 +29,7 @@ impl Explain {
     pub fn run(&self, voice: &Voice) -> Done {
         let page = match &self.name {
             None => list(),
-            Some(name) => match (cards().find(|c| c.id == name), PARAMETERS.iter().find(|p| p.id == name)) {
+            Some(name) => match (cards().find(|c| c.id == name), NOMINAL.iter().find(|p| p.id == name)) {
                 (Some(card), _) => effect(card),
                 (None, Some(parameter)) => parameter_page(parameter),
                 (None, None) => return Err(unknown(name)),
@@ -44,7 +41,7 @@ impl Explain {
 }
 
 fn unknown(name: &str) -> Stop {
-    let near = nearest(name, cards().map(|c| c.id).chain(PARAMETERS.iter().map(|p| p.id)));
+    let near = nearest(name, cards().map(|c| c.id).chain(NOMINAL.iter().map(|p| p.id)));
     let mend = match near {
         Some(near) => format!("Did you mean `{near}`?"),
         None => "`omni-gap explain` lists all names".to_owned(),
@@ -54,12 +51,12 @@ fn unknown(name: &str) -> Stop {
 
 fn list() -> String {
     let mut page = "Effects that a simulator may lack:\n".to_owned();
-    let width = cards().map(|c| c.id.len()).chain(PARAMETERS.iter().map(|p| p.id.len())).max().unwrap_or(0) + 2;
+    let width = cards().map(|c| c.id.len()).chain(NOMINAL.iter().map(|p| p.id.len())).max().unwrap_or(0) + 2;
     for card in cards() {
         let _ = writeln!(page, "  {:width$}{} ({})", card.id, card.title, card.stage().name());
     }
     page += "\nParameters that a robot file may have wrong:\n";
-    for parameter in &PARAMETERS {
+    for parameter in NOMINAL {
         let _ = writeln!(page, "  {:width$}{}", parameter.id, parameter.title);
     }
     page + "\n`omni-gap explain NAME` tells more of each.\n"
@@ -117,7 +114,7 @@ fn table(card: &Card) -> String {
     }
 }
 
-fn parameter_page(parameter: &Parameter) -> String {
+fn parameter_page(parameter: &NominalCard) -> String {
     let mut page = format!("{}: {} (a parameter of the robot file)\n\n", parameter.id, parameter.title);
     page += &wrapped(0, parameter.summary);
     page += "\nIn the robot file\n";

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use model_core::effects;
-use model_core::effects::card::Card;
+use model_core::effects::{self, CauseCard};
 use model_core::plant::robot::Nominal;
 
 use crate::identify::Fit;
@@ -18,10 +17,6 @@ const TEMPERATURE: f64 = 3.0;
 const HEAD_START: f64 = 12.0;
 /// A typical effect below this many sigma of the whole recording could not have been seen.
 const VISIBLE: f64 = 5.0;
-
-fn card_of(id: &str) -> Option<&'static Card> {
-    effects::find::<f64>(id).map(|e| e.card())
-}
 
 /// Every cause considered, most probable first, with the pseudo-causes.
 pub(super) fn which<const N: usize>(verdict: &Verdict<N>, robot: &RobotFile) -> Vec<Which> {
@@ -151,14 +146,8 @@ fn settle_by(cause: &Cause, alike: &[Cause]) -> Option<String> {
     let other = alike.first()?;
     let named = from_card(cause, other).or_else(|| from_card(other, cause));
     Some(named.unwrap_or_else(|| {
-        let of = |id: &str| match id {
-            "mass" | "inertia" => "add a known mass and repeat the runs",
-            "resistance" => "measure the winding with a multimeter",
-            "torque_constant" | "kt_over_kv" => "pull the robot with a spring scale at a known current",
-            "wheel_radius" | "center_distance" => {
-                "drive a straight line along a tape measure and count turns on the spot"
-            }
-            "viscous_friction" | "coulomb_friction" => "let the robot coast with the bridges open",
+        let of = |id: &str| match effects::cause(id) {
+            Some(CauseCard::Nominal(card)) => card.settled_by,
             _ => "repeat the runs with stronger motion on all three axes",
         };
         let mut how: Vec<&str> = [cause, other].iter().map(|c| of(c.id())).collect();
@@ -265,13 +254,5 @@ pub(super) fn next_experiment(report: &Report) -> Option<NextExperiment> {
 
 /// The stage of a cause.
 pub(super) fn stage_of(id: &str) -> crate::report::Stage {
-    use crate::report::Stage;
-    if let Some(card) = card_of(id) {
-        return card.stage().into();
-    }
-    match id {
-        "resistance" | "torque_constant" | "kt_over_kv" => Stage::Electrical,
-        "wheel_radius" | "center_distance" => Stage::Contact,
-        _ => Stage::Body,
-    }
+    effects::cause(id).map_or(crate::report::Stage::Body, |cause| cause.stage().into())
 }

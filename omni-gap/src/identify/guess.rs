@@ -1,20 +1,10 @@
-//! Where a fit begins with friction that a robot file states as zero: factors cannot move a number from zero.
-//!
-//! ```text
-//! B = 0.2 s⁻¹·M,   C = 0.05·M·g;   about ω times d², and times d
-//! ```
+//! Where a fit begins with friction that a robot file states as zero: factors cannot move a number from zero. Each
+//! number's card says where.
 
+use model_core::effects::nominal;
 use serde::Serialize;
 
 use crate::log::RobotFile;
-use crate::simulate::NominalKey;
-
-/// Viscous friction over mass [1/s]
-const VISCOUS: f64 = 0.2;
-/// Coulomb friction over weight [1]
-const COULOMB: f64 = 0.05;
-/// Gravity [m/s²]
-const G: f64 = 9.81;
 
 /// A number that began at a guess.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,22 +19,14 @@ pub struct Guessed {
 pub(super) fn guessed(file: &RobotFile) -> (RobotFile, Vec<Guessed>) {
     let mut file = file.clone();
     let (mass, distance) = (file.body.mass_kg, file.wheel[0].distance_m);
-    let (viscous, coulomb) = (VISCOUS * mass, COULOMB * mass * G);
-    let friction = &mut file.friction;
     let mut all = Vec::new();
-    for (key, number, guess) in [
-        ("viscous_v_N_s_per_m", &mut friction.viscous_v_n_s_per_m, viscous),
-        ("viscous_vn_N_s_per_m", &mut friction.viscous_vn_n_s_per_m, viscous),
-        ("viscous_w_Nm_s", &mut friction.viscous_w_nm_s, viscous * distance * distance),
-        ("coulomb_v_N", &mut friction.coulomb_v_n, coulomb),
-        ("coulomb_vn_N", &mut friction.coulomb_vn_n, coulomb),
-        ("coulomb_w_Nm", &mut friction.coulomb_w_nm, coulomb * distance),
-    ] {
-        if *number == 0.0 {
-            *number = guess;
-            all.push(Guessed { key, value: guess });
+    for number in nominal::numbers() {
+        let (Some(guess), Some(place)) = (number.first_guess, file.nominal_mut(number.key, 0)) else { continue };
+        if *place == 0.0 {
+            let value = guess(mass, distance);
+            *place = value;
+            all.push(Guessed { key: number.key, value });
         }
     }
-    debug_assert!(all.iter().all(|g| NominalKey::of(g.key).is_some()), "a guess is one of the file's numbers");
     (file, all)
 }

@@ -5,6 +5,7 @@
 //! constant are stated each on its own, so the factor that they share and their ratio are known together only as well
 //! as the file says of each.
 
+use model_core::effects::nominal::{self, Number};
 use model_core::plant::robot::Nominal;
 
 use crate::log::RobotFile;
@@ -17,6 +18,8 @@ pub struct PriorRow {
     pub terms: Vec<(Nominal, f64)>,
     /// One-sigma relative uncertainty
     pub sigma: f64,
+    /// True if the robot file states it of one of its numbers, the last factor's own; false for what a diagnosis adds.
+    stated: bool,
 }
 
 /// Everything stated.
@@ -35,44 +38,22 @@ pub struct Release {
     pub axis: Option<usize>,
 }
 
-fn row(terms: &[(Nominal, f64)], sigma: f64) -> PriorRow {
-    PriorRow { terms: terms.to_vec(), sigma }
-}
-
 impl Prior {
     /// What a robot file states of its own uncertainty.
     pub fn stated(robot: &RobotFile) -> Self {
-        // every key here is one of the form, which all have a default
-        let s = |key: &str| robot.relative_uncertainty(key).unwrap_or(0.1);
-        let one = |p: Nominal, key: &str| row(&[(p, 1.0)], s(key));
-        Self {
-            rows: vec![
-                one(Nominal::Mass, "mass_kg"),
-                one(Nominal::Inertia, "inertia_kg_m2"),
-                one(Nominal::Resistance, "resistance_ohm"),
-                one(Nominal::TorqueConstant, "emf_constant_V_s"),
-                row(&[(Nominal::TorqueConstant, 1.0), (Nominal::KtOverKv, 1.0)], s("torque_constant_Nm_per_A")),
-                one(Nominal::ViscousV, "viscous_v_N_s_per_m"),
-                one(Nominal::ViscousVn, "viscous_vn_N_s_per_m"),
-                one(Nominal::ViscousW, "viscous_w_Nm_s"),
-                one(Nominal::CoulombV, "coulomb_v_N"),
-                one(Nominal::CoulombVn, "coulomb_vn_N"),
-                one(Nominal::CoulombW, "coulomb_w_Nm"),
-                one(Nominal::WheelRadius, "radius_m"),
-                one(Nominal::CenterDistance, "distance_m"),
-            ],
-        }
+        let row = |number: &Number| PriorRow {
+            terms: number.factors.iter().map(|p| (*p, 1.0)).collect(),
+            sigma: robot.relative_uncertainty(number.key).unwrap_or(number.relative_uncertainty),
+            stated: true,
+        };
+        Self { rows: nominal::numbers().map(row).collect() }
     }
 
     /// The statements that speak of a parameter cause.
     pub fn rows_of(&self, release: Release) -> Vec<usize> {
-        let own = |row: &PriorRow| match (release.cause, row.terms.as_slice()) {
-            ("kt_over_kv", terms) => terms.len() == 2,
-            ("torque_constant", terms) => terms.iter().any(|(p, _)| *p == Nominal::TorqueConstant),
-            (cause, [(p, _)]) => p.cause() == cause && (release.axis.is_none() || release.axis == p.axis()),
-            _ => false,
-        };
-        (0..self.rows.len()).filter(|k| own(&self.rows[*k])).collect()
+        let own = |p: Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
+        let speaks = |row: &PriorRow| row.stated && row.terms.iter().any(|(p, _)| own(*p));
+        (0..self.rows.len()).filter(|k| speaks(&self.rows[*k])).collect()
     }
 
     /// The same without what it says of a parameter cause, which stays loosely held (a factor of about two) so that a
@@ -84,7 +65,7 @@ impl Prior {
         }
         if release.cause == "torque_constant" {
             let each: f64 = self.rows_of(release).iter().map(|k| self.rows[*k].sigma.powi(2)).sum();
-            prior.rows.push(row(&[(Nominal::KtOverKv, 1.0)], each.sqrt()));
+            prior.rows.push(PriorRow { terms: vec![(Nominal::KtOverKv, 1.0)], sigma: each.sqrt(), stated: false });
         }
         prior
     }

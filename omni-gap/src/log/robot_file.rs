@@ -10,6 +10,7 @@ use super::controller::ControllerFile;
 use super::robot_read;
 use super::toml_walk::read_text;
 use crate::error::Result;
+use model_core::effects::nominal;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -172,22 +173,27 @@ pub struct RobotFile {
     pub effects: Vec<EffectEntry>,
 }
 
-/// Relative uncertainty (1) of each nominal parameter where the file states none.
-pub const DEFAULT_UNCERTAINTY: [(&str, f64); 13] = [
-    ("mass_kg", 0.01),
-    ("inertia_kg_m2", 0.10),
-    ("resistance_ohm", 0.10),
-    ("emf_constant_V_s", 0.03),
-    ("torque_constant_Nm_per_A", 0.03),
-    ("radius_m", 0.01),
-    ("distance_m", 0.01),
-    ("viscous_v_N_s_per_m", 0.20),
-    ("viscous_vn_N_s_per_m", 0.20),
-    ("viscous_w_Nm_s", 0.20),
-    ("coulomb_v_N", 0.20),
-    ("coulomb_vn_N", 0.20),
-    ("coulomb_w_Nm", 0.20),
-];
+/// Where a nominal number stands: its key in the file, its field here.
+macro_rules! place_of {
+    ($file:ident, $key:ident, $wheel:ident, $($borrow:tt)+) => {
+        match $key {
+            "distance_m" if $wheel < $file.wheel.len() => Some($($borrow)+ $file.wheel[$wheel].distance_m),
+            "radius_m" if $wheel < $file.wheel.len() => Some($($borrow)+ $file.wheel[$wheel].radius_m),
+            "resistance_ohm" => Some($($borrow)+ $file.motor.resistance_ohm),
+            "emf_constant_V_s" => Some($($borrow)+ $file.motor.emf_constant_v_s),
+            "torque_constant_Nm_per_A" => Some($($borrow)+ $file.motor.torque_constant_nm_per_a),
+            "mass_kg" => Some($($borrow)+ $file.body.mass_kg),
+            "inertia_kg_m2" => Some($($borrow)+ $file.body.inertia_kg_m2),
+            "viscous_v_N_s_per_m" => Some($($borrow)+ $file.friction.viscous_v_n_s_per_m),
+            "viscous_vn_N_s_per_m" => Some($($borrow)+ $file.friction.viscous_vn_n_s_per_m),
+            "viscous_w_Nm_s" => Some($($borrow)+ $file.friction.viscous_w_nm_s),
+            "coulomb_v_N" => Some($($borrow)+ $file.friction.coulomb_v_n),
+            "coulomb_vn_N" => Some($($borrow)+ $file.friction.coulomb_vn_n),
+            "coulomb_w_Nm" => Some($($borrow)+ $file.friction.coulomb_w_nm),
+            _ => None,
+        }
+    };
+}
 
 impl RobotFile {
     /// Reads and checks a robot file.
@@ -202,8 +208,18 @@ impl RobotFile {
 
     /// One-sigma relative uncertainty (1) of a nominal parameter, by its key in the robot file; none for other keys.
     pub fn relative_uncertainty(&self, key: &str) -> Option<f64> {
-        let default = DEFAULT_UNCERTAINTY.iter().find(|(known, _)| *known == key)?.1;
+        let default = nominal::numbers().find(|number| number.key == key)?.relative_uncertainty;
         Some(self.uncertainty.get(key).copied().unwrap_or(default))
+    }
+
+    /// A nominal number by its key, in the key's unit; of a wheel's numbers, that of this wheel.
+    pub fn nominal(&self, key: &str, wheel: usize) -> Option<f64> {
+        place_of!(self, key, wheel, &).copied()
+    }
+
+    /// The same, to be changed.
+    pub fn nominal_mut(&mut self, key: &str, wheel: usize) -> Option<&mut f64> {
+        place_of!(self, key, wheel, &mut)
     }
 
     /// Kv times the gear ratio: volts per wheel speed (V/(rad/s)).

@@ -5,6 +5,7 @@ use super::controller::controller;
 use super::robot_file::*;
 use super::toml_walk::{Section, Source};
 use crate::error::{Error, Result};
+use model_core::effects::nominal::{IN_THE_FILE, Table};
 use std::collections::BTreeMap;
 use std::path::Path;
 use toml_edit::{Item, TableLike};
@@ -89,7 +90,7 @@ fn wheels(source: Source, top: &dyn TableLike) -> Result<Vec<WheelFile>> {
         let title = format!("[[wheel]] {number}");
         let span = item.as_array_of_tables().and_then(|list| list.get(number)?.span()).or_else(|| span_of(*table));
         let section = Section::of(source, &title, *table, span);
-        section.only_keys(&["drive_angle_deg", "distance_m", "radius_m"])?;
+        section.only_keys(&[&["drive_angle_deg"], keys_of(Table::Wheel).as_slice()].concat())?;
         wheels.push(WheelFile {
             drive_angle_deg: section.needed("drive_angle_deg")?,
             distance_m: section.positive("distance_m")?,
@@ -122,8 +123,13 @@ fn tells_the_motion(wheels: &[WheelFile]) -> bool {
     m.determinant() > 1e-6
 }
 
+/// The keys of a table's nominal numbers, in the order of the file.
+fn keys_of(table: Table) -> Vec<&'static str> {
+    IN_THE_FILE.iter().filter(|number| number.table == table).map(|number| number.key).collect()
+}
+
 fn motor(s: &Section) -> Result<MotorFile> {
-    s.only_keys(&["gear_ratio", "resistance_ohm", "emf_constant_V_s", "torque_constant_Nm_per_A"])?;
+    s.only_keys(&[&["gear_ratio"], keys_of(Table::Motor).as_slice()].concat())?;
     Ok(MotorFile {
         gear_ratio: s.positive("gear_ratio")?,
         resistance_ohm: s.positive("resistance_ohm")?,
@@ -133,13 +139,12 @@ fn motor(s: &Section) -> Result<MotorFile> {
 }
 
 fn body(s: &Section) -> Result<BodyFile> {
-    s.only_keys(&["mass_kg", "inertia_kg_m2"])?;
+    s.only_keys(&keys_of(Table::Body))?;
     Ok(BodyFile { mass_kg: s.positive("mass_kg")?, inertia_kg_m2: s.positive("inertia_kg_m2")? })
 }
 
 fn friction(s: &Section) -> Result<FrictionFile> {
-    let keys: Vec<&str> = DEFAULT_UNCERTAINTY[7..].iter().map(|(key, _)| *key).collect();
-    s.only_keys(&keys)?;
+    s.only_keys(&keys_of(Table::Friction))?;
     Ok(FrictionFile {
         viscous_v_n_s_per_m: s.not_negative("viscous_v_N_s_per_m", 0.0)?,
         viscous_vn_n_s_per_m: s.not_negative("viscous_vn_N_s_per_m", 0.0)?,
@@ -166,7 +171,7 @@ fn sensors(s: &Section) -> Result<SensorsFile> {
 }
 
 fn uncertainty(s: &Section) -> Result<BTreeMap<String, f64>> {
-    s.only_keys(&DEFAULT_UNCERTAINTY.map(|(key, _)| key))?;
+    s.only_keys(&IN_THE_FILE.map(|number| number.key))?;
     s.table.iter().map(|(key, _)| Ok((key.to_string(), s.not_negative(key, 0.0)?))).collect()
 }
 

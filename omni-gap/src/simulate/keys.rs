@@ -1,10 +1,11 @@
 //! The keys of a robot file's nominal numbers, and what a model's factors make of them.
 
+use model_core::effects::nominal::{IN_THE_FILE, Number, Table};
 use model_core::plant::robot::Nominal;
 
 use crate::log::{Change, RobotFile};
 
-/// A nominal number of a robot file.
+/// A nominal number of a robot file, as its card says.
 #[derive(Clone, Copy, Debug)]
 pub struct NominalKey {
     /// Its key.
@@ -15,37 +16,19 @@ pub struct NominalKey {
     pub unit: &'static str,
     /// The factors that multiply it.
     pub factors: &'static [Nominal],
-    read: fn(&RobotFile) -> f64,
-}
-
-const fn key(
-    key: &'static str,
-    table: &'static str,
-    unit: &'static str,
-    factors: &'static [Nominal],
-    read: fn(&RobotFile) -> f64,
-) -> NominalKey {
-    NominalKey { key, table, unit, factors, read }
 }
 
 /// All of them, in the order of the file. Of the wheels, the first one's number stands for all.
-pub const NOMINAL_KEYS: [NominalKey; 13] = [
-    key("distance_m", "wheel", "m", &[Nominal::CenterDistance], |f| f.wheel[0].distance_m),
-    key("radius_m", "wheel", "m", &[Nominal::WheelRadius], |f| f.wheel[0].radius_m),
-    key("resistance_ohm", "motor", "Ω", &[Nominal::Resistance], |f| f.motor.resistance_ohm),
-    key("emf_constant_V_s", "motor", "V·s", &[Nominal::TorqueConstant], |f| f.motor.emf_constant_v_s),
-    key("torque_constant_Nm_per_A", "motor", "N·m/A", &[Nominal::TorqueConstant, Nominal::KtOverKv], |f| {
-        f.motor.torque_constant_nm_per_a
-    }),
-    key("mass_kg", "body", "kg", &[Nominal::Mass], |f| f.body.mass_kg),
-    key("inertia_kg_m2", "body", "kg·m²", &[Nominal::Inertia], |f| f.body.inertia_kg_m2),
-    key("viscous_v_N_s_per_m", "friction", "N·s/m", &[Nominal::ViscousV], |f| f.friction.viscous_v_n_s_per_m),
-    key("viscous_vn_N_s_per_m", "friction", "N·s/m", &[Nominal::ViscousVn], |f| f.friction.viscous_vn_n_s_per_m),
-    key("viscous_w_Nm_s", "friction", "N·m·s", &[Nominal::ViscousW], |f| f.friction.viscous_w_nm_s),
-    key("coulomb_v_N", "friction", "N", &[Nominal::CoulombV], |f| f.friction.coulomb_v_n),
-    key("coulomb_vn_N", "friction", "N", &[Nominal::CoulombVn], |f| f.friction.coulomb_vn_n),
-    key("coulomb_w_Nm", "friction", "N·m", &[Nominal::CoulombW], |f| f.friction.coulomb_w_nm),
-];
+pub const NOMINAL_KEYS: [NominalKey; Nominal::COUNT] = {
+    let mut keys = [NominalKey { key: "", table: "", unit: "", factors: &[] }; Nominal::COUNT];
+    let mut k = 0;
+    while k < keys.len() {
+        let Number { key, table, unit, factors, .. } = *IN_THE_FILE[k];
+        keys[k] = NominalKey { key, table: table.name(), unit, factors };
+        k += 1;
+    }
+    keys
+};
 
 impl NominalKey {
     /// The number of this key.
@@ -60,7 +43,7 @@ impl NominalKey {
 
     /// The file's number (of the first wheel, for a wheel's key) in SI units.
     pub fn value(&self, file: &RobotFile) -> f64 {
-        (self.read)(file)
+        file.nominal(self.key, 0).expect("a card's number stands in every robot file")
     }
 
     /// The product of this number's factors.
@@ -70,17 +53,52 @@ impl NominalKey {
 
     /// The changes that multiply this number of a file; for a wheel's key, of all its wheels.
     pub fn scaled(&self, file: &RobotFile, factor: f64) -> Vec<Change> {
-        if self.table != "wheel" {
+        if self.table != Table::Wheel.name() {
             let path = format!("{}.{}", self.table, self.key);
             return vec![Change::Number { path, value: self.value(file) * factor }];
         }
-        file.wheel
-            .iter()
-            .enumerate()
-            .map(|(j, wheel)| {
-                let old = if self.key == "radius_m" { wheel.radius_m } else { wheel.distance_m };
-                Change::Number { path: format!("wheel[{j}].{}", self.key), value: old * factor }
+        (0..file.wheel.len())
+            .filter_map(|j| {
+                let path = format!("{}[{j}].{}", self.table, self.key);
+                Some(Change::Number { path, value: file.nominal(self.key, j)? * factor })
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::log::Catalogue;
+
+    const FILE: &str = include_str!("../../../examples/feup-4w/robot.toml");
+
+    #[test]
+    fn every_number_of_a_card_is_read_and_written_where_the_file_has_it() {
+        let path = Path::new("robot.toml");
+        let mut file = RobotFile::parse(FILE, path, &Catalogue::default()).expect("the example is sound");
+        let document: toml_edit::DocumentMut = FILE.parse().expect("the example is TOML");
+        for key in &NOMINAL_KEYS {
+            let table = if key.table == "wheel" { &document["wheel"][0] } else { &document[key.table] };
+            let written = table[key.key].as_float().unwrap_or_else(|| panic!("{} is not in [{}]", key.key, key.table));
+            assert_eq!(key.value(&file), written, "{}", key.key);
+            *file.nominal_mut(key.key, 0).expect("a number of the file") *= 1.25;
+            assert_eq!(key.value(&file), 1.25 * written, "{}", key.key);
+        }
+    }
+
+    #[test]
+    fn a_scaled_number_is_scaled_on_every_wheel_and_read_back() {
+        let path = Path::new("robot.toml");
+        let file = RobotFile::parse(FILE, path, &Catalogue::default()).expect("the example is sound");
+        for key in &NOMINAL_KEYS {
+            let changes = key.scaled(&file, 1.5);
+            assert_eq!(changes.len(), if key.table == "wheel" { file.wheel.len() } else { 1 }, "{}", key.key);
+            let text = crate::log::corrected(FILE, &changes).expect("the path leads somewhere");
+            let after = RobotFile::parse(&text, path, &Catalogue::default()).expect("sound as before");
+            assert_eq!(key.value(&after), 1.5 * key.value(&file), "{}", key.key);
+        }
     }
 }

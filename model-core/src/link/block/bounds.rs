@@ -3,6 +3,8 @@
 use core::f32::consts::TAU;
 
 use super::{BlockError, BlockErrorKind, Limits};
+use crate::effects::nominal::Number;
+use crate::plant::robot::Nominal;
 
 /// A number of a block: its key in the robot file, and its bounds in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,25 +19,31 @@ const fn field(key: &'static str, low: f32, high: f32) -> BoundedField {
     BoundedField { key, within: (low, high) }
 }
 
+/// The bounds that a nominal parameter's card says.
+const fn nominal(nominal: Nominal) -> BoundedField {
+    let Number { key, within: (low, high), .. } = *nominal.number();
+    field(key, low as f32, high as f32)
+}
+
 /// Of every wheel; the key of the first names degrees, the block holds radians.
 pub const WHEEL: [BoundedField; 3] =
-    [field("drive_angle_deg", -TAU, TAU), field("distance_m", 0.005, 2.0), field("radius_m", 0.002, 0.5)];
+    [field("drive_angle_deg", -TAU, TAU), nominal(Nominal::CenterDistance), nominal(Nominal::WheelRadius)];
 
 /// Of the robot, in the order of the form.
 pub const SCALARS: [BoundedField; 26] = [
     field("gear_ratio", 0.1, 1000.0),
-    field("resistance_ohm", 1e-3, 1000.0),
-    field("emf_constant_V_s", 1e-5, 10.0),
-    field("torque_constant_Nm_per_A", 1e-5, 10.0),
+    nominal(Nominal::Resistance),
+    nominal(Nominal::TorqueConstant),
+    nominal(Nominal::KtOverKv),
     field("inductance_H", 1e-6, 0.1),
-    field("mass_kg", 0.05, 500.0),
-    field("inertia_kg_m2", 1e-6, 500.0),
-    field("viscous_v_N_s_per_m", 0.0, 1000.0),
-    field("viscous_vn_N_s_per_m", 0.0, 1000.0),
-    field("viscous_w_Nm_s", 0.0, 1000.0),
-    field("coulomb_v_N", 0.0, 1000.0),
-    field("coulomb_vn_N", 0.0, 1000.0),
-    field("coulomb_w_Nm", 0.0, 1000.0),
+    nominal(Nominal::Mass),
+    nominal(Nominal::Inertia),
+    nominal(Nominal::ViscousV),
+    nominal(Nominal::ViscousVn),
+    nominal(Nominal::ViscousW),
+    nominal(Nominal::CoulombV),
+    nominal(Nominal::CoulombVn),
+    nominal(Nominal::CoulombW),
     field("voltage_V", 3.0, 60.0),
     field("current_A", 0.05, 200.0),
     field("speed_m_s", 0.01, 20.0),
