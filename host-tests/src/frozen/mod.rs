@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use crate::real::sessions::SESSIONS;
-use recordings::Recording;
+use recordings::FrozenCase;
 
 /// The file of the recordings that are made here.
 pub const FILE: &str = "frozen.jsonl";
@@ -33,7 +33,7 @@ fn answer(name: &str, session: &Session) -> Value {
 ///
 /// # Errors
 /// Where a recording cannot be made.
-pub fn answers(recordings: &[Recording]) -> Result<Vec<Value>> {
+pub fn answers(recordings: &[FrozenCase]) -> Result<Vec<Value>> {
     recordings.par_iter().map(|recording| Ok(answer(&recording.name, &recording.session()?))).collect()
 }
 

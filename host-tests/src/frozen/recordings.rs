@@ -91,13 +91,13 @@ enum Made {
 
 /// A recording whose answer is frozen.
 #[derive(Clone, Debug)]
-pub struct Recording {
+pub struct FrozenCase {
     /// What it is called in the file.
     pub name: String,
     made: Made,
 }
 
-impl Recording {
+impl FrozenCase {
     /// Makes it.
     ///
     /// # Errors
@@ -112,33 +112,33 @@ impl Recording {
 }
 
 /// All of them.
-pub fn recordings() -> Vec<Recording> {
+pub fn recordings() -> Vec<FrozenCase> {
     let mut seeds = FIRST_SEED..;
     let mut seed = || seeds.next().unwrap_or(FIRST_SEED);
-    let mut all: Vec<Recording> = short_cases().into_iter().map(reduced).collect();
+    let mut all: Vec<FrozenCase> = short_cases().into_iter().map(reduced).collect();
     for (kept, id) in Kept::WITH {
         for wheels in WHEELS {
             let hidden = Hidden::Effect(Carried::typical(card(id), None));
             let case = Case { seed: seed(), wheels, hidden, length: Length::Short };
             let name = format!("{:?}, `{id}` on {wheels} wheels", kept);
-            all.push(Recording { name, made: Made::Case(case, kept) });
+            all.push(FrozenCase { name, made: Made::Case(case, kept) });
         }
     }
     for wheels in WHEELS {
         let [first, second] = ["dead_time", "camera_latency"].map(|id| Carried::typical(card(id), None));
         let case = Case { seed: seed(), wheels, hidden: Hidden::Effect(first), length: Length::Short };
         let name = format!("`dead_time` and `camera_latency` on {wheels} wheels");
-        all.push(Recording { name, made: Made::Pair(case, second) });
+        all.push(FrozenCase { name, made: Made::Pair(case, second) });
     }
     for layout in [Layout::Robotino, Layout::Ssl2018] {
         let name = format!("the layout of examples/{}", layout.example());
-        all.push(Recording { name, made: Made::Layout(layout, seed()) });
+        all.push(FrozenCase { name, made: Made::Layout(layout, seed()) });
     }
     all
 }
 
-fn reduced(case: Case) -> Recording {
-    Recording {
+fn reduced(case: Case) -> FrozenCase {
+    FrozenCase {
         name: format!("{} on {} wheels, {}", case.hidden, case.wheels, case.seed),
         made: Made::Case(case, Kept::Everything),
     }
