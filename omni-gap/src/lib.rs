@@ -16,6 +16,8 @@
 
 pub mod error;
 
+pub mod vocabulary;
+
 pub mod log;
 
 pub mod check;
@@ -44,4 +46,5 @@ pub use diagnosis::{Diagnosis, Options, diagnose};
 pub use error::Error;
 pub use known::known_effects;
 pub use log::Session;
-pub use report::{Report, Verdict};
+pub use report::Report;
+pub use vocabulary::Verdict;

@@ -11,7 +11,7 @@ use crate::tree::Source;
 pub const HOUSE: &str = "omni-gap/src/";
 
 /// The rooms, in the order in which evidence walks through them.
-const ORDER: &[&str] = &["error", "log", "check", "simulate", "identify", "localise", "rank", "report"];
+const ORDER: &[&str] = &["error", "vocabulary", "log", "check", "simulate", "identify", "localise", "rank", "report"];
 
 /// Who stands above all rooms and may import any of them; no room may import these.
 const ABOVE: &[&str] = &["lib", "main", "commands", "diagnosis", "stage", "known", "rehearse", "wire", "bin"];

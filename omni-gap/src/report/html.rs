@@ -6,10 +6,11 @@ pub(super) mod notes;
 mod signals;
 
 use super::markup::Markup;
-use super::model::{Report, Verdict};
+use super::model::Report;
 use super::number::{num, percent, percents};
 use super::picture::Pictures;
 use super::words;
+use crate::vocabulary::Verdict;
 
 /// The whole page.
 pub fn html(report: &Report, pictures: &Pictures) -> String {

@@ -2,9 +2,8 @@
 //!
 //! A [`Report`] is the diagnosis as data: `report.json` is that struct and nothing else. [`terminal()`] says it in about
 //! ten lines, [`html()`] draws it on one page that needs no network, and [`write()`] puts the files into a folder so that
-//! none is ever half-written. [`sensitivity_html()`] is a page of its own. Neither prose nor page computes anything: every
-//! sentence traces to a number in the report.
-//! none is ever half-written; [`validation`] does the same for a model laid over its recordings. Neither prose nor page computes anything: every sentence traces to a number in the report.
+//! none is ever half-written. [`sensitivity_html()`] is a page of its own; [`validation`] does the same for a model laid
+//! over its recordings. Neither prose nor page computes anything: every sentence traces to a number in the report.
 
 mod horizons;
 mod html;
@@ -29,11 +28,13 @@ pub use html::html;
 pub use identified::{identified_json, identified_terminal};
 pub use instructions::{Instructions, ScriptSaid, instructions};
 pub use model::{
-    Axis, Corrected, Estimate, Fault, Gap, HorizonError, Kind, NextExperiment, Regime, Report, SCHEMA, Shrink,
-    SignalGap, Stage, Verdict, Where, Which,
+    Corrected, Estimate, Fault, Gap, HorizonError, NextExperiment, Regime, Report, SCHEMA, Shrink, SignalGap, Where,
+    Which,
 };
 pub use number::{estimate, num, percent};
 pub use picture::{MEASURED, Panel, Pictures, Series};
 pub use sensitivity::{sensitivity_html, sensitivity_terminal, write_sensitivity};
 pub use terminal::terminal;
 pub use write::{Written, write};
+
+pub use crate::vocabulary::{Axis, Kind, Stage, Verdict};

@@ -6,9 +6,11 @@ mod place;
 
 use serde::{Deserialize, Serialize};
 
-pub use cause::{Corrected, Estimate, Kind, NextExperiment, Which};
+pub use cause::{Corrected, Estimate, NextExperiment, Which};
 pub use gap::{Gap, HorizonError, Shrink, SignalGap};
-pub use place::{Axis, Regime, Stage, Where};
+pub use place::{Regime, Where};
+
+use crate::vocabulary::Verdict;
 
 /// The version of the form of `report.json` that this program writes.
 pub const SCHEMA: u32 = 1;
@@ -82,35 +84,6 @@ impl Report {
     }
 }
 
-/// The answer in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// One or more effects of the catalogue explain the gap.
-    Effect,
-    /// Correcting nominal parameters explains the gap.
-    Parameter,
-    /// A gap is there and nothing in the catalogue explains it.
-    Unknown,
-    /// The nominal model predicts as well as noise and stated uncertainty allow.
-    NoGap,
-    /// The log itself is broken.
-    UnfitData,
-}
-
-impl Verdict {
-    /// Exit code of `diagnose --exit-code`.
-    pub fn exit_code(self) -> u8 {
-        match self {
-            Verdict::NoGap => 0,
-            Verdict::Parameter => 10,
-            Verdict::Effect => 20,
-            Verdict::Unknown => 30,
-            Verdict::UnfitData => 40,
-        }
-    }
-}
-
 /// Something wrong with the log.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fault {
@@ -171,19 +144,5 @@ mod tests {
     fn the_same_report_gives_the_same_bytes() {
         let report = crate::report::sample::effect();
         assert_eq!(report.to_json().unwrap(), report.clone().to_json().unwrap());
-    }
-
-    #[test]
-    fn stages_are_called_what_the_cards_call_them() {
-        for stage in model_core::effects::card::Stage::ALL {
-            assert_eq!(serde_json::to_value(Stage::from(stage)).unwrap(), stage.name());
-        }
-    }
-
-    #[test]
-    fn words_of_the_verdict_are_the_contracts() {
-        let all = [Verdict::Effect, Verdict::Parameter, Verdict::Unknown, Verdict::NoGap, Verdict::UnfitData];
-        let words = serde_json::to_value(all).unwrap();
-        assert_eq!(words, serde_json::json!(["effect", "parameter", "unknown", "no_gap", "unfit_data"]));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::model::*;
 use super::picture::{MEASURED, Panel, Pictures, Series};
+use crate::vocabulary::{Kind, Stage, Verdict};
 
 /// All samples with the name of their golden file.
 pub fn all() -> [(&'static str, Report); 5] {

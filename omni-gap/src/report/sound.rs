@@ -1,6 +1,7 @@
 //! What must hold in every report, whoever filled it.
 
-use super::model::{Report, Verdict};
+use super::model::Report;
+use crate::vocabulary::Verdict;
 
 /// Sums of shares and probabilities may miss 1 by rounding only.
 const SUM_TOLERANCE: f64 = 1e-6;

@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::model::{Axis, Kind, Report, Stage, Verdict, Where, Which};
+use super::model::{Report, Where, Which};
 use super::number::{num, percent};
+use crate::vocabulary::{Axis, Kind, Stage, Verdict};
 
 /// The verdict as one sentence.
 pub fn headline(report: &Report) -> String {

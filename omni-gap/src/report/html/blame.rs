@@ -2,9 +2,10 @@
 
 use super::section;
 use crate::report::markup::Markup;
-use crate::report::model::{Kind, Report, Stage, Verdict, Which};
+use crate::report::model::{Report, Which};
 use crate::report::number::{estimate, percent};
 use crate::report::words;
+use crate::vocabulary::{Kind, Stage, Verdict};
 
 /// Causes less probable than this are summed up in a line.
 const WORTH_A_ROW: f64 = 0.005;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::place::Axis;
+use crate::vocabulary::{Axis, Kind};
 
 /// One cause that was considered.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,16 +29,6 @@ pub struct Which {
     pub not_told_apart_from: Vec<String>,
     /// What would tell them apart.
     pub settle_by: Option<String>,
-}
-
-/// What sort of cause.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// Something the model lacks.
-    Effect,
-    /// A number that the model has wrong.
-    Parameter,
 }
 
 /// A number with its uncertainty.

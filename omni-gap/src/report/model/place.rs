@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::vocabulary::{Axis, Stage};
+
 /// A place of the robot and its share of the gap.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Where {
@@ -30,49 +32,4 @@ pub struct Regime {
     pub share: f64,
     /// The regime in words.
     pub text: String,
-}
-
-/// The five stages, in signal order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Stage {
-    /// Voltage to current.
-    Electrical,
-    /// Current to torque at the wheel.
-    Drivetrain,
-    /// Wheel to floor.
-    Contact,
-    /// Force to motion.
-    Body,
-    /// Motion to reading.
-    Sensing,
-}
-
-impl Stage {
-    /// All stages, in signal order.
-    pub const ALL: [Stage; 5] = [Stage::Electrical, Stage::Drivetrain, Stage::Contact, Stage::Body, Stage::Sensing];
-}
-
-impl From<model_core::effects::card::Stage> for Stage {
-    fn from(stage: model_core::effects::card::Stage) -> Stage {
-        match stage {
-            model_core::effects::card::Stage::Electrical => Stage::Electrical,
-            model_core::effects::card::Stage::Drivetrain => Stage::Drivetrain,
-            model_core::effects::card::Stage::Contact => Stage::Contact,
-            model_core::effects::card::Stage::Body => Stage::Body,
-            model_core::effects::card::Stage::Sensing => Stage::Sensing,
-        }
-    }
-}
-
-/// A body axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Axis {
-    /// Forward.
-    V,
-    /// Sideways.
-    Vn,
-    /// Turning.
-    W,
 }
