@@ -5,7 +5,7 @@
 //! cause is in the model. [`diagnose`] does all of it; the rooms can be used one by one:
 //!
 //! `log` (files → SI) → `check` (faults of the telemetry) → `simulate` (what a model says) → `identify` (the best numbers
-//! and how sure they are) → `localise` (where the gap lies) → `rank` (which cause) → `report` (files for people and
+//! and how sure they are) → `localise` (where the gap lies) → `engine` (which cause) → `report` (files for people and
 //! programs).
 //!
 //! A room imports only rooms before it; [`diagnosis`] walks through them all, [`stage`] makes recordings whose truth is
@@ -28,7 +28,7 @@ pub mod identify;
 
 pub mod localise;
 
-pub mod rank;
+pub mod engine;
 
 pub mod report;
 

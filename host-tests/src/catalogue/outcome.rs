@@ -117,7 +117,7 @@ fn oracle<const N: usize>(case: &Case, session: &Session, file: &RobotFile) -> O
         .filter_map(|(_, run)| Recorded::new(run, &session.robot))
         .collect();
     let held: Vec<&Recorded<N>> = held.iter().collect();
-    let horizon = Options::default().horizon_s;
+    let horizon = omni_gap::simulate::HORIZON_S;
     let (nominal, true_) = (Model::<N>::nominal(&session.robot, voltage).plant(), model.plant());
     Oracle {
         before: measure(&nominal, &held, horizon).total(),

@@ -11,14 +11,13 @@ use model_core::effects::active::Effects;
 use model_core::effects::catalogue;
 use model_core::geometry::frames::BodyTwist;
 use model_core::plant::robot::Robot;
-use omni_gap::diagnosis::{Diagnosis, Options};
-use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, Session, write_whole, write_whole_with};
 use omni_gap::report::Verdict;
 use omni_gap::wire::block::export;
 use omni_gap::wire::capture::Capture;
 use omni_gap::wire::run::{columns, run};
 use omni_gap::wire::source::Source;
+use omni_gap::{Diagnosis, Options, known_effects};
 
 use super::{Ride, Taken};
 use crate::emulator::{Brain, Trouble};

@@ -11,7 +11,7 @@ use crate::tree::Source;
 pub const HOUSE: &str = "omni-gap/src/";
 
 /// The rooms, in the order in which evidence walks through them.
-const ORDER: &[&str] = &["error", "vocabulary", "log", "check", "simulate", "identify", "localise", "rank", "report"];
+const ORDER: &[&str] = &["error", "vocabulary", "log", "check", "simulate", "identify", "localise", "engine", "report"];
 
 /// Who stands above all rooms and may import any of them; no room may import these.
 const ABOVE: &[&str] = &["lib", "main", "commands", "diagnosis", "stage", "known", "rehearse", "wire", "bin"];
@@ -93,7 +93,7 @@ fn a_backward_door_is_found_with_file_and_line() {
     assert_eq!(found_in("omni-gap/src/log.rs", "fn f() { crate::check::all() }").len(), 1);
     assert_eq!(found_in("omni-gap/src/error.rs", "use crate::log;").len(), 1);
     assert_eq!(
-        found_in("omni-gap/src/rank/mod.rs", "use crate::{\n    log::Log,\n    report::{self, Page},\n};").len(),
+        found_in("omni-gap/src/engine/mod.rs", "use crate::{\n    log::Log,\n    report::{self, Page},\n};").len(),
         1
     );
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use omni_gap::log::{write_whole, write_whole_with};
 use omni_gap::report::{self, estimate};
-use omni_gap::simulate::Carried;
+use omni_gap::simulate::{Carried, HORIZON_S};
 use omni_gap::stage::{Stage, stage};
 use omni_gap::{Error, Report, Session, known_effects};
 
@@ -51,7 +51,7 @@ impl Demo {
 
         voice.phase("reading the recordings");
         let session = Session::load(&at, None, &known_effects())?;
-        let (report, written) = diagnosed(&session, Some("session".to_owned()), 0.5, &out, voice)?;
+        let (report, written) = diagnosed(&session, Some("session".to_owned()), HORIZON_S, &out, voice)?;
         folder.keep();
 
         let runs = session.runs.len();

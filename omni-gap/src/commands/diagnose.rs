@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use omni_gap::engine::Knobs;
 use omni_gap::report::{self, Written};
+use omni_gap::simulate::HORIZON_S;
 use omni_gap::{Diagnosis, Options, Report, Session};
 
 use super::given::{GivenSession, seconds};
@@ -20,7 +22,7 @@ pub struct Diagnose {
     out: PathBuf,
 
     /// Time between restarts of the free runs that measure the gap [s]
-    #[arg(long, value_name = "S", default_value_t = 0.5, value_parser = seconds)]
+    #[arg(long, value_name = "S", default_value_t = HORIZON_S, value_parser = seconds)]
     horizon: f64,
 
     /// Exit with 0 no gap, 10 parameter, 20 effect, 30 unknown, 40 unfit data
@@ -50,8 +52,9 @@ pub fn diagnosed(
     out: &Path,
     voice: &Voice,
 ) -> Result<(Report, Written), Stop> {
-    let mut diagnosis = Diagnosis::of(session, &Options { horizon_s, progress: &|phrase| voice.phase(phrase) });
-    diagnosis.report.session = name;
+    let mut knobs = Knobs::default();
+    knobs.measure.horizon_s = horizon_s;
+    let diagnosis = Diagnosis::of(session, &Options { session: name, knobs, progress: &|phrase| voice.phase(phrase) });
     let page = report::html(&diagnosis.report, &diagnosis.pictures);
     let folder = NewFolder::make(out)?;
     let written = report::write(out, &diagnosis.report, &page, &diagnosis.corrected_robot)?;

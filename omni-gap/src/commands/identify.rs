@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use model_core::plant::robot::Nominal;
 use omni_gap::check::check;
-use omni_gap::identify::{Asked, Fit, Prior, Shots, Windows, fit_tempered, nominal_free};
+use omni_gap::identify::{Asked, Fit, FitSettings, Prior, Shots, WINDOW_S, Windows, fit_tempered, nominal_free};
 use omni_gap::log::{RobotFile, corrected, write_whole};
 use omni_gap::report::num;
 use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded, Slot, supply_seen};
@@ -35,8 +35,6 @@ pub struct Identify {
     json: Option<PathBuf>,
 }
 
-/// Length of a window of the fit [s]
-const WINDOW_S: f64 = 0.5;
 /// A fit with a larger error per sample leaves something unexplained [σ]
 const MORE_THAN_NOISE: f64 = 1.2;
 
@@ -76,12 +74,14 @@ fn fitted<const N: usize>(session: &Session, robot: &std::path::Path) -> Result<
     let model = Model::<N>::nominal(&session.robot, supply_seen(&runs));
     let windows: Vec<Windows> = runs.iter().map(|r| Windows::new(r, WINDOW_S)).collect();
     let runs: Vec<&Recorded<N>> = runs.iter().collect();
+    let settings = FitSettings::default();
     let fit = fit_tempered(
         model,
         Shots { runs: &runs, windows: &windows },
         None,
-        &nominal_free(),
+        &nominal_free(&settings),
         &Prior::stated(&session.robot),
+        &settings,
     );
     let changes: Vec<_> =
         NOMINAL_KEYS.iter().flat_map(|key| key.scaled(&session.robot, key.factor(&fit.model.factor))).collect();

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use omni_gap::log::{Channel, Group, Run, Sampled, write_whole_with};
-use omni_gap::simulate::{Model, Prediction, predict, supply_seen};
+use omni_gap::simulate::{HORIZON_S, Model, Prediction, predict, supply_seen};
 
 use super::given::{RobotAndRun, robot_and_run, seconds};
 use super::{DONE, Done, Stop, Voice, place};
@@ -20,7 +20,7 @@ pub struct Predict {
     run: PathBuf,
 
     /// Time between restarts from the smoothed measurement [s]
-    #[arg(long, value_name = "S", default_value_t = 0.5, value_parser = seconds)]
+    #[arg(long, value_name = "S", default_value_t = HORIZON_S, value_parser = seconds)]
     horizon: f64,
 
     /// The file to write: the same rows and measured columns as the run's, every row filled

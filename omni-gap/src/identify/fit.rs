@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::linear::{Linearised, Reduced, linearise};
 use super::prior::Prior;
+use super::settings::FitSettings;
 use super::shoot::{Piece, Shots, Starts, first_starts, run_some_windows};
 use super::whiten::Whitener;
 use crate::simulate::{Model, Recorded, Slot};
@@ -161,13 +162,17 @@ pub(super) fn fit_so<const N: usize>(
 }
 
 /// The best starts for a model as it is, and each window's Σ error² and count: how well whole runs are predicted.
-pub fn profile<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -> (Vec<Starts>, Vec<Vec<(f64, usize)>>) {
+pub fn profile<const N: usize>(
+    model: &Model<N>,
+    shots: Shots<'_, N>,
+    settings: &FitSettings,
+) -> (Vec<Starts>, Vec<Vec<(f64, usize)>>) {
     let none = DVector::zeros(0);
     let plant = model.plant();
     let mut starts: Vec<Starts> =
         shots.runs.iter().zip(shots.windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect();
     let mut linear = linearise(model, shots, &starts, &[], false);
-    for _ in 0..3 {
+    for _ in 0..settings.start_rounds {
         let moved = linear.starts_after(&starts, &none);
         let trial = linearise(model, shots, &moved, &[], false);
         // each window on its own: a start that got worse stays
@@ -181,7 +186,7 @@ pub fn profile<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -> (Vec<St
         }
         let gained: f64 = old.iter().flatten().zip(new.iter().flatten()).map(|(o, n)| (o.0 - n.0).max(0.0)).sum();
         linear = linearise(model, shots, &starts, &[], false);
-        if gained < 0.1 {
+        if gained < settings.least_gain {
             break;
         }
     }

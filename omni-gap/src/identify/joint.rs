@@ -20,7 +20,7 @@ use super::fit::{Fit, Free, How, fit_so};
 use super::linear::linearise;
 use super::noise::{Noise, noise_of};
 use super::prior::Prior;
-use super::shoot::{Shots, Windows};
+use super::shoot::{Shots, WINDOW_S, Windows};
 use super::words::{KNOWN, TradeOff, Word, trade_offs, word_of};
 use crate::log::RobotFile;
 use crate::simulate::{Model, NominalKey, Recorded, Slot};
@@ -41,8 +41,6 @@ pub const IDENTIFIED: [Nominal; 9] = [
 /// What is taken as the robot file states it, with its stated uncertainty.
 pub const GIVEN: [Nominal; 3] = [Nominal::Mass, Nominal::WheelRadius, Nominal::CenterDistance];
 
-/// Length of the short windows [s]
-const WINDOW: f64 = 0.5;
 /// Rounds of the fit to short windows, which need only come near, and of those to whole runs, at the most.
 const ROUNDS: (usize, usize) = (6, 25);
 /// A factor on a nominal value is looked for between these.
@@ -121,7 +119,7 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Record
     let free = IDENTIFIED.map(|p| Free { slot: Slot::Nominal(p), within: WITHIN });
     let prior = Prior { rows: Vec::new() };
     let how = How { free: &free, prior: &prior, temper: 1.0, rounds: ROUNDS.1, by_window: true };
-    let short: Vec<Windows> = runs.iter().map(|run| Windows::new(run, WINDOW)).collect();
+    let short: Vec<Windows> = runs.iter().map(|run| Windows::new(run, WINDOW_S)).collect();
     let whole: Vec<Windows> = runs.iter().map(|run| Windows::whole(run)).collect();
 
     let shots = Shots { runs: &runs, windows: &short };

@@ -56,12 +56,12 @@ impl Prior {
         (0..self.rows.len()).filter(|k| speaks(&self.rows[*k])).collect()
     }
 
-    /// The same without what it says of a parameter cause, which stays loosely held (a factor of about two) so that a
-    /// fit cannot run away. K_t and K_v stay as equal to each other as they were when only their common factor is wrong.
-    pub fn without(&self, release: Release) -> Self {
+    /// The same without what it says of a parameter cause, which stays loosely held (at a relative sigma of `loose`) so
+    /// that a fit cannot run away. K_t and K_v stay as equal to each other as they were when only their common factor is wrong.
+    pub fn without(&self, release: Release, loose: f64) -> Self {
         let mut prior = self.clone();
         for k in self.rows_of(release) {
-            prior.rows[k].sigma = 0.7;
+            prior.rows[k].sigma = loose;
         }
         if release.cause == "torque_constant" {
             let each: f64 = self.rows_of(release).iter().map(|k| self.rows[*k].sigma.powi(2)).sum();

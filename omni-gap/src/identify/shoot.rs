@@ -6,13 +6,16 @@ use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::Plant;
 
-use crate::simulate::{MAX_CHANNELS, Model, Recorded, restart_rows, start_at};
+use crate::simulate::{HORIZON_S, MAX_CHANNELS, Model, Recorded, restart_rows, start_at};
 
 /// The state from which a window starts: x, y, θ, v, vn, ω [m, m, rad, m/s, m/s, rad/s].
 pub type StartState = [f64; 6];
 
 /// The starts of all windows of a run.
 pub type Starts = Vec<StartState>;
+
+/// Length of a shooting window [s]
+pub const WINDOW_S: f64 = HORIZON_S;
 
 /// The windows of a run: the rows at which each begins, and the number of rows as the last entry.
 #[derive(Clone, Debug)]

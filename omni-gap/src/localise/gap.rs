@@ -7,10 +7,13 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use crate::simulate::{MAX_CHANNELS, Recorded, predict, start_at};
+use crate::simulate::{HORIZON_S, MAX_CHANNELS, Recorded, predict, start_at};
 
 /// The signal groups, in the order of their channels.
 pub const GROUPS: [&str; 3] = ["i", "w", "pose"];
+
+/// Lengths between restarts of the horizon curves [s]
+pub const HORIZONS_S: [f64; 5] = [0.1, 0.25, HORIZON_S, 1.0, 2.0];
 
 /// Errors of a model on runs.
 #[derive(Clone, Debug, Default)]

@@ -1,4 +1,6 @@
-//! In which regime of the motion the error is largest: a fixed menu of features, each cut into five equal parts.
+//! In which regime of the motion the error is largest: a fixed menu of features, each cut into equal parts.
+
+use serde::{Deserialize, Serialize};
 
 use crate::simulate::{Prediction, Recorded};
 
@@ -11,15 +13,31 @@ pub struct Hotspot {
     pub low: Option<f64>,
     /// Upper end; `None` where it is open.
     pub high: Option<f64>,
-    /// Share of the error in the part, which holds a fifth of the samples.
+    /// Share of the error in the part.
     pub share: f64,
     /// In words, to follow "where …".
     pub text: String,
 }
 
-const PARTS: usize = 5;
-/// A fifth of the samples holding less than this of the error is no hotspot.
-const NOTABLE: f64 = 0.35;
+/// What counts as a hotspot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RegimeSettings {
+    /// Equal parts of the samples into which each feature's range is cut [parts]: fine enough to say low, middle or high.
+    pub parts: usize,
+    /// Samples that each part has to have, at the least [samples]: fewer say nothing of a share.
+    pub fewest_samples: usize,
+    /// A part that holds less than this of the error is no hotspot [1]: a fifth of the samples hold a fifth by chance.
+    pub notable: f64,
+    /// A part that is no wider than this, in the feature's unit, says nothing: a robot at rest for most of the time.
+    pub least_width: f64,
+}
+
+impl Default for RegimeSettings {
+    fn default() -> Self {
+        Self { parts: 5, fewest_samples: 10, notable: 0.35, least_width: 1e-9 }
+    }
+}
 
 struct Feature {
     name: &'static str,
@@ -37,7 +55,7 @@ const FEATURES: [Feature; 5] = [
 
 /// The hotspots of a prediction's error on its wheel speeds and currents (on the pose where neither was measured), the
 /// strongest first.
-pub fn regimes<const N: usize>(runs: &[(&Recorded<N>, &Prediction)]) -> Vec<Hotspot> {
+pub fn regimes<const N: usize>(runs: &[(&Recorded<N>, &Prediction)], settings: &RegimeSettings) -> Vec<Hotspot> {
     let mut samples: Vec<([f64; FEATURES.len()], f64)> = Vec::new();
     for (run, prediction) in runs {
         for row in 1..run.rows() {
@@ -60,30 +78,30 @@ pub fn regimes<const N: usize>(runs: &[(&Recorded<N>, &Prediction)]) -> Vec<Hots
             }
         }
     }
-    let mut found: Vec<Hotspot> = (0..FEATURES.len()).filter_map(|f| hotspot(f, &samples)).collect();
+    let mut found: Vec<Hotspot> = (0..FEATURES.len()).filter_map(|f| hotspot(f, &samples, settings)).collect();
     found.sort_by(|a, b| b.share.total_cmp(&a.share));
     found
 }
 
-fn hotspot(f: usize, samples: &[([f64; FEATURES.len()], f64)]) -> Option<Hotspot> {
+fn hotspot(f: usize, samples: &[([f64; FEATURES.len()], f64)], settings: &RegimeSettings) -> Option<Hotspot> {
+    let RegimeSettings { parts, fewest_samples, notable, least_width } = *settings;
     let total: f64 = samples.iter().map(|s| s.1).sum();
     let mut sorted: Vec<(f64, f64)> = samples.iter().map(|(x, e)| (x[f], *e)).collect();
-    if sorted.len() < 10 * PARTS || total <= 0.0 {
+    if sorted.len() < fewest_samples * parts || total <= 0.0 {
         return None;
     }
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let size = sorted.len() / PARTS;
-    let part = |k: usize| &sorted[k * size..if k + 1 == PARTS { sorted.len() } else { (k + 1) * size }];
-    let shares: Vec<f64> = (0..PARTS).map(|k| part(k).iter().map(|s| s.1).sum::<f64>() / total).collect();
+    let size = sorted.len() / parts;
+    let part = |k: usize| &sorted[k * size..if k + 1 == parts { sorted.len() } else { (k + 1) * size }];
+    let shares: Vec<f64> = (0..parts).map(|k| part(k).iter().map(|s| s.1).sum::<f64>() / total).collect();
     let (k, share) = shares.into_iter().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let (low, high) = (part(k)[0].0, part(k)[part(k).len() - 1].0);
-    // a part without width (a robot at rest for most of the time) says nothing
-    if share < NOTABLE || high - low <= 1e-9 {
+    if share < notable || high - low <= least_width {
         return None;
     }
     let Feature { name, words, unit } = FEATURES[f];
     let low = (k > 0).then_some(low);
-    let high = (k + 1 < PARTS).then_some(high);
+    let high = (k + 1 < parts).then_some(high);
     let text = match (low, high) {
         (None, Some(high)) => format!("{words} < {high:.2} {unit}"),
         (Some(low), None) => format!("{words} > {low:.2} {unit}"),

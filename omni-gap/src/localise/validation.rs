@@ -28,13 +28,11 @@ use crate::simulate::{Model, Recorded, drivable, supply_seen};
 use compare::Compared;
 use figures::Sums;
 
+pub use super::gap::HORIZONS_S;
 pub use compare::Trace;
 pub use figures::fit_percent;
 pub use model::{GroupError, HorizonFigures, RunFigures, SCHEMA, SignalFigures, SpeedsFrom, Validation, Worst};
 pub use signal::Signal;
-
-/// Lengths between restarts of the horizon curves [s]
-pub const HORIZONS_S: [f64; 5] = [0.1, 0.25, 0.5, 1.0, 2.0];
 
 /// The most runs whose signals are kept for pictures.
 pub const MOST_PICTURED: usize = 12;

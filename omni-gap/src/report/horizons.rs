@@ -1,10 +1,10 @@
 //! Error over the length of a prediction, before and after.
 
 use super::markup::{Markup, Px};
-use super::model::HorizonError;
 use super::number::num;
 use super::picture::{INSIDE_X, INSIDE_Y, frame, path, x_axis, y_axis};
 use super::scale::Scale;
+use crate::engine::findings::HorizonError;
 
 /// Room right of the lines for the last numbers (px).
 pub(super) const LABEL_ROOM: f64 = 40.0;

@@ -27,14 +27,14 @@ mod write;
 pub use html::html;
 pub use identified::{identified_json, identified_terminal};
 pub use instructions::{Instructions, ScriptSaid, instructions};
-pub use model::{
-    Corrected, Estimate, Fault, Gap, HorizonError, NextExperiment, Regime, Report, SCHEMA, Shrink, SignalGap, Where,
-    Which,
-};
+pub use model::{About, Fault, Report, SCHEMA};
 pub use number::{estimate, num, percent};
 pub use picture::{MEASURED, Panel, Pictures, Series};
 pub use sensitivity::{sensitivity_html, sensitivity_terminal, write_sensitivity};
 pub use terminal::terminal;
 pub use write::{Written, write};
 
+pub use crate::engine::findings::{
+    Corrected, Estimate, Gap, HorizonError, NextExperiment, Regime, Shrink, SignalGap, Where, Which,
+};
 pub use crate::vocabulary::{Axis, Kind, Stage, Verdict};

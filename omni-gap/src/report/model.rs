@@ -1,15 +1,9 @@
 //! The report as data. The field names are those of `report.json`; readers rely on them.
 
-mod cause;
-mod gap;
-mod place;
-
 use serde::{Deserialize, Serialize};
 
-pub use cause::{Corrected, Estimate, NextExperiment, Which};
-pub use gap::{Gap, HorizonError, Shrink, SignalGap};
-pub use place::{Regime, Where};
-
+use crate::check;
+use crate::engine::findings::{Corrected, EngineRecord, Findings, Gap, NextExperiment, Shrink, Where, Which};
 use crate::vocabulary::Verdict;
 
 /// The version of the form of `report.json` that this program writes.
@@ -50,26 +44,45 @@ pub struct Report {
     /// What the reader should know but need not mend.
     #[serde(default)]
     pub notices: Vec<String>,
+    /// Which engine found all this, and with which thresholds; none where the recordings cannot be used.
+    #[serde(default)]
+    pub engine: Option<EngineRecord>,
+}
+
+/// What a report says beside the findings: of which recordings it speaks.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct About {
+    /// Name of the robot, from its file.
+    pub robot: String,
+    /// Name of the session folder.
+    pub session: Option<String>,
+    /// What is wrong with the log.
+    pub faults: Vec<Fault>,
+    /// What the reader should know but need not mend.
+    pub notices: Vec<String>,
 }
 
 impl Report {
-    /// A report that says its verdict and nothing else yet.
-    pub fn new(verdict: Verdict) -> Report {
+    /// The report of what was found.
+    pub fn of(findings: &Findings, about: About) -> Report {
+        let About { robot, session, faults, notices } = about;
+        let found = findings.clone();
         Report {
             schema: SCHEMA,
-            robot: None,
-            session: None,
-            verdict,
-            gap: Gap::default(),
-            where_: Vec::new(),
-            which: Vec::new(),
-            causes: Vec::new(),
-            shrink: Shrink::default(),
-            parameters: Vec::new(),
-            not_seen: Vec::new(),
-            next_experiment: None,
-            faults: Vec::new(),
-            notices: Vec::new(),
+            robot: Some(robot),
+            session,
+            verdict: found.verdict,
+            gap: found.gap,
+            where_: found.where_,
+            which: found.which,
+            causes: found.causes,
+            shrink: found.shrink,
+            parameters: found.parameters,
+            not_seen: found.not_seen,
+            next_experiment: found.next_experiment,
+            faults,
+            notices,
+            engine: found.engine,
         }
     }
 
@@ -99,6 +112,19 @@ pub struct Fault {
     pub what: String,
     /// How to mend it.
     pub mend: String,
+}
+
+impl From<&check::Fault> for Fault {
+    fn from(fault: &check::Fault) -> Fault {
+        Fault {
+            code: fault.code.to_owned(),
+            file: Some(fault.run.clone()),
+            column: (!fault.signal.is_empty()).then(|| fault.signal.clone()),
+            rows: Some([fault.lines.0, fault.lines.1]),
+            what: fault.sentence.trim_end_matches('.').to_owned(),
+            mend: fault.mend.trim_end_matches('.').to_owned(),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 use super::markup::{Markup, Px};
 use super::scale::Scale;
 use super::thin::stretches;
+use crate::engine::findings::{SignalTrace, Traces};
+use crate::localise::validation::Signal;
 
 /// Name of the series that was measured: drawn below the others, and not broken where predictions restart.
 pub const MEASURED: &str = "measured";
@@ -41,6 +43,43 @@ pub struct Series {
     pub name: String,
     /// One value a row; none where the sample is missing.
     pub values: Vec<Option<f64>>,
+}
+
+impl Pictures {
+    /// The pictures of what was found: signals measured, by the nominal and by the corrected model.
+    pub fn of(traces: &Traces) -> Pictures {
+        let Traces { run, shown_s, horizon_s, restarts_s, t_s, signals } = traces;
+        let line = |name: &str, values: Vec<Option<f64>>| Series { name: name.to_owned(), values };
+        let said = |values: &[f64]| values.iter().copied().map(Some).collect();
+        let panel = |trace: &SignalTrace| Panel {
+            title: title(trace.signal),
+            unit: trace.signal.unit().to_owned(),
+            t_s: t_s.clone(),
+            series: vec![
+                line(MEASURED, trace.measured.clone()),
+                line("nominal", said(&trace.nominal)),
+                line("corrected", said(&trace.corrected)),
+            ],
+        };
+        Pictures {
+            caption: format!(
+                "Held-out run {run}, its first {shown_s} s. Both models run freely and restart every {horizon_s} s from the smoothed measurement."
+            ),
+            restarts_s: restarts_s.clone(),
+            panels: signals.iter().map(panel).collect(),
+        }
+    }
+}
+
+fn title(signal: Signal) -> String {
+    match signal {
+        Signal::Current(j) => format!("current {j}"),
+        Signal::WheelSpeed(j) => format!("wheel speed {j}"),
+        Signal::Heading => "heading".to_owned(),
+        Signal::X => "x".to_owned(),
+        Signal::Y => "y".to_owned(),
+        other => String::from(other),
+    }
 }
 
 /// Size of a chart and its margins (px).

@@ -2,6 +2,7 @@
 
 use super::model::*;
 use super::picture::{MEASURED, Panel, Pictures, Series};
+use crate::engine::findings::*;
 use crate::vocabulary::{Kind, Stage, Verdict};
 
 /// All samples with the name of their golden file.
@@ -190,7 +191,8 @@ pub fn unfit_data() -> Report {
 }
 
 fn named(verdict: Verdict) -> Report {
-    Report { robot: Some("feup-4w".into()), session: Some("tuesday".into()), ..Report::new(verdict) }
+    let about = About { robot: "feup-4w".into(), session: Some("tuesday".into()), ..About::default() };
+    Report::of(&Findings { verdict, ..Findings::unfit() }, about)
 }
 
 fn cause(id: &str, title: &str, kind: Option<Kind>, probability: f64) -> Which {

@@ -1,9 +1,10 @@
 //! The diagnosis in about ten lines for a person at a terminal.
 
-use super::model::{Fault, Report, Where, Which};
+use super::model::{Fault, Report};
 use super::number::{NBSP, estimate, num, percent, percents};
 use super::words;
 use super::write::Written;
+use crate::engine::findings::{Where, Which};
 use crate::vocabulary::Verdict;
 
 /// Width of a line and of the column of labels (characters).

@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::model::{Report, Where, Which};
+use super::model::Report;
 use super::number::{num, percent};
+use crate::engine::findings::{Where, Which};
 use crate::vocabulary::{Axis, Kind, Stage, Verdict};
 
 /// The verdict as one sentence.

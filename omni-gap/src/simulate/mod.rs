@@ -28,7 +28,7 @@ pub use floor::{Floor, floor_of};
 pub use keys::{NOMINAL_KEYS, NominalKey};
 pub use limits::{Allowed, Lowered, USUAL_FIELD, allowed, usual_voltage};
 pub use model::{Carried, Model, Slot, robot_of};
-pub use predict::{Prediction, predict, restart_rows};
+pub use predict::{HORIZON_S, Prediction, predict, restart_rows};
 pub use record::{Recording, SpeedSensor, record};
 pub use recorded::{Chain, Channels, MAX_CHANNELS, Recorded, Row, supply_seen};
 pub use script::{AXES, Experiment, Plan, Script, along, scripts};

@@ -9,6 +9,9 @@ use model_core::plant::Plant;
 use super::recorded::{MAX_CHANNELS, Recorded, Row};
 use super::start::start_at;
 
+/// Time between restarts of the free runs by which a gap is measured [s]
+pub const HORIZON_S: f64 = 0.5;
+
 /// What a model predicts for every row of a run.
 #[derive(Clone, Debug)]
 pub struct Prediction {

@@ -54,7 +54,7 @@ impl Signal {
     }
 
     /// The signal of a channel of a recording with this many wheels.
-    pub(super) fn of_channel(channel: usize, wheels: usize) -> Signal {
+    pub fn of_channel(channel: usize, wheels: usize) -> Signal {
         match channel {
             c if c < wheels => Signal::Current(c),
             c if c < 2 * wheels => Signal::WheelSpeed(c - wheels),

@@ -1,8 +1,9 @@
 //! Where the gap lies, and which cause is behind it.
 
 use super::section;
+use crate::engine::findings::Which;
 use crate::report::markup::Markup;
-use crate::report::model::{Report, Which};
+use crate::report::model::Report;
 use crate::report::number::{estimate, percent};
 use crate::report::words;
 use crate::vocabulary::{Kind, Stage, Verdict};

@@ -1,9 +1,10 @@
 //! How large the gap is: before, after and noise floor, in total, per signal group and per horizon.
 
 use super::section;
+use crate::engine::findings::SignalGap;
 use crate::report::horizons::horizon_chart;
 use crate::report::markup::Markup;
-use crate::report::model::{Report, SignalGap};
+use crate::report::model::Report;
 use crate::report::number::{num, percent};
 use crate::report::words;
 

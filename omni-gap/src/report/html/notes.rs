@@ -1,8 +1,9 @@
 //! Parameters, what to do next, what could not be seen, what is wrong with the log.
 
 use super::section;
+use crate::engine::findings::Corrected;
 use crate::report::markup::Markup;
-use crate::report::model::{Corrected, Report};
+use crate::report::model::Report;
 use crate::report::number::{estimate, figures};
 use crate::report::terminal::place_in_log;
 use crate::report::words;

@@ -4,6 +4,7 @@ use model_core::effects;
 use model_core::effects::card::{Card, Param, Role, Scope};
 use model_core::plant::robot::Nominal;
 
+use crate::engine::knobs::ScreenKnobs;
 use crate::identify::{Prior, Release};
 use crate::simulate::Carried;
 
@@ -82,7 +83,7 @@ pub fn releases() -> Vec<Release> {
 }
 
 /// Every effect that is not in the nominal model already.
-pub fn candidates<const N: usize>(present: &[Carried]) -> Vec<Candidate> {
+pub fn candidates<const N: usize>(present: &[Carried], knobs: &ScreenKnobs) -> Vec<Candidate> {
     let mut all = Vec::new();
     for effect in effects::catalogue::<f64>() {
         let card = effect.card();
@@ -95,7 +96,7 @@ pub fn candidates<const N: usize>(present: &[Carried]) -> Vec<Candidate> {
             let taken = present.iter().any(|p| p.id == card.id && (p.wheel.is_none() || p.wheel == wheel));
             if !taken {
                 // on one wheel alone only the plain sizes: the shapes were looked at on all wheels together
-                let trials = trials(card, wheel, wheel.is_none() || !anywhere);
+                let trials = trials(card, wheel, wheel.is_none() || !anywhere, knobs);
                 all.push(Candidate { card, wheel, trials });
             }
         }
@@ -104,8 +105,8 @@ pub fn candidates<const N: usize>(present: &[Carried]) -> Vec<Candidate> {
 }
 
 /// Parameter sets that span what the effect can look like: each size at its typical departure from absent, the others
-/// absent; if `thorough` also at half and at twice that, and each shape at a few values.
-fn trials(card: &'static Card, wheel: Option<usize>, thorough: bool) -> Vec<Carried> {
+/// absent; if `thorough` also at multiples of that, and each shape at a few values.
+fn trials(card: &'static Card, wheel: Option<usize>, thorough: bool, knobs: &ScreenKnobs) -> Vec<Carried> {
     let base: Vec<f64> = card.params.iter().map(|p| if p.role == Role::Size { p.absent } else { p.typical }).collect();
     let with = |changes: &[(usize, f64)]| {
         let mut params = base.clone();
@@ -122,16 +123,16 @@ fn trials(card: &'static Card, wheel: Option<usize>, thorough: bool) -> Vec<Carr
         if !thorough {
             continue;
         }
-        for share in [0.5, 2.0] {
+        for share in &knobs.size_multiples {
             all.push(with(&[(k, p.absent + share * (p.typical - p.absent))]));
         }
         for (s, shape) in card.params.iter().enumerate().filter(|(_, s)| s.role == Role::Shape) {
-            all.extend(others(shape).map(|x| with(&[(k, p.typical), (s, x)])));
+            all.extend(others(shape, knobs).into_iter().map(|x| with(&[(k, p.typical), (s, x)])));
         }
     }
     for (s, shape) in card.params.iter().enumerate().filter(|(_, s)| s.role == Role::Shape && s.absent == s.typical) {
-        // a shape that can be an effect of its own, such as a ratio: a tenth of its range away
-        let away = 0.05 * (shape.within.1 - shape.within.0);
+        // a shape that can be an effect of its own, such as a ratio
+        let away = knobs.shape_away * (shape.within.1 - shape.within.0);
         all.push(with(&[(s, shape.typical + away)]));
     }
     if all.is_empty() {
@@ -140,16 +141,17 @@ fn trials(card: &'static Card, wheel: Option<usize>, thorough: bool) -> Vec<Carr
     all
 }
 
-fn others(shape: &Param) -> impl Iterator<Item = f64> {
+/// Other values of a shape than its typical one.
+fn others(shape: &Param, knobs: &ScreenKnobs) -> Vec<f64> {
     let (lo, hi, typical) = (shape.within.0, shape.within.1, shape.typical);
-    let around = lo < 0.0;
-    [1.0, 2.0, 3.0].into_iter().map(move |k| {
-        if around {
-            // an angle: quarter turns from the typical one
-            let x = typical + k * 0.25 * (hi - lo);
+    if lo < 0.0 {
+        // an angle: turned from the typical one
+        let turned = |turn: &f64| {
+            let x = typical + turn * (hi - lo);
             if x > hi { x - (hi - lo) } else { x }
-        } else {
-            typical * [0.33, 2.0, 4.0][k as usize - 1]
-        }
-    })
+        };
+        knobs.shape_turns.iter().map(turned).collect()
+    } else {
+        knobs.shape_multiples.iter().map(|multiple| typical * multiple).collect()
+    }
 }

@@ -2,34 +2,25 @@
 
 use model_core::geometry::frames::BodyTwist;
 
-use super::causes::stage_of;
-use crate::identify::Prior;
+use super::candidate::Cause;
+use super::scored::Data;
+use super::search::{Outcome, Search};
+use super::settle::stage_of;
+use crate::engine::findings::{Regime, Where};
+use crate::engine::knobs::PlacesKnobs;
 use crate::localise::{Hotspot, Link, links, regimes};
-use crate::rank::{Cause, Data, Outcome, Verdict};
-use crate::report::{Axis, Regime, Stage, Where};
 use crate::simulate::{Model, Prediction, Recorded, predict};
-
-/// A wheel that holds this many times its fair share of the error is named.
-const STANDS_OUT: f64 = 1.8;
-/// An axis that holds this share of the error is named.
-const MOSTLY: f64 = 0.7;
-/// Stages with less are left out.
-const NEGLIGIBLE: f64 = 0.005;
+use crate::vocabulary::{Axis, Stage};
 
 /// The places of the gap, the largest first.
-pub(super) fn places<const N: usize>(
-    verdict: &Verdict<N>,
-    nominal: &Model<N>,
-    data: &Data<'_, N>,
-    horizon: f64,
-) -> Vec<Where> {
+pub(super) fn places<const N: usize>(search: &Search<N>, nominal: &Model<N>, data: &Data<'_, N>) -> Vec<Where> {
+    let (knobs, horizon) = (&data.knobs.places, data.knobs.measure.horizon_s);
     // what lies within stated uncertainty is not where an effect sits; a wrong parameter is all there is to see
-    let effect = verdict.found.iter().any(|f| matches!(f.cause, Cause::Effect(..)));
-    let model =
-        if effect || matches!(verdict.outcome, Outcome::Unknown) { &verdict.refitted.fit.model } else { nominal };
+    let effect = search.found.iter().any(|f| matches!(f.cause, Cause::Effect(..)));
+    let model = if effect || matches!(search.outcome, Outcome::Unknown) { &search.refitted.fit.model } else { nominal };
     let plant = model.plant();
-    let split = links(&plant, &verdict.corrected.fit.model.plant(), &data.held, horizon);
-    let weights = stage_weights(verdict, &data.prior);
+    let split = links(&plant, &search.corrected.fit.model.plant(), &data.held, horizon);
+    let weights = stage_weights(search, data);
     let mut shares = [0.0; 5];
     for (link, share) in &split.shares {
         let stages: Vec<usize> = (0..5).filter(|s| belongs(Stage::ALL[*s], *link)).collect();
@@ -41,10 +32,10 @@ pub(super) fn places<const N: usize>(
     let predictions: Vec<(&Recorded<N>, Prediction)> =
         data.held.iter().map(|run| (*run, predict(&plant, run, horizon))).collect();
     let pairs: Vec<(&Recorded<N>, &Prediction)> = predictions.iter().map(|(r, p)| (*r, p)).collect();
-    let (wheel, axis) = standing_out(&pairs, model);
-    let hot = regimes(&pairs).into_iter().next();
+    let (wheel, axis) = standing_out(&pairs, model, knobs);
+    let hot = regimes(&pairs, &knobs.regime).into_iter().next();
     let mut places: Vec<Where> = (0..5)
-        .filter(|s| shares[*s] > NEGLIGIBLE)
+        .filter(|s| shares[*s] > knobs.negligible)
         .map(|s| Where { stage: Stage::ALL[s], axis: None, wheel: None, share: shares[s], regime: None })
         .collect();
     let total: f64 = places.iter().map(|p| p.share).sum();
@@ -53,8 +44,7 @@ pub(super) fn places<const N: usize>(
     }
     places.sort_by(|a, b| b.share.total_cmp(&a.share));
     if let Some(first) = places.first_mut() {
-        first.wheel =
-            verdict.found.first().and_then(|f| f.cause.wheel()).or(wheel.filter(|_| verdict.found.is_empty()));
+        first.wheel = search.found.first().and_then(|f| f.cause.wheel()).or(wheel.filter(|_| search.found.is_empty()));
         first.axis = if first.wheel.is_none() { axis } else { None };
         first.regime = hot.map(told);
     }
@@ -77,21 +67,20 @@ fn belongs(stage: Stage, link: Link) -> bool {
 
 /// How much each stage's causes explain. The measured signals split the gap among links; which stage of a link it is can
 /// only be told by what explains it.
-fn stage_weights<const N: usize>(verdict: &Verdict<N>, prior: &Prior) -> [f64; 5] {
-    // every stage keeps a grain, so that a link no cause speaks of still has somewhere to go
-    let mut weights = [1e-6; 5];
+fn stage_weights<const N: usize>(search: &Search<N>, data: &Data<'_, N>) -> [f64; 5] {
+    let (prior, mut weights) = (data.prior, [data.knobs.places.grain; 5]);
     let at = |stage: Stage| Stage::ALL.iter().position(|s| *s == stage).unwrap_or(0);
-    if verdict.found.is_empty() {
-        for s in &verdict.last.screened {
+    if search.found.is_empty() {
+        for s in &search.rounds[0].screened {
             weights[at(s.candidate.card.stage().into())] += s.gain.sqrt();
         }
         // a nominal value that a re-fit drives far from what was stated speaks for its own stage
-        for (row, violation) in prior.rows.iter().zip(prior.violations(&verdict.refitted.fit.model)) {
+        for (row, violation) in prior.rows.iter().zip(prior.violations(&search.refitted.fit.model)) {
             weights[at(stage_of(row.terms[0].0.cause()))] += violation.abs();
         }
     }
-    for found in &verdict.found {
-        let ranking = &found.ranking;
+    for found in &search.found {
+        let ranking = &search.rounds[found.round];
         let gain =
             ranking.base.score(ranking.scale) - ranking.ranked.first().map_or(0.0, |r| r.scored.score(ranking.scale));
         weights[at(stage_of(found.cause.id()))] += gain.max(0.0);
@@ -103,6 +92,7 @@ fn stage_weights<const N: usize>(verdict: &Verdict<N>, prior: &Prior) -> [f64; 5
 fn standing_out<const N: usize>(
     runs: &[(&Recorded<N>, &Prediction)],
     model: &Model<N>,
+    knobs: &PlacesKnobs,
 ) -> (Option<usize>, Option<Axis>) {
     let mut by_wheel = vec![0.0; N];
     let mut by_axis = [0.0; 3];
@@ -134,7 +124,7 @@ fn standing_out<const N: usize>(
         let (k, most) = x.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         (total > 0.0).then_some((k, most / total))
     };
-    let wheel = top(&by_wheel).filter(|(_, share)| *share > STANDS_OUT / N as f64).map(|(k, _)| k);
-    let axis = top(&by_axis).filter(|(_, share)| *share > MOSTLY).map(|(k, _)| [Axis::V, Axis::Vn, Axis::W][k]);
+    let wheel = top(&by_wheel).filter(|(_, share)| *share > knobs.wheel_stands_out / N as f64).map(|(k, _)| k);
+    let axis = top(&by_axis).filter(|(_, share)| *share > knobs.axis_holds).map(|(k, _)| Axis::ALL[k]);
     (wheel, axis)
 }

@@ -9,12 +9,13 @@
 
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::Plant;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
-use crate::identify::{Fit, Linearised, Prior, Release, Shots, Starts, Whitener, run_windows};
-use crate::simulate::{Carried, Recorded, Slot};
+use crate::engine::knobs::ScreenKnobs;
+use crate::identify::{Fit, Linearised, Prior, Shots, Starts, Whitener, run_windows};
+use crate::simulate::{Carried, Recorded};
 
 /// A candidate and what the screen says of it.
 #[derive(Clone, Debug)]
@@ -37,6 +38,7 @@ pub fn screen<const N: usize>(
     prior: &Prior,
     shots: Shots<'_, N>,
     candidates: Vec<Candidate>,
+    knobs: &ScreenKnobs,
 ) -> Vec<Screened> {
     let reduced = fit.reduced(linear, prior);
     let Some(hess) = reduced.hess.clone().cholesky() else { return Vec::new() };
@@ -61,7 +63,8 @@ pub fn screen<const N: usize>(
                     let own = hess.solve(&shared);
                     let explains = overlap - shared.dot(&toward);
                     let left = size - shared.dot(&own);
-                    let amplitude = if left > 1e-6 * size && left > 1e-9 { explains / left } else { 0.0 };
+                    let amplitude =
+                        if left > knobs.least_left * size && left > knobs.least_size { explains / left } else { 0.0 };
                     Trial { effect: trial.clone(), amplitude, gain: explains * amplitude, size: left.max(0.0).sqrt() }
                 })
                 .collect()
@@ -81,7 +84,7 @@ pub fn screen<const N: usize>(
                     best = trial;
                 }
             }
-            let (gain, from) = (gain(best), scaled(&candidate, &best.effect, best.amplitude));
+            let (gain, from) = (gain(best), scaled(&candidate, &best.effect, best.amplitude, knobs.start_between));
             Screened { candidate, gain, visible, from }
         })
         .collect()
@@ -108,9 +111,9 @@ fn both_ways(candidate: &Candidate, trial: &Carried) -> bool {
         .any(|(p, x)| *x != p.absent && p.within.0 < p.absent && p.absent < p.within.1)
 }
 
-/// The trial with its departure from absent scaled, at most to half and to one and a half of it.
-fn scaled(candidate: &Candidate, trial: &Carried, amplitude: f64) -> Carried {
-    let by = amplitude.signum() * amplitude.abs().clamp(0.5, 1.5);
+/// The trial with its departure from absent scaled, by no less and no more than `between`.
+fn scaled(candidate: &Candidate, trial: &Carried, amplitude: f64, between: (f64, f64)) -> Carried {
+    let by = amplitude.signum() * amplitude.abs().clamp(between.0, between.1);
     let mut from = trial.clone();
     for (p, x) in candidate.card.params.iter().zip(&mut from.params) {
         if p.role == model_core::effects::card::Role::Size && (by > 0.0 || p.within.0 < p.absent) {
@@ -159,41 +162,6 @@ fn predictions<const N: usize>(
                 },
             );
             out
-        })
-        .collect()
-}
-
-/// For every parameter cause, the drop of the whole cost that striking out its statement promises.
-///
-/// With v the violations of the statements in question and K their leverage, the drop is vᵀ(1 − K)⁻¹v.
-pub fn parameter_gains<const N: usize>(
-    fit: &Fit<N>,
-    linear: &Linearised,
-    prior: &Prior,
-    causes: &[Release],
-) -> Vec<(Release, f64)> {
-    let reduced = fit.reduced(linear, prior);
-    let Some(hess) = reduced.hess.cholesky() else { return Vec::new() };
-    let violations = prior.violations(&fit.model);
-    let n = fit.free.len();
-    causes
-        .iter()
-        .map(|cause| {
-            let rows = prior.rows_of(*cause);
-            let mut c = DMatrix::zeros(rows.len(), n);
-            for (k, row) in rows.iter().enumerate() {
-                let row = &prior.rows[*row];
-                for (p, weight) in &row.terms {
-                    if let Some(at) = fit.free.iter().position(|f| f.slot == Slot::Nominal(*p)) {
-                        c[(k, at)] = weight / (row.sigma * fit.model.get(Slot::Nominal(*p)));
-                    }
-                }
-            }
-            let v = DVector::from_iterator(rows.len(), rows.iter().map(|k| violations[*k]));
-            let leverage = &c * hess.solve(&c.transpose());
-            let kept = DMatrix::identity(rows.len(), rows.len()) - leverage;
-            let gain = kept.lu().solve(&v).map_or(0.0, |x| v.dot(&x));
-            (*cause, gain.max(0.0))
         })
         .collect()
 }

@@ -1,0 +1,135 @@
+//! # Evidence: what an engine has to go by
+//!
+//! A session laid out: what the robot file believes and how sure it is, the runs to fit on, and the runs that are only
+//! predicted. How many wheels the robot has is told inside, by [`LaidOut`], and not in any type outside.
+
+use crate::engine::knobs::LayoutKnobs;
+use crate::identify::Prior;
+use crate::log::{RobotFile, Run, Session};
+use crate::simulate::{Chain, Recorded};
+
+/// What an engine has to go by.
+#[derive(Clone, Debug)]
+pub struct Evidence {
+    /// The robot file.
+    pub robot: RobotFile,
+    /// What it states of its own uncertainty.
+    pub prior: Prior,
+    /// The recordings.
+    pub runs: LaidOut,
+    /// What was left out or cut, a sentence each.
+    pub notices: Vec<String>,
+}
+
+/// The recordings, by the number of wheels.
+#[derive(Clone, Debug)]
+pub enum LaidOut {
+    /// Of a robot with three wheels.
+    Three(Runs<3>),
+    /// Of a robot with four wheels.
+    Four(Runs<4>),
+}
+
+/// The recordings of a robot with `N` wheels; there is at least one of each kind.
+#[derive(Clone, Debug)]
+pub struct Runs<const N: usize> {
+    /// Runs to fit on.
+    pub fit: Vec<Recorded<N>>,
+    /// Runs that no fit sees.
+    pub held: Vec<Recorded<N>>,
+}
+
+/// Why sound recordings are no evidence all the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unfit {
+    /// Short name for programs.
+    pub code: &'static str,
+    /// What is wrong.
+    pub what: &'static str,
+    /// How to mend it.
+    pub mend: &'static str,
+}
+
+const NOTHING_DRIVES: Unfit = Unfit {
+    code: "nothing_drives_the_model",
+    what: "no run has a voltage, a signed current, a wheel speed or a commanded wheel speed to drive the model with",
+    mend: "log at least one of u, i, w or wset for every wheel",
+};
+
+const NOTHING_TO_COMPARE: Unfit = Unfit {
+    code: "nothing_to_compare",
+    what: "what drives the model is all that was measured, so nothing is left to compare it with",
+    mend: "log the pose, or voltages beside the wheel speeds",
+};
+
+impl Evidence {
+    /// Lays a session out.
+    ///
+    /// # Errors
+    /// Where nothing drives a model, or nothing is left to compare it with.
+    pub fn of(session: &Session, knobs: &LayoutKnobs) -> Result<Self, Unfit> {
+        let mut notices = Vec::new();
+        let runs = match session.robot.wheel.len() {
+            3 => LaidOut::Three(Runs::of(session, knobs, &mut notices)?),
+            _ => LaidOut::Four(Runs::of(session, knobs, &mut notices)?),
+        };
+        Ok(Self { robot: session.robot.clone(), prior: Prior::stated(&session.robot), runs, notices })
+    }
+}
+
+impl<const N: usize> Runs<N> {
+    fn of(session: &Session, knobs: &LayoutKnobs, notices: &mut Vec<String>) -> Result<Self, Unfit> {
+        let Self { fit, held } = laid_out(session, knobs, notices);
+        if fit.is_empty() || held.is_empty() {
+            return Err(NOTHING_DRIVES);
+        }
+        if fit.iter().chain(&held).all(|run| run.has.iter().all(|has| *has == 0)) {
+            return Err(NOTHING_TO_COMPARE);
+        }
+        if fit[0].chain != Chain::Voltage {
+            notices.push(format!("no usable voltage: the model is driven by {}", driven(fit[0].chain)));
+        }
+        Ok(Self { fit, held })
+    }
+}
+
+fn laid_out<const N: usize>(session: &Session, knobs: &LayoutKnobs, notices: &mut Vec<String>) -> Runs<N> {
+    let LayoutKnobs { hold_out_every, parts_of_a_lone_run: parts, .. } = *knobs;
+    let mut of = |runs: &[Run]| -> Vec<Recorded<N>> {
+        runs.iter()
+            .filter_map(|run| {
+                let laid = Recorded::new(run, &session.robot);
+                if laid.is_none() {
+                    notices.push(format!("run {}: nothing in it can drive the model; left out", run.name));
+                }
+                laid
+            })
+            .collect()
+    };
+    let mut fit = of(&session.runs);
+    let held = of(&session.heldout);
+    if !held.is_empty() {
+        return Runs { fit, held };
+    }
+    if fit.len() < hold_out_every {
+        notices.push(format!(
+            "{} run(s) only: each was cut into {parts} parts to have some held out; hidden states start cold in each",
+            fit.len()
+        ));
+        fit = fit.iter().flat_map(|run| run.cut(parts)).collect();
+    }
+    let (mut kept, mut out) = (Vec::new(), Vec::new());
+    for (k, run) in fit.into_iter().enumerate() {
+        if k % hold_out_every == hold_out_every - 1 { out.push(run) } else { kept.push(run) }
+    }
+    Runs { fit: kept, held: out }
+}
+
+fn driven(chain: Chain) -> &'static str {
+    match chain {
+        Chain::Voltage => "the commanded voltages",
+        Chain::Current => "the measured currents",
+        Chain::WheelSpeed => "the measured wheel speeds",
+        Chain::SetSpeed => "the commanded wheel speeds",
+    }
+}

@@ -1,0 +1,62 @@
+//! What a fitted model changes in a robot file.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::log::{Change, EffectEntry};
+
+/// Changes to a robot file.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FileChanges {
+    /// Numbers that are set, in the order of the file's keys.
+    pub numbers: Vec<NumberChange>,
+    /// Effects that are written in.
+    pub effects: Vec<EffectChange>,
+}
+
+/// A number that is set.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NumberChange {
+    /// Its path, such as `body.mass_kg` or `wheel[2].radius_m`.
+    pub path: String,
+    /// The number, in the key's unit.
+    pub value: f64,
+}
+
+/// An effect that is written in.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EffectChange {
+    /// Its id in the catalogue.
+    pub id: String,
+    /// The wheel that it sits on alone.
+    pub wheel: Option<usize>,
+    /// Its parameters by key, in the unit that the key ends with.
+    pub params: BTreeMap<String, f64>,
+}
+
+impl FileChanges {
+    /// The same as changes that [`corrected`](crate::log::corrected) writes.
+    pub fn changes(&self) -> Vec<Change> {
+        let number = |n: &NumberChange| Change::Number { path: n.path.clone(), value: n.value };
+        let effect = |e: &EffectChange| {
+            Change::Effect(EffectEntry { id: e.id.clone(), wheel: e.wheel, params: e.params.clone() })
+        };
+        self.numbers.iter().map(number).chain(self.effects.iter().map(effect)).collect()
+    }
+}
+
+impl From<Vec<Change>> for FileChanges {
+    fn from(changes: Vec<Change>) -> Self {
+        let mut all = Self::default();
+        for change in changes {
+            match change {
+                Change::Number { path, value } => all.numbers.push(NumberChange { path, value }),
+                Change::Effect(EffectEntry { id, wheel, params }) => {
+                    all.effects.push(EffectChange { id, wheel, params });
+                }
+            }
+        }
+        all
+    }
+}

@@ -1,0 +1,85 @@
+//! # Findings: all that an engine says of a robot's recordings
+//!
+//! Plain and owned: no number of wheels in its type, no matrix, nothing that borrows. A report, its pictures and the
+//! corrected robot file are made of [`Findings`] alone, and whoever compares many robots can keep them in files.
+
+mod cause;
+mod changes;
+mod gap;
+mod place;
+mod traces;
+
+use serde::{Deserialize, Serialize};
+
+pub use cause::{Corrected, Estimate, NextExperiment, Which};
+pub use changes::{EffectChange, FileChanges, NumberChange};
+pub use gap::{Gap, HorizonError, Shrink, SignalGap};
+pub use place::{Regime, Where};
+pub use traces::{SignalTrace, Traces};
+
+use super::knobs::Knobs;
+use crate::vocabulary::Verdict;
+
+/// Which engine found it, and with which thresholds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EngineRecord {
+    /// The engine's name.
+    pub name: String,
+    /// Its version.
+    pub version: u32,
+    /// Its thresholds.
+    pub knobs: Knobs,
+}
+
+/// What an engine found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Findings {
+    /// Who found it; none where no engine was asked.
+    pub engine: Option<EngineRecord>,
+    /// The answer in one word.
+    pub verdict: Verdict,
+    /// Causes that the corrected model contains, the one that explains most first; none where they explain too little.
+    pub causes: Vec<String>,
+    /// Every cause considered, most probable first; probabilities sum to 1.
+    pub which: Vec<Which>,
+    /// Where the gap lies; shares sum to 1.
+    #[serde(rename = "where")]
+    pub where_: Vec<Where>,
+    /// The error of the free runs, per signal group and per horizon.
+    pub gap: Gap,
+    /// How far the causes close the gap.
+    pub shrink: Shrink,
+    /// Numbers of the robot file and of its effects, before and after.
+    pub parameters: Vec<Corrected>,
+    /// What these recordings could not have shown, each with its reason.
+    pub not_seen: Vec<String>,
+    /// The run that would settle what is open.
+    pub next_experiment: Option<NextExperiment>,
+    /// What the causes change in the robot file; nothing where no cause is named.
+    pub corrected: FileChanges,
+    /// What a fit within the stated uncertainty alone would change in the robot file.
+    pub refitted: FileChanges,
+    /// The signals of a held-out run; none where no model was fitted.
+    pub traces: Option<Traces>,
+}
+
+impl Findings {
+    /// What is found in recordings that cannot be used: nothing.
+    pub fn unfit() -> Self {
+        Self {
+            engine: None,
+            verdict: Verdict::UnfitData,
+            causes: Vec::new(),
+            which: Vec::new(),
+            where_: Vec::new(),
+            gap: Gap::default(),
+            shrink: Shrink::default(),
+            parameters: Vec::new(),
+            not_seen: Vec::new(),
+            next_experiment: None,
+            corrected: FileChanges::default(),
+            refitted: FileChanges::default(),
+            traces: None,
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! # Engine: which cause, and never a name without its look-alikes
+//!
+//! [`Evidence`] goes in, [`Findings`] come out, and what decides between them is written down in [`Knobs`]. Behind the
+//! seam stands [`Stepwise`], the engine of the product; another is whatever has the trait [`Engine`].
+
+pub mod evidence;
+pub mod findings;
+pub mod knobs;
+mod seam;
+mod stepwise;
+
+pub use evidence::Evidence;
+pub use findings::Findings;
+pub use knobs::Knobs;
+pub use seam::Engine;
+pub use stepwise::Stepwise;

@@ -1,0 +1,110 @@
+//! # Stepwise: causes are taken up one by one
+//!
+//! Every effect of the catalogue, on every wheel where it can sit on one, and every nominal parameter is tried. A quick
+//! [`screen`] asks how much of what the plain model leaves over each could explain once the parameters and the windows'
+//! starts have taken their share. The best are fitted, and judged by how well they predict whole runs that no fit has
+//! seen, plus what they cost by the robot file's own uncertainty and by their freedom ([`scored`]); that is one
+//! [`round`]. The best that convinces ([`accept`]) is taken up, and the next round goes on from there ([`search`]).
+
+mod accept;
+mod candidate;
+mod distances;
+mod not_seen;
+mod numbers;
+mod places;
+mod released;
+mod round;
+mod scored;
+mod screen;
+mod search;
+mod settle;
+mod traces;
+mod which;
+
+use super::evidence::{Evidence, LaidOut, Runs};
+use super::findings::{EngineRecord, FileChanges, Findings};
+use super::knobs::Knobs;
+use super::seam::Engine;
+use crate::identify::Windows;
+use crate::simulate::{Model, supply_seen};
+use crate::vocabulary::Verdict;
+use candidate::Cause;
+use distances::Plants;
+use scored::Data;
+use search::{Outcome, Search};
+
+/// Forward stepwise selection of causes, scored on held-out runs.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stepwise;
+
+impl Engine for Stepwise {
+    fn name(&self) -> &'static str {
+        "stepwise"
+    }
+
+    fn version(&self) -> u32 {
+        1
+    }
+
+    fn find(&self, evidence: &Evidence, knobs: &Knobs, progress: &dyn Fn(&str)) -> Findings {
+        let engine = EngineRecord { name: self.name().to_owned(), version: self.version(), knobs: knobs.clone() };
+        let found = match &evidence.runs {
+            LaidOut::Three(runs) => findings(evidence, runs, knobs, progress),
+            LaidOut::Four(runs) => findings(evidence, runs, knobs, progress),
+        };
+        Findings { engine: Some(engine), ..found }
+    }
+}
+
+fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, progress: &dyn Fn(&str)) -> Findings {
+    let Runs { fit, held } = runs;
+    let robot = &evidence.robot;
+    let nominal = Model::<N>::nominal(robot, supply_seen(fit.iter().chain(held)));
+    let window_s = knobs.layout.window_s;
+    let data = Data {
+        fit_windows: fit.iter().map(|r| Windows::new(r, window_s)).collect(),
+        held_windows: held.iter().map(|r| Windows::new(r, window_s)).collect(),
+        fit: fit.iter().collect(),
+        held: held.iter().collect(),
+        prior: &evidence.prior,
+        knobs,
+    };
+    let search = search::search(&data, &nominal, progress);
+    progress("writing the report");
+
+    let plants = Plants {
+        nominal: nominal.plant(),
+        corrected: search.reported().fit.model.plant(),
+        refitted: search.refitted.fit.model.plant(),
+        runner_up: which::runner_up(&search).map(|r| r.scored.fit.model.plant()),
+    };
+    let (gap, shrink) = distances::shrink(&plants, &data.held, &knobs.measure);
+    let which = which::which(&search, robot, knobs);
+    let named = search.outcome == Outcome::Explained;
+    let causes: Vec<String> = search.found.iter().filter(|_| named).map(|f| f.cause.id().to_owned()).collect();
+    Findings {
+        engine: None,
+        verdict: verdict(&search),
+        where_: places::places(&search, &nominal, &data),
+        gap,
+        shrink,
+        parameters: numbers::parameters(&search, robot),
+        not_seen: not_seen::not_seen(&search, &data),
+        next_experiment: settle::next_experiment(&which, &causes),
+        corrected: if named { numbers::changes(&search.corrected.fit.model, robot) } else { FileChanges::default() },
+        refitted: numbers::changes(&search.refitted.fit.model, robot),
+        traces: Some(traces::traces(&plants.nominal, &plants.corrected, data.held[0], &knobs.measure)),
+        which,
+        causes,
+    }
+}
+
+fn verdict<const N: usize>(search: &Search<N>) -> Verdict {
+    match (search.outcome, search.found.first()) {
+        (Outcome::NoGap, _) => Verdict::NoGap,
+        (Outcome::Unknown, _) | (Outcome::Explained, None) => Verdict::Unknown,
+        // one effect is enough: then correcting parameters alone does not explain the gap
+        (Outcome::Explained, _) if search.found.iter().any(|f| matches!(f.cause, Cause::Effect(..))) => Verdict::Effect,
+        (Outcome::Explained, Some(_)) => Verdict::Parameter,
+    }
+}

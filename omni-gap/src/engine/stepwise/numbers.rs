@@ -1,0 +1,95 @@
+//! The numbers of a fitted model: of a cause, of the whole robot file, and as changes to that file.
+
+use std::collections::BTreeMap;
+
+use model_core::plant::robot::Nominal;
+
+use super::candidate::Cause;
+use super::search::Search;
+use crate::engine::findings::{Corrected, Estimate, FileChanges};
+use crate::identify::Fit;
+use crate::log::{Change, EffectEntry, RobotFile};
+use crate::simulate::{Model, NOMINAL_KEYS, NominalKey, Slot};
+
+/// The numbers of a fitted cause, by key.
+pub(super) fn of_cause<const N: usize>(cause: &Cause, fit: &Fit<N>, robot: &RobotFile) -> BTreeMap<String, Estimate> {
+    let mut numbers = BTreeMap::new();
+    match cause {
+        Cause::Effect(card, wheel) => {
+            let Some(at) = fit.model.effects.iter().position(|e| e.id == card.id && e.wheel == *wheel) else {
+                return numbers;
+            };
+            for (p, param) in card.params.iter().enumerate() {
+                let estimate = Estimate {
+                    value: fit.model.effects[at].params[p],
+                    std: fit.std(Slot::Param(at, p)),
+                    unit: param.unit.to_owned(),
+                };
+                numbers.insert(param.key.to_owned(), estimate);
+            }
+        }
+        Cause::Parameter(release) => {
+            let own = |p: &Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
+            for key in NOMINAL_KEYS.iter().filter(|k| k.factors.iter().any(own)) {
+                let value = key.value(robot) * key.factor(&fit.model.factor);
+                let std = relative_std(fit, key).map(|s| s * value);
+                numbers.insert(key.key.to_owned(), Estimate { value, std, unit: key.unit.to_owned() });
+            }
+        }
+    }
+    numbers
+}
+
+/// Relative uncertainty of a nominal number after a fit, its factors' correlation left aside.
+fn relative_std<const N: usize>(fit: &Fit<N>, key: &NominalKey) -> Option<f64> {
+    let mut variance = 0.0;
+    for p in key.factors {
+        variance += (fit.std(Slot::Nominal(*p))? / fit.model.factor[*p as usize]).powi(2);
+    }
+    Some(variance.sqrt())
+}
+
+/// The robot file's numbers before and after.
+pub(super) fn parameters<const N: usize>(search: &Search<N>, robot: &RobotFile) -> Vec<Corrected> {
+    let fit = &search.reported().fit;
+    let mut rows: Vec<Corrected> = NOMINAL_KEYS
+        .iter()
+        .map(|key| {
+            let nominal = key.value(robot);
+            let corrected = nominal * key.factor(&fit.model.factor);
+            Corrected {
+                key: format!("{}.{}", key.table, key.key),
+                unit: key.unit.to_owned(),
+                nominal: Some(nominal),
+                nominal_std: robot.relative_uncertainty(key.key).map(|s| s * nominal),
+                corrected,
+                std: relative_std(fit, key).map(|s| s * corrected),
+            }
+        })
+        .collect();
+    for (at, effect) in fit.model.effects.iter().enumerate() {
+        for (p, param) in effect.card().params.iter().enumerate() {
+            let place = effect.wheel.map_or(String::new(), |j| format!(" (wheel {j})"));
+            rows.push(Corrected {
+                key: format!("effects.{}.{}{place}", effect.id, param.key),
+                unit: param.unit.to_owned(),
+                nominal: None,
+                nominal_std: None,
+                corrected: effect.params[p],
+                std: fit.std(Slot::Param(at, p)),
+            });
+        }
+    }
+    rows
+}
+
+/// What a fitted model changes in the robot file.
+pub(super) fn changes<const N: usize>(model: &Model<N>, robot: &RobotFile) -> FileChanges {
+    let mut changes: Vec<Change> =
+        NOMINAL_KEYS.iter().flat_map(|key| key.scaled(robot, key.factor(&model.factor))).collect();
+    for effect in &model.effects {
+        let params = effect.card().params.iter().zip(&effect.params).map(|(p, x)| (p.key.to_owned(), *x)).collect();
+        changes.push(Change::Effect(EffectEntry { id: effect.id.to_owned(), wheel: effect.wheel, params }));
+    }
+    changes.into()
+}

@@ -1,0 +1,112 @@
+//! One round of the search: every cause on top of one model, screened, the best fitted, and put in order.
+
+use rayon::prelude::*;
+
+use super::candidate::{Cause, candidates, releases};
+use super::released::parameter_gains;
+use super::scored::{Data, Scored};
+use super::screen::{Screened, screen};
+use crate::engine::knobs::ScreenKnobs;
+use crate::identify::Prior;
+use crate::simulate::Carried;
+
+/// A cause that was fitted.
+#[derive(Clone, Debug)]
+pub struct Ranked<const N: usize> {
+    /// The cause.
+    pub cause: Cause,
+    /// The model with it, and how it does.
+    pub scored: Scored<N>,
+}
+
+/// All that was tried on top of one model, best first.
+#[derive(Clone, Debug)]
+pub struct Ranking<const N: usize> {
+    /// The model that the causes were added to, its parameters re-fitted within what was stated.
+    pub base: Scored<N>,
+    /// The causes that were fitted, best first.
+    pub ranked: Vec<Ranked<N>>,
+    /// Every effect with its promise by the screen, best first; kept for the causes that were not fitted.
+    pub screened: Vec<Screened>,
+    /// Error scale: the least held-out Σ error² per number, at least one.
+    pub scale: f64,
+}
+
+/// The candidates, best first, whose promise is worth a fit: of one effect on all wheels and on single ones, those on
+/// single wheels only if they promise nearly as much as all together.
+fn worth_a_fit<'a>(screened: &'a [Screened], knobs: &ScreenKnobs) -> Vec<&'a Screened> {
+    let most = screened.first().map_or(0.0, |s| s.gain);
+    let together = |s: &Screened| {
+        screened
+            .iter()
+            .find(|o| o.candidate.card.id == s.candidate.card.id && o.candidate.wheel.is_none())
+            .map(|o| o.gain)
+    };
+    let mut worth: Vec<&Screened> = Vec::new();
+    for s in screened.iter().filter(|s| s.gain > knobs.promising) {
+        let single = s.candidate.wheel.is_some();
+        let outdone = single && together(s).is_some_and(|all| s.gain < knobs.single_wheel_share * all);
+        let again = single
+            && worth.iter().filter(|w| w.candidate.card.id == s.candidate.card.id).count() >= knobs.fitted_wheels;
+        if !outdone && !again && (worth.len() < knobs.always_fitted || s.gain > knobs.worth_a_fit * most) {
+            worth.push(s);
+        }
+    }
+    worth.truncate(knobs.fitted_effects);
+    worth
+}
+
+/// Tries every cause on top of a fitted model. `released` are the statements already struck out.
+pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prior) -> Ranking<N> {
+    let knobs = &data.knobs.screen;
+    let few = data.to_fit().first(knobs.runs);
+    let linear = base.fit.linearised(few);
+    let all = candidates::<N>(&base.fit.model.effects, knobs);
+    let mut screened = screen(&base.fit, &linear, prior, few, all, knobs);
+    screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    drop(linear);
+    let whole = base.fit.linearised(data.to_fit());
+    let mut parameters = parameter_gains(&base.fit, &whole, prior, &releases());
+    parameters.sort_by(|a, b| b.1.total_cmp(&a.1));
+    drop(whole);
+
+    let effects = worth_a_fit(&screened, knobs)
+        .into_iter()
+        .map(|s| (Cause::Effect(s.candidate.card, s.candidate.wheel), Some(s.from.clone()), prior.clone(), s.gain));
+    let released = parameters.iter().filter(|(_, gain)| *gain > knobs.promising).take(knobs.fitted_parameters).map(
+        |(release, gain)| {
+            (Cause::Parameter(*release), None, prior.without(*release, data.knobs.fit.released_sigma), *gain)
+        },
+    );
+    let mut jobs: Vec<(Cause, Option<Carried>, Prior, f64)> = effects.chain(released).collect();
+    jobs.sort_by(|a, b| b.3.total_cmp(&a.3));
+    let fitted = |(cause, effect, prior, _): (Cause, Option<Carried>, Prior, f64)| {
+        let mut model = base.fit.model.clone();
+        if let Some(effect) = effect {
+            model.carry(effect);
+        }
+        let scored = data.judge(model, Some(&base.fit), &prior, base.extra + cause.freedom(data.prior));
+        Ranked { cause, scored }
+    };
+    // where the best one leaves nothing, only what promised nearly as much can be its look-alike
+    let mut jobs = jobs.into_iter();
+    let first = jobs.next().map(|job| (job.3, fitted(job)));
+    let least = match &first {
+        Some((gain, best)) if best.scored.held() < data.knobs.search.enough * best.scored.freedom => {
+            knobs.alike_share * gain
+        }
+        _ => 0.0,
+    };
+    let others: Vec<_> = jobs.filter(|job| job.3 >= least).collect();
+    let mut ranked: Vec<Ranked<N>> = first.into_iter().map(|(_, best)| best).collect();
+    ranked.extend(others.into_par_iter().map(fitted).collect::<Vec<_>>());
+    let scale = ranked
+        .iter()
+        .map(|r| &r.scored)
+        .chain([&base])
+        .map(|s| s.held() / s.freedom)
+        .fold(f64::INFINITY, f64::min)
+        .max(1.0);
+    ranked.sort_by(|a, b| a.scored.score(scale).total_cmp(&b.scored.score(scale)));
+    Ranking { base, ranked, screened, scale }
+}
