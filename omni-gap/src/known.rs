@@ -1,6 +1,7 @@
 //! What robot files may name, as the catalogue's cards say.
 
 use model_core::effects;
+use model_core::effects::active::MAX_EFFECTS;
 use model_core::effects::card::Role;
 
 use crate::log::{Catalogue, KnownEffect, KnownParam};
@@ -9,6 +10,7 @@ use crate::log::{Catalogue, KnownEffect, KnownParam};
 pub fn known_effects() -> Catalogue {
     let effect = |card: &model_core::effects::card::Card| KnownEffect {
         id: card.id.to_owned(),
+        scope: card.scope,
         params: card
             .params
             .iter()
@@ -20,5 +22,8 @@ pub fn known_effects() -> Catalogue {
             })
             .collect(),
     };
-    Catalogue { effects: effects::catalogue::<f64>().iter().map(|e| effect(e.card())).collect() }
+    Catalogue {
+        effects: effects::catalogue::<f64>().iter().map(|e| effect(e.card())).collect(),
+        most_at_once: MAX_EFFECTS,
+    }
 }

@@ -2,6 +2,8 @@
 //!
 //! This room does not know physics: whoever loads a file passes in the ids, parameter keys and bounds that exist.
 
+use model_core::effects::card::Scope;
+
 /// One parameter of an effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnownParam {
@@ -20,6 +22,8 @@ pub struct KnownParam {
 pub struct KnownEffect {
     /// Its id in the robot file.
     pub id: String,
+    /// Where it sits.
+    pub scope: Scope,
     /// Its parameters.
     pub params: Vec<KnownParam>,
 }
@@ -29,6 +33,8 @@ pub struct KnownEffect {
 pub struct Catalogue {
     /// The effects, in any order.
     pub effects: Vec<KnownEffect>,
+    /// How many tables of effects one robot file may have: what a model has room for.
+    pub most_at_once: usize,
 }
 
 impl Catalogue {

@@ -12,6 +12,8 @@ pub mod controller;
 mod correct;
 mod csv;
 mod edges;
+mod effects_read;
+mod plausible;
 mod read;
 mod robot_file;
 mod robot_read;

@@ -1,7 +1,9 @@
 //! # From the text of a robot file to a sound [`RobotFile`]
 
-use super::catalogue::{Catalogue, nearest};
+use super::catalogue::Catalogue;
 use super::controller::controller;
+use super::effects_read::effects;
+use super::plausible;
 use super::robot_file::*;
 use super::toml_walk::{Section, Source};
 use crate::error::{Error, Result};
@@ -44,7 +46,7 @@ pub(super) fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<Ro
     };
     let wheel = wheels(source, top.table)?;
     let count = wheel.len();
-    Ok(RobotFile {
+    let robot = RobotFile {
         schema: schema.map(|schema| schema as u32),
         name: top.text("name")?.unwrap_or("robot").to_string(),
         wheel,
@@ -57,11 +59,13 @@ pub(super) fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<Ro
         limits: section("limits", "[limits]")?.map(|s| limits(&s)).transpose()?,
         controller: section("controller", "[controller]")?.map(|s| controller(&s)).transpose()?,
         effects: section("effects", "[effects]")?.map_or(Ok(Vec::new()), |s| effects(&s, catalogue, count))?,
-    })
+    };
+    plausible::together(&robot, &needed)?;
+    Ok(robot)
 }
 
 /// The tables of an array of tables, whether written with `[[…]]` or as an inline list.
-fn tables(item: &Item) -> Option<Vec<&dyn TableLike>> {
+pub(super) fn tables(item: &Item) -> Option<Vec<&dyn TableLike>> {
     match item {
         Item::ArrayOfTables(list) => Some(list.iter().map(|table| table as &dyn TableLike).collect()),
         Item::Value(value) => {
@@ -92,9 +96,9 @@ fn wheels(source: Source, top: &dyn TableLike) -> Result<Vec<WheelFile>> {
         let section = Section::of(source, &title, *table, span);
         section.only_keys(&[&["drive_angle_deg"], keys_of(Table::Wheel).as_slice()].concat())?;
         wheels.push(WheelFile {
-            drive_angle_deg: section.needed("drive_angle_deg")?,
-            distance_m: section.positive("distance_m")?,
-            radius_m: section.positive("radius_m")?,
+            drive_angle_deg: plausible::number(&section, "drive_angle_deg")?,
+            distance_m: plausible::number(&section, "distance_m")?,
+            radius_m: plausible::number(&section, "radius_m")?,
         });
     }
     let first = item.as_array_of_tables().and_then(|list| list.get(0)?.span()).or_else(|| item.span());
@@ -103,6 +107,10 @@ fn wheels(source: Source, top: &dyn TableLike) -> Result<Vec<WheelFile>> {
         let found = found.unwrap_or_else(|| format!("{} wheels", wheels.len()));
         let problem = format!("{found} in the robot file, expected three or four");
         return Err(source.error(first, problem, "Describe each wheel in its own [[wheel]] table"));
+    }
+    if plausible::in_radians(&wheels) {
+        let problem = "the drive angles look like radians, expected degrees";
+        return Err(source.error(first, problem, "Multiply each drive_angle_deg by 57.29578 (180/π)"));
     }
     if !tells_the_motion(&wheels) {
         let problem = "the drive angles cannot tell the body's motion: a direction moves no wheel";
@@ -131,27 +139,28 @@ fn keys_of(table: Table) -> Vec<&'static str> {
 fn motor(s: &Section) -> Result<MotorFile> {
     s.only_keys(&[&["gear_ratio"], keys_of(Table::Motor).as_slice()].concat())?;
     Ok(MotorFile {
-        gear_ratio: s.positive("gear_ratio")?,
-        resistance_ohm: s.positive("resistance_ohm")?,
-        emf_constant_v_s: s.positive("emf_constant_V_s")?,
-        torque_constant_nm_per_a: s.positive("torque_constant_Nm_per_A")?,
+        gear_ratio: plausible::number(s, "gear_ratio")?,
+        resistance_ohm: plausible::number(s, "resistance_ohm")?,
+        emf_constant_v_s: plausible::number(s, "emf_constant_V_s")?,
+        torque_constant_nm_per_a: plausible::number(s, "torque_constant_Nm_per_A")?,
     })
 }
 
 fn body(s: &Section) -> Result<BodyFile> {
     s.only_keys(&keys_of(Table::Body))?;
-    Ok(BodyFile { mass_kg: s.positive("mass_kg")?, inertia_kg_m2: s.positive("inertia_kg_m2")? })
+    Ok(BodyFile { mass_kg: plausible::number(s, "mass_kg")?, inertia_kg_m2: plausible::number(s, "inertia_kg_m2")? })
 }
 
 fn friction(s: &Section) -> Result<FrictionFile> {
     s.only_keys(&keys_of(Table::Friction))?;
+    let size = |key| plausible::bounded(s, key, key, s.not_negative(key, 0.0)?);
     Ok(FrictionFile {
-        viscous_v_n_s_per_m: s.not_negative("viscous_v_N_s_per_m", 0.0)?,
-        viscous_vn_n_s_per_m: s.not_negative("viscous_vn_N_s_per_m", 0.0)?,
-        viscous_w_nm_s: s.not_negative("viscous_w_Nm_s", 0.0)?,
-        coulomb_v_n: s.not_negative("coulomb_v_N", 0.0)?,
-        coulomb_vn_n: s.not_negative("coulomb_vn_N", 0.0)?,
-        coulomb_w_nm: s.not_negative("coulomb_w_Nm", 0.0)?,
+        viscous_v_n_s_per_m: size("viscous_v_N_s_per_m")?,
+        viscous_vn_n_s_per_m: size("viscous_vn_N_s_per_m")?,
+        viscous_w_nm_s: size("viscous_w_Nm_s")?,
+        coulomb_v_n: size("coulomb_v_N")?,
+        coulomb_vn_n: size("coulomb_vn_N")?,
+        coulomb_w_nm: size("coulomb_w_Nm")?,
     })
 }
 
@@ -160,7 +169,8 @@ fn sensors(s: &Section) -> Result<SensorsFile> {
     let default = SensorsFile::default();
     let noise = |key, default| {
         let sigma = s.number(key)?.unwrap_or(default);
-        s.checked(key, sigma, sigma > 0.0, "a noise above zero (gaps are measured in units of it)")
+        s.checked(key, sigma, sigma > 0.0, "a noise above zero (gaps are measured in units of it)")?;
+        plausible::bounded(s, key, key, sigma)
     };
     Ok(SensorsFile {
         current_noise_a: noise("current_noise_A", default.current_noise_a)?,
@@ -172,71 +182,19 @@ fn sensors(s: &Section) -> Result<SensorsFile> {
 
 fn uncertainty(s: &Section) -> Result<BTreeMap<String, f64>> {
     s.only_keys(&IN_THE_FILE.map(|number| number.key))?;
-    s.table.iter().map(|(key, _)| Ok((key.to_string(), s.not_negative(key, 0.0)?))).collect()
+    let relative = |key: &str| plausible::bounded(s, key, plausible::RELATIVE, s.not_negative(key, 0.0)?);
+    s.table.iter().map(|(key, _)| Ok((key.to_string(), relative(key)?))).collect()
 }
 
 fn supply(s: &Section) -> Result<SupplyFile> {
     s.only_keys(&["voltage_V"])?;
-    Ok(SupplyFile { voltage_v: s.positive("voltage_V")? })
+    Ok(SupplyFile { voltage_v: plausible::number(s, "voltage_V")? })
 }
 
 fn limits(s: &Section) -> Result<LimitsFile> {
     s.only_keys(&["current_A", "speed_m_s", "field_m"])?;
     let limit = |key| s.number(key)?.map(|_| s.positive(key)).transpose();
     Ok(LimitsFile { current_a: limit("current_A")?, speed_m_s: limit("speed_m_s")?, field_m: limit("field_m")? })
-}
-
-fn effects(s: &Section, catalogue: &Catalogue, wheels: usize) -> Result<Vec<EffectEntry>> {
-    let mut all: Vec<EffectEntry> = Vec::new();
-    for (id, item) in s.table.iter() {
-        if catalogue.find(id).is_none() {
-            let known = catalogue.effects.iter().map(|effect| effect.id.as_str());
-            let mend = match nearest(id, known) {
-                Some(near) => format!("Did you mean `{near}`?"),
-                None => "See the catalogue of effects for the ids there are".to_string(),
-            };
-            return Err(s.key_error(id, format!("unknown effect `{id}`"), mend));
-        }
-        let listed = tables(item);
-        let one = || item.as_table_like().map(|table| vec![table]);
-        let Some(list) = listed.or_else(one) else {
-            let problem = format!("found {}, expected a table of parameters", item.type_name());
-            return Err(s.key_error(id, problem, format!("Write [effects.{id}] and its parameters below it")));
-        };
-        for (number, table) in list.into_iter().enumerate() {
-            let span = item.as_array_of_tables().and_then(|list| list.get(number)?.span()).or_else(|| item.span());
-            let title = format!("[effects.{id}]");
-            let entry = effect(&Section::of(s.source, &title, table, span), id, catalogue, wheels)?;
-            if all.iter().any(|other| other.id == entry.id && other.wheel == entry.wheel) {
-                let place = entry.wheel.map_or(String::new(), |wheel| format!(" on wheel {wheel}"));
-                let error = Section::of(s.source, &title, table, item.span());
-                return Err(error.error(format!("`{id}`{place} stands twice"), "Keep one of the two tables"));
-            }
-            all.push(entry);
-        }
-    }
-    Ok(all)
-}
-
-fn effect(s: &Section, id: &str, catalogue: &Catalogue, wheels: usize) -> Result<EffectEntry> {
-    let params = catalogue.find(id).map(|known| known.params.as_slice()).unwrap_or_default();
-    let mut keys: Vec<&str> = params.iter().map(|param| param.key.as_str()).collect();
-    keys.push("wheel");
-    s.only_keys(&keys)?;
-    let wheel = s.whole("wheel")?;
-    if let Some(wheel) = wheel.filter(|wheel| *wheel >= wheels) {
-        let problem = format!("found wheel {wheel}, the robot has wheels 0 to {}", wheels - 1);
-        return Err(s.key_error("wheel", problem, "Wheels are counted from 0"));
-    }
-    let mut given = BTreeMap::new();
-    for param in params {
-        let value = if param.required { Some(s.needed(&param.key)?) } else { s.number(&param.key)? };
-        let Some(value) = value else { continue };
-        let expected = format!("a value from {} to {}", param.low, param.high);
-        s.checked(&param.key, value, (param.low..=param.high).contains(&value), &expected)?;
-        given.insert(param.key.clone(), value);
-    }
-    Ok(EffectEntry { id: id.to_string(), wheel, params: given })
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
-use super::super::ControllerFile;
-use super::super::KnownEffect;
-use super::super::KnownParam;
+use super::super::{ControllerFile, KnownEffect, KnownParam};
 use super::*;
+use model_core::effects::card::Scope;
 
 pub(crate) const GOOD: &str = r#"name = "feup-3w"
 [[wheel]]
@@ -26,18 +25,24 @@ mass_kg = 1.944
 inertia_kg_m2 = 0.0169
 "#;
 
-fn catalogue() -> Catalogue {
+pub(crate) fn catalogue() -> Catalogue {
     let param = |key: &str, low, high, required| KnownParam { key: key.into(), low, high, required };
-    let ratio = param("torque_constant_ratio", 0.1, 2.0, true);
-    let coriolis = KnownEffect { id: "coriolis".into(), params: vec![param("factor", 0.0, 2.0, false)] };
-    Catalogue { effects: vec![coriolis, KnownEffect { id: "motor_mismatch".into(), params: vec![ratio] }] }
+    let effect = |id: &str, scope, param| KnownEffect { id: id.into(), scope, params: vec![param] };
+    Catalogue {
+        effects: vec![
+            effect("coriolis", Scope::Robot, param("factor", 0.0, 2.0, false)),
+            effect("motor_mismatch", Scope::OneWheel, param("torque_constant_ratio", 0.1, 2.0, true)),
+            effect("wheel_slip", Scope::Wheels, param("friction_coefficient", 0.05, 2.0, true)),
+        ],
+        most_at_once: 3,
+    }
 }
 
-fn read(text: &str) -> Result<RobotFile> {
+pub(crate) fn read(text: &str) -> Result<RobotFile> {
     robot(text, Path::new("robot.toml"), &catalogue())
 }
 
-fn refusal(text: &str) -> String {
+pub(crate) fn refusal(text: &str) -> String {
     read(text).expect_err("should be refused").to_string()
 }
 

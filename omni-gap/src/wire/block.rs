@@ -198,9 +198,9 @@ mod tests {
     fn what_the_robot_would_refuse_is_refused_here_with_its_key() {
         for (from, to, says) in [
             (
-                "mass_kg = ",
-                "mass_kg = 1000",
-                "column `mass_kg`: the robot would refuse this file: `mass_kg`: found 1000",
+                "mass_kg = 2.34\ninertia_kg_m2 = 0.0228",
+                "mass_kg = 600\ninertia_kg_m2 = 6",
+                "column `mass_kg`: the robot would refuse this file: `mass_kg`: found 600",
             ),
             ("voltage_V = ", "voltage_V = 100", "column `voltage_V`"),
             ("radius_m = ", "radius_m = 1", "column `radius_m`"),

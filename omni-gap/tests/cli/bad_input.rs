@@ -124,6 +124,48 @@ fn an_unknown_effect() {
 }
 
 #[test]
+fn an_effect_in_the_wrong_place_twice_or_one_too_many() {
+    let slip = |wheel: usize| format!("[[effects.wheel_slip]]\nwheel = {wheel}\nfriction_coefficient = 0.4\n");
+    let weak = |wheel: usize| format!("[[effects.motor_mismatch]]\nwheel = {wheel}\ntorque_constant_ratio = 0.9\n");
+    let on_all = |table: &dyn Fn(usize) -> String| (0..4).map(table).collect::<String>();
+    let creep = |wheel: usize| format!("[[effects.creep]]\nwheel = {wheel}\ncreep_m_s_per_N = 0.01\n");
+    let many = on_all(&slip) + &on_all(&weak) + &on_all(&creep) + "[effects.coriolis]\n";
+    for (effects, line, says) in [
+        ("[effects.coriolis]\nwheel = 1\n".to_owned(), 2, "acts on the whole robot"),
+        ("[effects.motor_mismatch]\ntorque_constant_ratio = 0.9\n".to_owned(), 1, "sits on one wheel"),
+        (slip(7), 2, "the robot has wheels 0 to 3"),
+        (slip(1).replace("0.4", "1e200"), 3, "expected a value from"),
+        (slip(1).replace("friction_coefficient", "friction_coeficient"), 3, "Did you mean `friction_coefficient`?"),
+        (slip(1) + &slip(1), 4, "on wheel 1 stands twice"),
+        (many, 37, "a model has room for 12 effects"),
+    ] {
+        let bench = Bench::with_session();
+        let text = bench.read("session/robot.toml");
+        bench.write("session/robot.toml", &format!("{text}{effects}"));
+        robot_refused(&bench, &[&format!("robot.toml:{}: column `", text.lines().count() + line), says]);
+    }
+}
+
+#[test]
+fn numbers_that_no_small_robot_has() {
+    for (key, wrong, says) in [
+        ("mass_kg", "2340", "expected a number from 0.02 to 1000 kg. Write 2.34, if the number is in g"),
+        ("radius_m", "30", "expected a number from 0.002 to 0.6 m"),
+        ("emf_constant_V_s", "368.7", "Write 0.0259, if the number is in rpm/V"),
+        ("torque_constant_Nm_per_A", "25.9", "Write 0.0259, if the number is in mN·m/A"),
+        ("gear_ratio", "0.2", "Write 5, if the number is in wheel turns in a turn of the motor"),
+        ("inertia_kg_m2", "1e200", "found 1e200, expected a number from"),
+    ] {
+        let bench = Bench::with_session();
+        let text = bench.read("session/robot.toml");
+        let at = text.lines().position(|line| line.starts_with(key)).expect("the key is there");
+        let with = |(k, line): (usize, &str)| if k == at { format!("{key} = {wrong}\n") } else { format!("{line}\n") };
+        bench.write("session/robot.toml", &text.lines().enumerate().map(with).collect::<String>());
+        robot_refused(&bench, &[&format!("robot.toml:{}: column `{key}`: found ", at + 1), says]);
+    }
+}
+
+#[test]
 fn a_robot_file_of_a_newer_form() {
     let bench = Bench::with_session();
     bench.change("session/robot.toml", "schema = 1", "schema = 9");

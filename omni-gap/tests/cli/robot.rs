@@ -109,7 +109,8 @@ fn bad_input_ends_with_one_message_and_leaves_nothing() {
     let bench = bench();
     bench.write("empty.bin", "");
     bench.write("text.bin", "this is no frame at all");
-    bench.write("heavy.toml", &ROBOT.replace("mass_kg = ", "mass_kg = 1000"));
+    let body = ("mass_kg = 2.34\ninertia_kg_m2 = 0.0228", "mass_kg = 600\ninertia_kg_m2 = 6");
+    bench.write("heavy.toml", &ROBOT.replace(body.0, body.1));
     let before = bench.all();
     let record =
         |from: &'static str| ["record", "--robot", "robot.toml", "--out", "deep/session", "--from", from].to_vec();
