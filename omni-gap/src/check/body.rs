@@ -24,9 +24,16 @@ impl BodyFromWheels {
     }
 }
 
-/// All channels of a group on a row, where every one of them has a sample.
-pub(super) fn row_of(group: &Group, row: usize) -> Option<Vec<f64>> {
-    group.channels.iter().map(|channel| channel.get(row).ok()).collect()
+/// The most channels that a group has.
+pub(super) const MOST_CHANNELS: usize = 4;
+
+/// All channels of a group on a row, where every one of them has a sample; zero beyond the last channel.
+pub(super) fn row_of(group: &Group, row: usize) -> Option<[f64; MOST_CHANNELS]> {
+    let mut all = [0.0; MOST_CHANNELS];
+    for (value, channel) in all.iter_mut().zip(&group.channels) {
+        *value = channel.get(row).ok()?;
+    }
+    Some(all)
 }
 
 /// The input that moves the robot: voltages, or set speeds, or currents.
@@ -51,7 +58,8 @@ pub(super) fn speed_from_pose(run: &Run, robot: &RobotFile, span_s: f64) -> Opti
     let group = run.pose.as_ref()?;
     let lever = robot.wheel[0].distance_m;
     let mut speeds = vec![None; run.rows()];
-    let seen: Vec<(usize, Vec<f64>)> = (0..run.rows()).filter_map(|row| Some((row, row_of(group, row)?))).collect();
+    let seen: Vec<(usize, [f64; MOST_CHANNELS])> =
+        (0..run.rows()).filter_map(|row| Some((row, row_of(group, row)?))).collect();
     let mut from = 0;
     for to in 1..seen.len() {
         let (row, pose) = &seen[to];

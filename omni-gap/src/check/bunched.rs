@@ -1,14 +1,16 @@
 //! Bunched samples: a late telegram makes one sample nothing and the next twice as much.
 
 use super::Fault;
-use super::body::row_of;
+use super::body::{MOST_CHANNELS, row_of};
 use crate::log::{RobotFile, Run};
+
+type Row = [f64; MOST_CHANNELS];
 
 pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
     let group = run.w.as_ref()?;
-    let rows: Vec<Option<Vec<f64>>> = (0..run.rows()).map(|row| row_of(group, row)).collect();
+    let rows: Vec<Option<Row>> = (0..run.rows()).map(|row| row_of(group, row)).collect();
     let slow = 5.0 * robot.sensors.wheel_speed_noise_rad_s * (group.channels.len() as f64).sqrt();
-    let size = |w: &[f64]| w.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let size = |w: &Row| w.iter().map(|v| v * v).sum::<f64>().sqrt();
     let (mut moving, mut found) = (0usize, Vec::new());
     for row in 1..run.rows().saturating_sub(2) {
         let (Some(before), Some(nothing), Some(twice), Some(after)) =
@@ -16,14 +18,14 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
         else {
             continue;
         };
-        let usual: Vec<f64> = before.iter().zip(after).map(|(a, b)| 0.5 * (a + b)).collect();
+        let usual: Row = std::array::from_fn(|j| 0.5 * (before[j] + after[j]));
         let level = size(&usual);
-        let steady = before.iter().zip(after).map(|(a, b)| a - b).collect::<Vec<_>>();
+        let steady: Row = std::array::from_fn(|j| before[j] - after[j]);
         if level < slow || size(&steady) > 0.5 * level {
             continue;
         }
         moving += 1;
-        let apart = |w: &[f64], times: f64| size(&w.iter().zip(&usual).map(|(w, m)| w - times * m).collect::<Vec<_>>());
+        let apart = |w: &Row, times: f64| size(&std::array::from_fn(|j| w[j] - times * usual[j]));
         if size(nothing) < 0.25 * level && apart(twice, 2.0) < 0.5 * level {
             found.push(row);
         }

@@ -31,13 +31,29 @@ impl Fault {
     /// A fault of a whole run.
     pub(super) fn of(run: &Run, code: &'static str, signal: impl Into<String>, fatal: bool) -> Fault {
         let rows = (0, run.rows().saturating_sub(1));
+        let lines = (run.line_of(rows.0), run.line_of(rows.1));
         let (sentence, mend) = (String::new(), String::new());
         let (run, file) = (run.name.clone(), run.path.clone());
-        Fault { code, run, file, lines: rows, rows, signal: signal.into(), sentence, mend, fatal }
+        Fault { code, run, file, lines, rows, signal: signal.into(), sentence, mend, fatal }
+    }
+
+    /// A fault of a key or table of the robot file.
+    pub(super) fn of_robot(code: &'static str, key: &str) -> Fault {
+        let name = "robot.toml".to_string();
+        let (file, signal) = (PathBuf::from(&name), key.to_string());
+        let (sentence, mend) = (String::new(), String::new());
+        Fault { code, run: name, file, lines: (1, 1), rows: (0, 0), signal, sentence, mend, fatal: false }
+    }
+
+    /// Whether it is one of this run.
+    pub(super) fn is_of(&self, run: &Run) -> bool {
+        self.run == run.name && self.file == run.path
     }
 
     pub(super) fn at(mut self, first: usize, last: usize) -> Fault {
+        let first_line = self.lines.0 - self.rows.0;
         self.rows = (first, last);
+        self.lines = (first_line + first, first_line + last);
         self
     }
 

@@ -1,6 +1,6 @@
 //! Sums of products of a run's motor channels, and the fit of one wheel's volts to a speed and a current.
 
-use super::body::row_of;
+use super::body::{MOST_CHANNELS, row_of};
 use crate::log::{Group, Run, Sampled};
 
 /// Delays of a drive that are tried (s): it may act late without being miswired.
@@ -34,32 +34,29 @@ impl Gram {
         let before = usize::from(current.is_some() && run.currents_sampled == Sampled::Before);
         let late: Vec<usize> = DELAYS_S.iter().map(|s| (s / step).round() as usize + before).collect();
         let longest = late.iter().copied().max().unwrap_or(0);
-        let mut gram = Gram { wheels, rows: 0, sums: vec![vec![0.0; size * size]; late.len()] };
-        let mut z = vec![0.0; size];
+        let apart: Vec<usize> = (0..late.len()).filter(|&k| k == 0 || late[k] != late[k - 1]).collect();
+        let mut rows = 0;
+        let mut measured = Measured::default();
+        let mut driven = vec![Driven::default(); late.len()];
         // every delay is tried on the same rows
         for row in longest..run.rows() {
             let Some(w) = row_of(speed, row) else { continue };
-            let Some(i) = current.map_or_else(|| Some(vec![0.0; wheels]), |group| row_of(group, row)) else { continue };
-            let volts: Option<Vec<Vec<f64>>> = late.iter().map(|late| row_of(drive, row - late)).collect();
-            let Some(volts) = volts else { continue };
-            z[wheels..2 * wheels].copy_from_slice(&w);
-            z[2 * wheels..].copy_from_slice(&i);
-            gram.rows += 1;
-            for (k, u) in volts.iter().enumerate().filter(|(k, _)| *k == 0 || late[*k] != late[k - 1]) {
-                z[..wheels].copy_from_slice(u);
-                for a in 0..size {
-                    for b in 0..size {
-                        gram.sums[k][a * size + b] += z[a] * z[b];
-                    }
-                }
+            let Some(i) = current.map_or(Some([0.0; WHEELS]), |group| row_of(group, row)) else { continue };
+            let mut volts = [[0.0; WHEELS]; DELAYS_S.len()];
+            let all = apart.iter().all(|&k| row_of(drive, row - late[k]).map(|u| volts[k] = u).is_some());
+            if !all {
+                continue;
             }
+            rows += 1;
+            measured.add(&w, &i);
+            apart.iter().for_each(|&k| driven[k].add(&volts[k], &w, &i));
         }
         for k in 1..late.len() {
             if late[k] == late[k - 1] {
-                gram.sums[k] = gram.sums[k - 1].clone();
+                driven[k] = driven[k - 1].clone();
             }
         }
-        gram
+        Gram { wheels, rows, sums: driven.iter().map(|driven| together(driven, &measured, wheels, size)).collect() }
     }
 
     pub fn add(&mut self, other: &Gram) {
@@ -87,6 +84,105 @@ impl Gram {
         };
         self.sums.iter().map(share).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// One speed and one current coefficient for all wheels.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shared {
+    /// u ≈ a·w + b·i.
+    pub a: f64,
+    pub b: f64,
+    /// Of u squared, the shares that each term makes, and what remains.
+    pub by_speed: f64,
+    pub by_current: f64,
+    pub rest: f64,
+}
+
+impl Gram {
+    /// The fit of all wheels' volts with one a and one b, wherever they lie, the drive as late as fits best.
+    pub fn shared(&self, currents: bool) -> Option<Shared> {
+        let n = self.wheels;
+        let size = GROUPS * n;
+        let fit = |sums: &Vec<f64>| {
+            let of = |x: usize, y: usize| (0..n).map(|j| sums[(x * n + j) * size + y * n + j]).sum::<f64>();
+            let (uu, ww, ii, uw, ui, wi) = (of(0, 0), of(1, 1), of(2, 2), of(0, 1), of(0, 2), of(1, 2));
+            let determinant = ww * ii - wi * wi;
+            let (a, b) = match currents && determinant > 1e-9 * ww * ii {
+                true => ((uw * ii - ui * wi) / determinant, (ui * ww - uw * wi) / determinant),
+                false => (uw / ww, 0.0),
+            };
+            let left = uu - 2.0 * (a * uw + b * ui) + a * a * ww + 2.0 * a * b * wi + b * b * ii;
+            let rest = left.max(0.0) / uu;
+            (uu > 0.0 && ww > 0.0).then_some(Shared {
+                a,
+                b,
+                by_speed: a * a * ww / uu,
+                by_current: b * b * ii / uu,
+                rest,
+            })
+        };
+        self.sums.iter().filter_map(fit).min_by(|x, y| x.rest.total_cmp(&y.rest))
+    }
+}
+
+/// Room for the wheels of any robot.
+const WHEELS: usize = MOST_CHANNELS;
+
+/// Products of speeds and currents, which no delay of the drive changes.
+#[derive(Clone, Default)]
+struct Measured {
+    ww: [f64; WHEELS],
+    ii: [f64; WHEELS],
+    wi: [[f64; WHEELS]; WHEELS],
+}
+
+impl Measured {
+    fn add(&mut self, w: &[f64; WHEELS], i: &[f64; WHEELS]) {
+        for j in 0..WHEELS {
+            self.ww[j] += w[j] * w[j];
+            self.ii[j] += i[j] * i[j];
+            for k in 0..WHEELS {
+                self.wi[j][k] += w[j] * i[k];
+            }
+        }
+    }
+}
+
+/// Products with the drive, for one delay of it.
+#[derive(Clone, Default)]
+struct Driven {
+    uu: [f64; WHEELS],
+    uw: [[f64; WHEELS]; WHEELS],
+    ui: [[f64; WHEELS]; WHEELS],
+}
+
+impl Driven {
+    fn add(&mut self, u: &[f64; WHEELS], w: &[f64; WHEELS], i: &[f64; WHEELS]) {
+        for j in 0..WHEELS {
+            self.uu[j] += u[j] * u[j];
+            for k in 0..WHEELS {
+                self.uw[j][k] += u[j] * w[k];
+                self.ui[j][k] += u[j] * i[k];
+            }
+        }
+    }
+}
+
+/// The sums as one square table: all that a relation of a volt, a speed and a current asks for.
+fn together(driven: &Driven, measured: &Measured, wheels: usize, size: usize) -> Vec<f64> {
+    let mut sums = vec![0.0; size * size];
+    let mut put = |a: usize, b: usize, sum: f64| (sums[a * size + b], sums[b * size + a]) = (sum, sum);
+    for j in 0..wheels {
+        put(j, j, driven.uu[j]);
+        put(wheels + j, wheels + j, measured.ww[j]);
+        put(2 * wheels + j, 2 * wheels + j, measured.ii[j]);
+        for k in 0..wheels {
+            put(j, wheels + k, driven.uw[j][k]);
+            put(j, 2 * wheels + k, driven.ui[j][k]);
+            put(wheels + j, 2 * wheels + k, measured.wi[j][k]);
+        }
+    }
+    sums
 }
 
 /// The least of a parabola over a box: inside it, or on its edges.

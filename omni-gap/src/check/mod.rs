@@ -9,21 +9,32 @@
 //! of each wheel, from the sums in `gram`) and `pose` (wheels against the pose, over `windows`, with the guesses of
 //! `frame`). `order` lists the ways in which wheels can have changed places, `body` turns wheel speeds into body speed.
 
+mod absurd;
 mod agree;
 mod body;
 mod bunched;
+mod duty;
+mod enough;
 mod fault;
 mod frame;
 mod frozen;
+mod glitch;
 mod gram;
+mod grouped;
+mod held;
 mod motor;
 mod order;
 mod pose;
 mod pushed;
+mod quaternion;
+mod ranked;
+mod rectified;
 mod repeated;
 mod rows;
+mod same;
 mod saturated;
 mod time;
+mod time_unit;
 mod units;
 mod windows;
 
@@ -42,34 +53,55 @@ use crate::log::{RobotFile, Run, Session};
 
 /// All faults of a session's runs, held-out ones included; the fatal ones first, in the order of the runs.
 ///
-/// Wheels, signs and units are judged on all runs together, and on one alone where it differs from the others.
+/// Wheels, signs and units are judged on all runs together, and on one alone where it differs from the others. A fault
+/// that several runs share is told once, at the first of them.
 pub fn check(session: &Session) -> Vec<Fault> {
     let runs: Vec<&Run> = session.runs.iter().chain(&session.heldout).collect();
-    check_runs(&runs, &session.robot)
+    let mut faults = check_runs(&runs, &session.robot);
+    faults.extend(same::check(&runs));
+    if !faults.iter().any(|fault| fault.fatal) {
+        faults.extend(enough::check(&runs, &session.robot));
+    }
+    faults.extend(enough::frictionless(&session.robot));
+    let place = |fault: &Fault| runs.iter().position(|run| fault.is_of(run));
+    faults.sort_by_key(|fault| (!fault.fatal, place(fault)));
+    grouped::grouped(faults)
 }
 
-/// All faults of one run.
+/// All faults of one run; whether there is enough to tell anything is a matter of the session.
 pub fn check_run(run: &Run, robot: &RobotFile) -> Vec<Fault> {
     check_runs(&[run], robot)
 }
 
 fn check_runs(runs: &[&Run], robot: &RobotFile) -> Vec<Fault> {
     let mut faults: Vec<Fault> = runs.iter().flat_map(|run| rows::check(run, robot)).collect();
-    let dead = |run: &Run| faults.iter().any(|fault| fault.fatal && fault.run == run.name);
+    // a heading in another unit looks like a push, so that a push is no reason to leave a run out
+    let dead = |run: &Run| faults.iter().any(|f| f.fatal && f.code != "pushed" && f.is_of(run));
     // a relation of channels says nothing where one of them is dead
-    let sound: Vec<&Run> = runs.iter().copied().filter(|run| run.rows() >= 10 && !dead(run)).collect();
-    let motor = motor::check(&sound, robot);
+    let mut sound: Vec<&Run> = runs.iter().copied().filter(|run| run.rows() >= 10 && !dead(run)).collect();
+    let relations = relations(&mut sound, robot);
+    let explained = |fault: &Fault| fault.code == "pushed" && relations.iter().any(|f| f.fatal && f.run == fault.run);
+    faults.retain(|fault| !explained(fault));
+    faults.extend(relations);
+    let place = |fault: &Fault| runs.iter().position(|run| fault.is_of(run));
+    faults.sort_by_key(|fault| (!fault.fatal, place(fault)));
+    faults
+}
+
+/// What the channels of runs say of each other. A run whose clock or heading is no such thing is left out of the rest.
+fn relations(sound: &mut Vec<&Run>, robot: &RobotFile) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    sound.retain(|run| {
+        let fault = time_unit::by_wheels(run, robot).or_else(|| quaternion::check(run, robot));
+        let told = fault.is_some();
+        faults.extend(fault);
+        !told
+    });
+    let motor = motor::check(sound, robot);
     // wheels that do not fit their own motors would be blamed a second time on the pose
     if !motor.iter().any(|fault| fault.fatal) {
-        faults.extend(pose::check(&sound, robot));
+        faults.extend(pose::check(sound, robot));
     }
     faults.extend(motor);
-    let place = |fault: &Fault| runs.iter().position(|run| run.name == fault.run);
-    faults.sort_by_key(|fault| (!fault.fatal, place(fault)));
-    for fault in &mut faults {
-        if let Some(run) = runs.iter().find(|run| run.name == fault.run) {
-            fault.lines = (run.line_of(fault.rows.0), run.line_of(fault.rows.1));
-        }
-    }
     faults
 }

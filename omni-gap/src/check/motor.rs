@@ -7,8 +7,10 @@
 use super::Fault;
 use super::agree::{self, Evidence};
 use super::body::largest;
+use super::duty;
 use super::gram::{Gram, Term, Within};
 use super::order::{self, Order};
+use super::ranked::ranked;
 use super::units::{self, WrongUnit};
 use crate::log::{Group, RobotFile, Run};
 
@@ -98,6 +100,14 @@ impl Motors {
         // a unit is told from a wrong parameter only where it fits more closely
         let tight = if times.abs() < 1.0 && (self.currents || self.drive == "wset") { 0.8 } else { 1.0 };
         self.gram.rest(u, w, i, within(self.a, tight), within(self.b, tight))
+    }
+
+    fn duty(&self, run: &Run, robot: &RobotFile) -> Option<f64> {
+        let largest = run.u.iter().flat_map(|u| &u.channels).map(largest).fold(0.0, f64::max);
+        let nominal = (robot.volts_per_wheel_speed(), robot.motor.resistance_ohm);
+        let supply = robot.supply.map(|supply| supply.voltage_v);
+        let known = duty::Known { nominal, largest, supply, currents: self.currents };
+        if self.drive == "u" { duty::factor(&self.gram, known) } else { None }
     }
 
     fn as_given(&self, j: usize) -> f64 {
@@ -245,7 +255,10 @@ pub(super) fn check<'a>(runs: &[&'a Run], robot: &RobotFile) -> Vec<Fault> {
     let mut faults = Vec::new();
     for kind in [("u", true), ("u", false), ("wset", false)] {
         let of = |&run: &&'a Run| Some((run, Motors::new(run, robot).filter(|m| (m.drive, m.currents) == kind)?));
-        let (runs, motors): (Vec<&Run>, Vec<Motors>) = runs.iter().filter_map(of).unzip();
+        let (by_duty, rest): (Vec<_>, Vec<_>) =
+            runs.iter().filter_map(of).partition(|(run, motors)| motors.duty(run, robot).is_some());
+        faults.extend(by_duty.iter().filter_map(|(run, motors)| Some(duty_told(run, motors.duty(run, robot)?))));
+        let (runs, motors): (Vec<&Run>, Vec<Motors>) = rest.into_iter().unzip();
         let found = agree::guesses(&motors);
         faults.extend(found.into_iter().map(|(guess, which)| {
             let fault = told(runs[which[0]], &motors[which[0]], &guess);
@@ -290,13 +303,26 @@ fn told(run: &Run, motors: &Motors, guess: &Guess) -> Fault {
     Fault::of(run, code, signal, true).says(format!("{what}: {better}{or}"), mend)
 }
 
+fn duty_told(run: &Run, factor: f64) -> Fault {
+    let factor = if factor < 1.0 {
+        format!("{:.0} times too small", 1.0 / factor)
+    } else {
+        format!("{factor:.0} times too large")
+    };
+    let sentence = format!(
+        "The `u` columns are {factor} for the wheel speeds and currents, all by one factor: they look like a duty cycle, expected volts."
+    );
+    let mend = "Multiply the duty by the supply voltage over its full scale, with `scale` in columns.toml.";
+    Fault::of(run, "duty_for_volts", "u", true).says(sentence, mend)
+}
+
 /// Currents far above what the supply could drive through a motor held still.
 fn stall(run: &Run, robot: &RobotFile) -> Option<Fault> {
     let (group, supply) = (run.i.as_ref()?, run.supply_v(robot)?);
     let stall_a = 2.0 * supply / robot.motor.resistance_ohm;
     let mut all: Vec<f64> = group.channels.iter().flat_map(|c| c.present()).map(|(_, i)| i.abs()).collect();
-    all.sort_by(f64::total_cmp);
-    let high = all.get(all.len() * 9 / 10).copied().unwrap_or(0.0);
+    let rank = all.len() * 9 / 10;
+    let high = ranked(&mut all, rank).unwrap_or(0.0);
     if high < 10.0 * stall_a {
         return None;
     }

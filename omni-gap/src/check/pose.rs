@@ -6,6 +6,7 @@
 use super::Fault;
 use super::agree;
 use super::frame::{self, Seen};
+use super::ranked::ranked;
 use super::units;
 use super::windows::Window;
 use crate::log::{RobotFile, Run};
@@ -36,8 +37,8 @@ fn heading_alone(run: &Run) -> Option<Fault> {
     let seen: Vec<(usize, f64)> = heading.present().collect();
     let mut rates: Vec<f64> =
         seen.windows(2).map(|p| ((p[1].1 - p[0].1) / (run.t_s[p[1].0] - run.t_s[p[0].0])).abs()).collect();
-    rates.sort_by(f64::total_cmp);
-    let high = rates.get(rates.len() * 4 / 5).copied()?;
+    let rank = rates.len() * 4 / 5;
+    let high = ranked(&mut rates, rank)?;
     let (low, top) = seen.iter().fold((f64::MAX, f64::MIN), |(l, h), (_, v)| (l.min(*v), h.max(*v)));
     if high < 50.0 || top - low < 30.0 || run.w.is_some() {
         return None;
@@ -100,8 +101,8 @@ fn out_of_reach(run: &Run, robot: &RobotFile) -> bool {
         return run.w.is_some();
     };
     let mut all: Vec<f64> = speed.channels.iter().flat_map(|c| c.present()).map(|(_, w)| w.abs()).collect();
-    all.sort_by(f64::total_cmp);
-    let high = all.get(all.len() * 9 / 10).copied().unwrap_or(0.0);
+    let rank = all.len() * 9 / 10;
+    let high = ranked(&mut all, rank).unwrap_or(0.0);
     high > 1.3 * supply / robot.volts_per_wheel_speed()
 }
 

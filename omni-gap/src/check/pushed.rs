@@ -5,6 +5,7 @@
 
 use super::Fault;
 use super::body::{input, largest, speed_from_pose, speed_from_wheels};
+use super::ranked::ranked;
 use crate::log::{RobotFile, Run};
 
 /// How long the drive must have been off before growth counts (s).
@@ -95,11 +96,12 @@ fn growth(run: &Run, speed: &[Option<f64>], (first, last): (usize, usize)) -> Op
 /// Middle values over a tenth of a second.
 fn smoothed(run: &Run, speed: &[Option<f64>], (first, last): (usize, usize)) -> Vec<(usize, f64)> {
     let half = ((0.05 / run.median_step_s()) as usize).max(2);
+    let mut near = Vec::with_capacity(2 * half + 1);
     let middle = |row: usize| {
-        let mut near: Vec<f64> =
-            (row.saturating_sub(half).max(first)..=(row + half).min(last)).filter_map(|r| speed[r]).collect();
-        near.sort_by(f64::total_cmp);
-        Some((row, *near.get(near.len() / 2)?))
+        near.clear();
+        near.extend((row.saturating_sub(half).max(first)..=(row + half).min(last)).filter_map(|r| speed[r]));
+        let rank = near.len() / 2;
+        Some((row, ranked(&mut near, rank)?))
     };
     (first..=last).filter_map(middle).collect()
 }

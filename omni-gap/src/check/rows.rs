@@ -1,18 +1,26 @@
 //! The checks that look at one run, row by row.
 
-use super::{Fault, bunched, frozen, pushed, repeated, saturated, time};
+use super::{Fault, absurd, bunched, frozen, glitch, held, pushed, rectified, repeated, saturated, time, time_unit};
 use crate::log::{RobotFile, Run};
 
 pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
-    let mut faults = time::check(run);
-    if run.rows() < 10 || !run.t_s.windows(2).all(|pair| pair[1] > pair[0]) {
+    let mut faults = absurd::check(run);
+    faults.extend(time::check(run));
+    let clock = faults.iter().any(|fault| fault.code == "clock_runs_back");
+    faults.extend(time_unit::by_rows(run).filter(|_| !clock));
+    if clock || run.rows() < 10 || faults.iter().any(|fault| fault.fatal && fault.code != "time_gap") {
         return faults;
     }
+    let glitches = glitch::check(run, robot);
+    let jumps = |signal: &str| glitches.iter().any(|fault| fault.signal == signal);
     let saturated = saturated::check(run, robot);
-    let others = |fault: &Fault| saturated.iter().all(|known| known.signal != fault.signal);
+    let others = |fault: &Fault| saturated.iter().all(|known| known.signal != fault.signal) && !jumps(&fault.signal);
     faults.extend(frozen::check(run, robot).into_iter().filter(others));
-    faults.extend(saturated);
+    faults.extend(saturated.into_iter().filter(|fault| !jumps(&fault.signal)));
+    faults.extend(glitches);
     faults.extend(repeated::check(run, robot));
+    faults.extend(held::check(run, robot));
+    faults.extend(rectified::check(run, robot));
     faults.extend(bunched::check(run, robot));
     faults.extend(pushed::check(run, robot));
     faults

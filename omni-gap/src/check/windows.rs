@@ -1,6 +1,6 @@
 //! Stretches of a run over which wheels and pose are compared.
 
-use super::body::{BodyFromWheels, row_of};
+use super::body::{BodyFromWheels, MOST_CHANNELS, row_of};
 use crate::log::{RobotFile, Run};
 
 /// Length of a window (s), and from the start of one to the start of the next.
@@ -20,11 +20,13 @@ pub(super) struct Window {
     pub heading: f64,
 }
 
+type Row = [f64; MOST_CHANNELS];
+
 /// How far each wheel has turned (rad) by each row that has all speeds.
-fn turned(run: &Run) -> Option<Vec<(f64, Vec<f64>)>> {
+fn turned(run: &Run) -> Option<Vec<(f64, Row)>> {
     let speed = run.w.as_ref().filter(|w| !w.unsigned)?;
-    let mut at = vec![0.0; speed.channels.len()];
-    let mut last: Option<(f64, Vec<f64>)> = None;
+    let mut at = [0.0; MOST_CHANNELS];
+    let mut last: Option<(f64, Row)> = None;
     let mut all = Vec::with_capacity(run.rows());
     for (row, &t) in run.t_s.iter().enumerate() {
         let Some(now) = row_of(speed, row) else { continue };
@@ -33,29 +35,28 @@ fn turned(run: &Run) -> Option<Vec<(f64, Vec<f64>)>> {
                 at[j] += 0.5 * (now[j] + before[j]) * (t - before_t);
             }
         }
-        all.push((t, at.clone()));
+        all.push((t, at));
         last = Some((t, now));
     }
     Some(all)
 }
 
 /// The wheels' angles at a time, on a straight line between the rows around it; none across a gap.
-fn angles_at(turned: &[(f64, Vec<f64>)], t: f64) -> Option<Vec<f64>> {
+fn angles_at(turned: &[(f64, Row)], t: f64) -> Option<Row> {
     let after = turned.partition_point(|(at, _)| *at < t);
     let (next_t, next) = turned.get(after)?;
     if *next_t == t {
-        return Some(next.clone());
+        return Some(*next);
     }
     let (last_t, last) = &turned[after.checked_sub(1)?];
     let share = (t - last_t) / (next_t - last_t);
-    (next_t - last_t < WINDOW_S).then(|| last.iter().zip(next).map(|(a, b)| a + share * (b - a)).collect())
+    (next_t - last_t < WINDOW_S).then(|| std::array::from_fn(|j| last[j] + share * (next[j] - last[j])))
 }
 
 /// The windows of a run if its camera is late by `delay_s`.
 pub(super) fn windows(run: &Run, robot: &RobotFile, delay_s: f64) -> Option<Vec<Window>> {
     let (turned, pose, body) = (turned(run)?, run.pose.as_ref()?, BodyFromWheels::new(robot)?);
-    let seen: Vec<(f64, Vec<f64>)> =
-        (0..run.rows()).filter_map(|row| Some((run.t_s[row], row_of(pose, row)?))).collect();
+    let seen: Vec<(f64, Row)> = (0..run.rows()).filter_map(|row| Some((run.t_s[row], row_of(pose, row)?))).collect();
     let mut all = Vec::new();
     let mut next = f64::MIN;
     // every delay is tried on the same windows
@@ -79,4 +80,37 @@ pub(super) fn windows(run: &Run, robot: &RobotFile, delay_s: f64) -> Option<Vec<
         });
     }
     Some(all)
+}
+
+/// A stretch between two poses: how far the pose went in it, and how far the wheels say, by their clock.
+pub(super) struct Stretch {
+    /// Steps of x (m), y (m) and heading (rad).
+    pub pose: [f64; 3],
+    /// ∫v (m), ∫vn (m) and ∫ω (rad) by the wheels.
+    pub wheels: [f64; 3],
+    /// Heading at its beginning and at its end (rad).
+    pub heading: (f64, f64),
+}
+
+/// Poses from the beginning of a stretch to its end, and the fewest stretches that tell anything.
+const POSES: (usize, usize) = (5, 25);
+const STRETCHES: usize = 40;
+const FEWEST: usize = 12;
+
+/// A run in stretches of some poses, whatever its clock says of their length.
+pub(super) fn stretches(run: &Run, robot: &RobotFile) -> Option<Vec<Stretch>> {
+    let (turned, pose, body) = (turned(run)?, run.pose.as_ref()?, BodyFromWheels::new(robot)?);
+    let seen: Vec<(f64, Row)> = (0..run.rows()).filter_map(|row| Some((run.t_s[row], row_of(pose, row)?))).collect();
+    let each = (seen.len() / STRETCHES).clamp(POSES.0, POSES.1);
+    let at = |t: f64| turned.get(turned.partition_point(|(at, _)| *at < t)).map(|(_, angles)| *angles);
+    let stretch = |pair: &[usize]| {
+        let ((start, before), (end, after)) = (&seen[pair[0]], &seen[pair[1]]);
+        let (from, to) = (at(*start)?, at(*end)?);
+        let by_wheels: Row = std::array::from_fn(|j| to[j] - from[j]);
+        let pose = std::array::from_fn(|axis| after[axis] - before[axis]);
+        Some(Stretch { pose, wheels: body.twist(&by_wheels), heading: (before[2], after[2]) })
+    };
+    let ends: Vec<usize> = (0..seen.len()).step_by(each).collect();
+    let all: Vec<Stretch> = ends.windows(2).filter_map(stretch).collect();
+    (all.len() >= FEWEST).then_some(all)
 }
