@@ -12,7 +12,7 @@ pub const MOTORS: usize = 4;
 pub const PERIODS_PER_SECOND: u32 = 20_000;
 
 /// Periods from one motion turn to the next.
-pub const PERIODS_PER_TURN: u32 = 20;
+pub const PERIODS_PER_TICK: u32 = 20;
 
 /// What was measured in one period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,11 +1,11 @@
 //! # Exchange: what the emulated board and its host tell each other, once a period
 //!
-//! In place of timers, converters and pins the emulated board has two files. It writes an [`Up`] and then waits for a
-//! [`Down`]; the host, which has the motors and the robot, does the opposite. So the host is the clock: nothing here
+//! In place of timers, converters and pins the emulated board has two files. It writes an [`UpFrame`] and then waits for a
+//! [`DownFrame`]; the host, which has the motors and the robot, does the opposite. So the host is the clock: nothing here
 //! depends on how fast either side runs.
 //!
-//! What an [`Up`] asks for holds over the period that follows, as compare registers that are loaded at the update do; the
-//! codes of a [`Down`] are those of that period's PWM centre.
+//! What an [`UpFrame`] asks for holds over the period that follows, as compare registers that are loaded at the update do; the
+//! codes of a [`DownFrame`] are those of that period's PWM centre.
 
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
@@ -23,7 +23,7 @@ pub const LINK_BYTES: usize = 10;
 
 /// From the image to the host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Up {
+pub struct UpFrame {
     /// Periods since the start
     pub period: u32,
     /// Compare counts of every motor's three phases, of [`TOPS`]
@@ -31,16 +31,16 @@ pub struct Up {
     /// One bit a motor: its gate driver is enabled
     pub enabled: u8,
     /// The watchdog has bitten; nothing is driven any more
-    pub bitten: bool,
+    pub watchdog_fired: bool,
     /// Processor cycles that the last current turn took, as the emulator counts
     pub cycles: u16,
     /// Bytes for the link
-    pub link: Bytes,
+    pub link: LinkBytes,
 }
 
 /// From the host to the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Down {
+pub struct DownFrame {
     /// What the converters, the hall lines and the fault line say
     pub codes: Codes,
     /// True: the image is to end
@@ -50,17 +50,17 @@ pub struct Down {
     /// The same in the next motion turn
     pub burn_motion: u16,
     /// Bytes from the link
-    pub link: Bytes,
+    pub link: LinkBytes,
 }
 
 /// What the link carries in one period, [`LINK_BYTES`] at most.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Bytes {
+pub struct LinkBytes {
     held: [u8; LINK_BYTES],
     len: u8,
 }
 
-impl Bytes {
+impl LinkBytes {
     /// As many of these bytes as a period has room for.
     pub fn of(bytes: &[u8]) -> Self {
         let mut held = [0; LINK_BYTES];
@@ -78,7 +78,7 @@ impl Bytes {
     }
 }
 
-impl Up {
+impl UpFrame {
     /// Bytes of this frame.
     pub const LEN: usize = 44;
 
@@ -88,7 +88,7 @@ impl Up {
         let mut put = Cursor { bytes: &mut bytes, at: 0 };
         put.put(self.period.to_le_bytes());
         self.compare.as_flattened().iter().for_each(|count| put.put(count.to_le_bytes()));
-        put.put([self.enabled, u8::from(self.bitten)]);
+        put.put([self.enabled, u8::from(self.watchdog_fired)]);
         put.put(self.cycles.to_le_bytes());
         put.put([self.link.len]);
         put.put(self.link.held);
@@ -102,11 +102,11 @@ impl Up {
         let compare = [(); MOTORS].map(|()| [(); 3].map(|()| u16::from_le_bytes(get.take())));
         let [enabled, flags] = get.take();
         let cycles = u16::from_le_bytes(get.take());
-        Self { period, compare, enabled, bitten: flags & 1 != 0, cycles, link: get.link() }
+        Self { period, compare, enabled, watchdog_fired: flags & 1 != 0, cycles, link: get.link() }
     }
 }
 
-impl Down {
+impl DownFrame {
     /// Bytes of this frame.
     pub const LEN: usize = 48;
 
@@ -167,9 +167,9 @@ impl Reader<'_> {
         from.unwrap_or([0; K])
     }
 
-    fn link(&mut self) -> Bytes {
+    fn link(&mut self) -> LinkBytes {
         let [len] = self.take();
-        Bytes { held: self.take(), len: len.min(LINK_BYTES as u8) }
+        LinkBytes { held: self.take(), len: len.min(LINK_BYTES as u8) }
     }
 }
 
@@ -179,23 +179,23 @@ mod tests {
 
     #[test]
     fn an_up_frame_comes_back_as_it_was() {
-        let up = Up {
+        let up = UpFrame {
             period: 0x8123_4567,
             compare: [[1, 2, 3], [4, 5, 6], [7, 8, 9], [10, 11, 4200]],
             enabled: 0b1010,
-            bitten: true,
+            watchdog_fired: true,
             cycles: 65_000,
-            link: Bytes::of(&[1, 2, 3, 4, 5, 6, 7, 8, 9, 255]),
+            link: LinkBytes::of(&[1, 2, 3, 4, 5, 6, 7, 8, 9, 255]),
         };
-        assert_eq!(Up::from_bytes(&up.to_bytes()), up);
+        assert_eq!(UpFrame::from_bytes(&up.to_bytes()), up);
         // the last byte but one is the link's last: nothing was left out
-        assert_eq!(up.to_bytes()[Up::LEN - 2], 255);
+        assert_eq!(up.to_bytes()[UpFrame::LEN - 2], 255);
     }
 
     #[test]
     fn a_down_frame_comes_back_as_it_was() {
         let code = |k: u16| AdcCode(4000 + k);
-        let down = Down {
+        let down = DownFrame {
             codes: Codes {
                 phases: [
                     [code(1), code(2), code(3)],
@@ -210,19 +210,19 @@ mod tests {
             end: true,
             burn_current: 513,
             burn_motion: 1027,
-            link: Bytes::of(&[9; LINK_BYTES]),
+            link: LinkBytes::of(&[9; LINK_BYTES]),
         };
-        assert_eq!(Down::from_bytes(&down.to_bytes()), down);
-        assert_eq!(down.to_bytes()[Down::LEN - 2], 9);
+        assert_eq!(DownFrame::from_bytes(&down.to_bytes()), down);
+        assert_eq!(down.to_bytes()[DownFrame::LEN - 2], 9);
     }
 
     #[test]
     fn the_link_takes_what_a_period_has_room_for() {
-        assert_eq!(Bytes::of(&[7; 40]).as_slice(), &[7; LINK_BYTES]);
-        assert_eq!(Bytes::of(&[]).as_slice(), &[] as &[u8]);
+        assert_eq!(LinkBytes::of(&[7; 40]).as_slice(), &[7; LINK_BYTES]);
+        assert_eq!(LinkBytes::of(&[]).as_slice(), &[] as &[u8]);
         // a length that cannot be is cut
-        let mut bytes = Up::default().to_bytes();
+        let mut bytes = UpFrame::default().to_bytes();
         bytes[32] = 200;
-        assert_eq!(Up::from_bytes(&bytes).link.as_slice().len(), LINK_BYTES);
+        assert_eq!(UpFrame::from_bytes(&bytes).link.as_slice().len(), LINK_BYTES);
     }
 }

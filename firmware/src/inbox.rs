@@ -3,7 +3,7 @@
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::command::Reply;
 
-use crate::listener::{Accepted, Heard};
+use crate::command_receiver::{AcceptedParameters, ReceivedCommand};
 
 /// What has come and was not taken yet.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,37 +23,37 @@ pub struct Inbox {
     /// A parameter block came that cannot be taken
     pub bad_block: bool,
     /// Other parameters
-    pub parameters: Option<Accepted>,
+    pub parameters: Option<AcceptedParameters>,
     /// An answer to what came last
     pub reply: Option<Reply>,
 }
 
 impl Inbox {
     /// Something was heard.
-    pub fn put(&mut self, heard: Heard) {
-        match heard {
+    pub fn put(&mut self, command: ReceivedCommand) {
+        match command {
             // the same command once more, from a relay that has lost its host, keeps no robot going
-            Heard::Drive { sequence, .. } if self.sequence == Some(sequence) => {}
-            Heard::Drive { sequence, twist } => {
+            ReceivedCommand::Drive { sequence, .. } if self.sequence == Some(sequence) => {}
+            ReceivedCommand::Drive { sequence, twist } => {
                 self.sequence = Some(sequence);
                 self.twist = twist;
                 self.open = false;
                 self.commands = self.commands.wrapping_add(1);
             }
-            Heard::Open => self.open = true,
-            Heard::Clear(reply) => {
+            ReceivedCommand::Open => self.open = true,
+            ReceivedCommand::Clear(reply) => {
                 self.clear = true;
                 self.reply = Some(reply);
             }
-            Heard::Parameters(accepted, reply) => {
+            ReceivedCommand::Parameters(accepted, reply) => {
                 self.parameters = Some(accepted);
                 self.reply = reply;
             }
-            Heard::BadCommand(reply) => {
+            ReceivedCommand::BadCommand(reply) => {
                 self.bad_command = true;
                 self.reply = Some(reply);
             }
-            Heard::BadBlock(reply) => {
+            ReceivedCommand::BadBlock(reply) => {
                 self.bad_block = true;
                 self.reply = Some(reply);
             }

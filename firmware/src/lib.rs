@@ -18,11 +18,11 @@ pub mod exchange;
 // The windings, 20 kHz
 pub mod offsets;
 
-pub mod guard;
+pub mod protection;
 
-pub mod setup;
+pub mod winding_config;
 
-pub mod motor;
+pub mod motor_controller;
 
 pub mod windings;
 
@@ -32,11 +32,11 @@ pub mod stall;
 pub mod motion;
 
 // The link
-pub mod listener;
+pub mod command_receiver;
 
 pub mod inbox;
 
-pub mod post;
+pub mod tx_queue;
 
 pub mod parity;
 

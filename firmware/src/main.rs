@@ -15,17 +15,17 @@
 
 mod tasks;
 
-// a panic, which the control path cannot reach, ends in the watchdog's bite: the bridges open at the reset
+// a panic, which the control path cannot reach, ends in the watchdog's reset, which opens the bridges
 use panic_halt as _;
 
 #[rtic::app(device = firmware::board::pac, peripherals = true)]
 mod app {
-    use firmware::board::{Bridges, Dog, Wire};
-    use firmware::drivers::roll::RollCall;
+    use firmware::board::{Bridges, SerialLink, Watchdog};
+    use firmware::command_receiver::CommandReceiver;
+    use firmware::drivers::heartbeat::Heartbeats;
     use firmware::inbox::Inbox;
-    use firmware::listener::Listener;
     use firmware::motion::Motion;
-    use firmware::post::{Post, Room, Sender};
+    use firmware::tx_queue::{TxConsumer, TxProducer, TxStorage};
     use firmware::windings::Windings;
 
     use crate::tasks::load::Load;
@@ -36,37 +36,37 @@ mod app {
         pub windings: Windings,
         pub inbox: Inbox,
         pub load: Load,
-        pub wire: Wire,
-        pub roll: RollCall,
+        pub serial: SerialLink,
+        pub heartbeats: Heartbeats,
     }
 
     #[local]
     pub struct Local {
         pub bridges: Bridges,
-        pub motion_turn: Motion,
-        pub listener: Listener,
-        pub sender: Sender,
-        pub post: Post,
-        pub dog: Dog,
+        pub motion_control: Motion,
+        pub receiver: CommandReceiver,
+        pub tx_producer: TxProducer,
+        pub tx_consumer: TxConsumer,
+        pub watchdog: Watchdog,
     }
 
     extern "Rust" {
-        #[init(local = [room: Room = Room::new()])]
+        #[init(local = [tx_storage: TxStorage = TxStorage::new()])]
         fn init(_: init::Context) -> (Shared, Local);
 
-        #[task(binds = ADC, priority = 4, local = [bridges], shared = [windings, load, &roll])]
+        #[task(binds = ADC, priority = 4, local = [bridges], shared = [windings, load, &heartbeats])]
         fn current(_: current::Context);
 
-        #[task(binds = EXTI0, priority = 3, local = [motion_turn, sender], shared = [windings, inbox, load, &roll])]
+        #[task(binds = EXTI0, priority = 3, local = [motion_control, tx_producer], shared = [windings, inbox, load, &heartbeats])]
         fn motion(_: motion::Context);
 
-        #[task(binds = EXTI1, priority = 2, local = [listener], shared = [inbox, wire, &roll])]
+        #[task(binds = EXTI1, priority = 2, local = [receiver], shared = [inbox, serial, &heartbeats])]
         fn listen(_: listen::Context);
 
-        #[task(binds = EXTI2, priority = 1, local = [post], shared = [wire, &roll])]
+        #[task(binds = EXTI2, priority = 1, local = [tx_consumer], shared = [serial, &heartbeats])]
         fn record(_: record::Context);
 
-        #[idle(local = [dog], shared = [&roll])]
+        #[idle(local = [watchdog], shared = [&heartbeats])]
         fn idle(_: idle::Context) -> !;
     }
 }

@@ -23,24 +23,24 @@ use model_core::link::faults::{Fault, Faults};
 use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
 use model_core::link::record::OperatingState;
 
-use crate::codes::{PERIODS_PER_SECOND, PERIODS_PER_TURN};
+use crate::codes::{PERIODS_PER_SECOND, PERIODS_PER_TICK};
+use crate::command_receiver::AcceptedParameters;
 use crate::inbox::Inbox;
-use crate::listener::Accepted;
-use crate::setup::{MAX_DUTY, Setup};
-use crate::stall::Stalls;
-use crate::windings::{Ask, Told};
+use crate::stall::StallDetector;
+use crate::winding_config::{MAX_DUTY, WindingConfig};
+use crate::windings::{MotorSetpoints, WindingFeedback};
 
 /// Turns without a command after which the robot stops: 200 ms.
-pub const SILENT_TURNS: u16 = 200;
+pub const COMMAND_TIMEOUT_TICKS: u16 = 200;
 
 /// Length of a turn [s].
-pub(crate) const TURN: f32 = PERIODS_PER_TURN as f32 / PERIODS_PER_SECOND as f32;
+pub(crate) const TICK_SECONDS: f32 = PERIODS_PER_TICK as f32 / PERIODS_PER_SECOND as f32;
 
 /// What a turn decided.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Turn {
+pub struct MotionOutput {
     /// For the windings
-    pub ask: Ask,
+    pub setpoints: MotorSetpoints,
     /// Faults seen in this turn, for the windings to latch
     pub faults: Faults,
     /// One bit a motor that is stalled, to be taken out of use
@@ -48,13 +48,13 @@ pub struct Turn {
     /// True: latched faults are to be forgotten
     pub clear: bool,
     /// What the robot is doing
-    pub stage: OperatingState,
+    pub state: OperatingState,
     /// The motion that is being followed
     pub reference: BodyTwist,
     /// Share of the wanted acceleration that the voltage had room for [1]
     pub headroom: f32,
     /// Other parameters, for the windings
-    pub setup: Option<Setup>,
+    pub config: Option<WindingConfig>,
     /// An answer to a command
     pub reply: Option<Reply>,
     /// How to read the records; none without parameters
@@ -63,7 +63,7 @@ pub struct Turn {
     pub events: u8,
 }
 
-/// Bits of [`Turn::events`].
+/// Bits of [`MotionOutput::events`].
 pub mod events {
     /// Other parameters were taken: records read differently from here on
     pub const PARAMETERS: u8 = 1;
@@ -78,107 +78,107 @@ pub mod events {
 /// The motion turn and its memory.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Motion {
-    mover: Option<RobotDrive>,
+    drive: Option<RobotDrive>,
     hello: Option<Hello>,
-    stage: OperatingState,
+    state: OperatingState,
     commands: u32,
-    silent: u16,
-    stalls: Stalls,
-    lost: u8,
+    ticks_without_command: u16,
+    stall_detector: StallDetector,
+    disabled: u8,
 }
 
 impl Motion {
     /// Takes other parameters; true if they are of another machine than those before.
     #[inline(never)]
-    fn swap(&mut self, accepted: &Accepted, turn: &mut Turn) -> bool {
+    fn set_parameters(&mut self, accepted: &AcceptedParameters, output: &mut MotionOutput) -> bool {
         let parameters = &accepted.parameters;
-        let setup = Setup::of(parameters);
-        let mut mover = RobotDrive::new(parameters, MAX_DUTY, TURN);
-        if let Some(old) = &self.mover {
-            mover.take_over(old);
+        let config = WindingConfig::of(parameters);
+        let mut drive = RobotDrive::new(parameters, MAX_DUTY, TICK_SECONDS);
+        if let Some(old) = &self.drive {
+            drive.take_over(old);
         }
-        mover.exclude_motors(self.lost);
-        self.mover = Some(mover);
-        let hello = setup.hello(parameters, accepted.check);
+        drive.exclude_motors(self.disabled);
+        self.drive = Some(drive);
+        let hello = config.hello(parameters, accepted.check);
         let same = self.hello.is_some_and(|before| machine(&before) == machine(&hello));
         self.hello = Some(hello);
-        turn.setup = Some(setup);
-        turn.events |= events::PARAMETERS;
+        output.config = Some(config);
+        output.events |= events::PARAMETERS;
         !same
     }
 
     /// One turn.
-    pub fn turn(&mut self, told: &Told, inbox: &mut Inbox) -> Turn {
-        let mut turn = Turn { reply: inbox.reply.take(), headroom: 1.0, ..Turn::default() };
+    pub fn tick(&mut self, feedback: &WindingFeedback, inbox: &mut Inbox) -> MotionOutput {
+        let mut output = MotionOutput { reply: inbox.reply.take(), headroom: 1.0, ..MotionOutput::default() };
         let mut opens = inbox.open;
         if let Some(accepted) = inbox.parameters.take() {
-            opens |= self.swap(&accepted, &mut turn);
+            opens |= self.set_parameters(&accepted, &mut output);
         }
         if core::mem::take(&mut inbox.bad_command) {
-            turn.faults.add(Fault::BadCommand);
+            output.faults.add(Fault::BadCommand);
         }
         if core::mem::take(&mut inbox.bad_block) {
-            turn.faults.add(Fault::BadBlock);
+            output.faults.add(Fault::BadBlock);
         }
         if core::mem::take(&mut inbox.clear) {
-            turn.clear = true;
-            turn.events |= events::CLEARED;
-            opens |= self.lost != 0;
+            output.clear = true;
+            output.events |= events::CLEARED;
+            opens |= self.disabled != 0;
         }
         let fresh = inbox.commands != self.commands;
         self.commands = inbox.commands;
-        self.silent = if fresh { 0 } else { self.silent.saturating_add(1) };
-        if self.stage == OperatingState::Driving && self.silent >= SILENT_TURNS {
-            turn.faults.add(Fault::CommandSilent);
+        self.ticks_without_command = if fresh { 0 } else { self.ticks_without_command.saturating_add(1) };
+        if self.state == OperatingState::Driving && self.ticks_without_command >= COMMAND_TIMEOUT_TICKS {
+            output.faults.add(Fault::CommandSilent);
         }
-        self.hello = self.hello.map(|hello| with_offsets(hello, told));
-        turn.hello = self.hello;
+        self.hello = self.hello.map(|hello| with_offsets(hello, feedback));
+        output.hello = self.hello;
 
-        let before = self.stage;
-        let faulty = !told.faults.is_empty() || !turn.faults.is_empty();
-        self.stage = match before {
+        let before = self.state;
+        let faulty = !feedback.faults.is_empty() || !output.faults.is_empty();
+        self.state = match before {
             _ if faulty => OperatingState::Faulted,
-            _ if self.mover.is_none() => OperatingState::Asleep,
-            _ if !told.ready => OperatingState::Calibrating,
+            _ if self.drive.is_none() => OperatingState::Asleep,
+            _ if !feedback.ready => OperatingState::Calibrating,
             OperatingState::Asleep | OperatingState::Calibrating | OperatingState::Faulted => OperatingState::Open,
             OperatingState::Open if fresh && !opens => OperatingState::Driving,
             OperatingState::Driving if opens => OperatingState::Open,
             stage => stage,
         };
-        turn.stage = self.stage;
-        let Some(mover) = &mut self.mover else { return turn };
-        if told.lost != self.lost {
-            self.lost = told.lost;
-            mover.exclude_motors(self.lost);
+        output.state = self.state;
+        let Some(drive) = &mut self.drive else { return output };
+        if feedback.disabled != self.disabled {
+            self.disabled = feedback.disabled;
+            drive.exclude_motors(self.disabled);
         }
-        if self.lost != 0 {
-            turn.events |= events::WHEEL_LOST;
+        if self.disabled != 0 {
+            output.events |= events::WHEEL_LOST;
         }
-        if self.stage != OperatingState::Driving {
-            mover.reset();
-            self.stalls = Stalls::default();
-            return turn;
+        if self.state != OperatingState::Driving {
+            drive.reset();
+            self.stall_detector = StallDetector::default();
+            return output;
         }
         let wheels = core::array::from_fn(|j| observer::HallReading {
-            edges: told.edges[j],
-            since_edge: told.since_edge[j],
-            speed: told.wheel_speed[j],
+            edges: feedback.edges[j],
+            since_edge: feedback.since_edge[j],
+            speed: feedback.wheel_speed[j],
         });
-        let moved = mover.tick(&wheels, told.bus, inbox.twist);
-        turn.reference = moved.reference;
-        turn.headroom = moved.headroom;
-        if moved.headroom < 1.0 {
-            turn.events |= events::SATURATED;
+        let drive_output = drive.tick(&wheels, feedback.bus, inbox.twist);
+        output.reference = drive_output.reference;
+        output.headroom = drive_output.headroom;
+        if drive_output.headroom < 1.0 {
+            output.events |= events::SATURATED;
         }
-        turn.ask = Ask {
-            current: moved.current,
-            voltage: moved.voltage,
-            closed: mover.controls_current(),
-            enabled: mover.motors() & !self.lost,
+        output.setpoints = MotorSetpoints {
+            current: drive_output.current,
+            voltage: drive_output.voltage,
+            closed: drive.controls_current(),
+            enabled: drive.motors() & !self.disabled,
         };
         let edge = self.hello.map_or(0.0, |hello| hello.calibration.edge_angle(hello.gear_ratio));
-        turn.stalled = self.stalls.turn(told, &moved, mover.current_limit(), edge);
-        turn
+        output.stalled = self.stall_detector.tick(feedback, &drive_output, drive.current_limit(), edge);
+        output
     }
 }
 
@@ -188,7 +188,7 @@ fn machine(hello: &Hello) -> (u8, Commutation, Calibration, f32) {
 }
 
 /// The same with the converters' zeros as they are known now, in 1/16 counts.
-fn with_offsets(hello: Hello, told: &Told) -> Hello {
-    let offsets = told.offsets.map(|phases| phases.map(|zero| (zero * f32::from(OFFSET_PARTS)) as u16));
+fn with_offsets(hello: Hello, feedback: &WindingFeedback) -> Hello {
+    let offsets = feedback.offsets.map(|phases| phases.map(|zero| (zero * f32::from(OFFSET_PARTS)) as u16));
     Hello { offsets, ..hello }
 }

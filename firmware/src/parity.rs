@@ -85,14 +85,14 @@ pub fn hash() -> u64 {
         fold.add_all(four.step(&mut four_state, &mut [], &Input::Voltage(volts), 1.0e-3).current);
         fold.add_all(four_state.twist.to_array());
 
-        let seen = Measurement { wheel_speed: volts, bus: 12.0 };
-        fold.add_all(controller.tick(&mut motion, &seen, twist).voltage);
+        let measured = Measurement { wheel_speed: volts, bus: 12.0 };
+        fold.add_all(controller.tick(&mut motion, &measured, twist).voltage);
         let codes = [a, b, c].map(|x| AdcCode((2048.0 + 20.0 * x) as u16));
         let angle = 3.0 + 3.0 * draws.next();
-        let seen =
+        let measured =
             CurrentMeasurement { codes, offsets: [2048.0; 3], angle, ahead: 0.02, bus: 12.0, per_bus: 1.0 / 12.0 };
-        let want = CurrentSetpoint { current: draws.next(), voltage: a, closed: true };
-        fold.add_all(current_loop.field_oriented(&mut winding, &seen, &want).duties);
+        let setpoint = CurrentSetpoint { current: draws.next(), voltage: a, closed: true };
+        fold.add_all(current_loop.field_oriented(&mut winding, &measured, &setpoint).duties);
     }
     fold.hash
 }

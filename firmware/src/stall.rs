@@ -13,11 +13,11 @@
 use model_core::control::drive::DriveOutput;
 
 use crate::codes::MOTORS;
-use crate::motion::TURN;
-use crate::windings::Told;
+use crate::motion::TICK_SECONDS;
+use crate::windings::WindingFeedback;
 
 /// Turns for which a wheel may stand: 300 ms.
-pub const STALL_TURNS: u16 = 300;
+pub const STALL_TICKS: u16 = 300;
 
 /// Share of the current limit from which a wheel strains [1].
 const SHARE: f32 = 0.5;
@@ -30,7 +30,7 @@ const OWED: f32 = 12.0;
 
 /// One wheel's patience.
 #[derive(Clone, Copy, Debug, Default)]
-struct Stall {
+struct WheelStall {
     /// Edges when it moved last
     edges: i32,
     /// Turns since then
@@ -43,26 +43,26 @@ struct Stall {
 
 /// The patience with all wheels.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Stalls([Stall; MOTORS]);
+pub struct StallDetector([WheelStall; MOTORS]);
 
-impl Stalls {
+impl StallDetector {
     /// One turn; one bit a motor that is stalled. `limit` is the motors' current limit [A], `edge` the angle of the
     /// wheel from one hall edge to the next [rad].
-    pub fn turn(&mut self, told: &Told, moved: &DriveOutput, limit: f32, edge: f32) -> u8 {
+    pub fn tick(&mut self, feedback: &WindingFeedback, drive_output: &DriveOutput, limit: f32, edge: f32) -> u8 {
         let mut stalled = 0;
         for j in 0..MOTORS {
             let stall = &mut self.0[j];
-            let edges = told.edges[j];
-            if edges.abs_diff(stall.edges) >= MOVED || told.lost >> j & 1 != 0 {
-                *stall = Stall { edges, ..Stall::default() };
+            let edges = feedback.edges[j];
+            if edges.abs_diff(stall.edges) >= MOVED || feedback.disabled >> j & 1 != 0 {
+                *stall = WheelStall { edges, ..WheelStall::default() };
                 continue;
             }
-            let strains = told.current[j].abs().max(moved.current[j].abs()) > SHARE * limit;
+            let strains = feedback.current[j].abs().max(drive_output.current[j].abs()) > SHARE * limit;
             stall.strains = if strains { stall.strains.saturating_add(1) } else { 0 };
             stall.stands = stall.stands.saturating_add(1);
-            stall.owes += moved.wheel_speed[j] * TURN;
+            stall.owes += drive_output.wheel_speed[j] * TICK_SECONDS;
             let owes = stall.owes.abs() > OWED * edge;
-            if stall.strains >= STALL_TURNS || (stall.stands >= STALL_TURNS && owes) {
+            if stall.strains >= STALL_TICKS || (stall.stands >= STALL_TICKS && owes) {
                 stalled |= 1 << j;
             }
         }
@@ -80,12 +80,12 @@ mod tests {
 
     /// Turns until wheel 1 is found stalled, of so many; `edges` tells the edges of a turn.
     fn found(turns: u16, current: f32, speed: f32, edges: impl Fn(u16) -> i32) -> Option<u16> {
-        let mut stalls = Stalls::default();
+        let mut stalls = StallDetector::default();
         (1..=turns).find(|turn| {
-            let mut told = Told::default();
-            let mut moved = DriveOutput::default();
-            (told.current[1], told.edges[1], moved.wheel_speed[1]) = (current, edges(*turn), speed);
-            stalls.turn(&told, &moved, LIMIT, EDGE) == 0b0010
+            let mut feedback = WindingFeedback::default();
+            let mut drive_output = DriveOutput::default();
+            (feedback.current[1], feedback.edges[1], drive_output.wheel_speed[1]) = (current, edges(*turn), speed);
+            stalls.tick(&feedback, &drive_output, LIMIT, EDGE) == 0b0010
         })
     }
 
@@ -117,9 +117,9 @@ mod tests {
 
     #[test]
     fn a_wheel_out_of_use_is_not_found_again() {
-        let mut stalls = Stalls::default();
-        let mut told = Told { lost: 0b0010, ..Told::default() };
-        told.current[1] = 4.0;
-        assert!((0..1000).all(|_| stalls.turn(&told, &DriveOutput::default(), LIMIT, EDGE) == 0));
+        let mut stalls = StallDetector::default();
+        let mut feedback = WindingFeedback { disabled: 0b0010, ..WindingFeedback::default() };
+        feedback.current[1] = 4.0;
+        assert!((0..1000).all(|_| stalls.tick(&feedback, &DriveOutput::default(), LIMIT, EDGE) == 0));
     }
 }

@@ -17,16 +17,16 @@ use model_core::control::current_loop::CurrentSetpoint;
 use model_core::control::halls::HallCode;
 use model_core::link::faults::{Fault, Faults};
 
-use crate::codes::{Codes, MOTORS, PERIODS_PER_TURN};
-use crate::guard::Guard;
-use crate::motion::Turn;
-use crate::motor::{Motor, NO_VOLTAGE, Sensed};
+use crate::codes::{Codes, MOTORS, PERIODS_PER_TICK};
+use crate::motion::MotionOutput;
+use crate::motor_controller::{MotorController, MotorMeasurement, NO_VOLTAGE};
 use crate::offsets::Offsets;
-use crate::setup::Setup;
+use crate::protection::Protection;
+use crate::winding_config::WindingConfig;
 
 /// What the motion turn asks of the windings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ask {
+pub struct MotorSetpoints {
     /// DC-equivalent currents [A]
     pub current: [f32; MOTORS],
     /// DC-equivalent voltages [V] that go ahead of the currents, or stand alone where `closed` is false
@@ -39,7 +39,7 @@ pub struct Ask {
 
 /// What the motion turn is told of the windings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Told {
+pub struct WindingFeedback {
     /// The period of the codes, since the start
     pub period: u32,
     /// The codes themselves
@@ -65,16 +65,16 @@ pub struct Told {
     /// Faults that are latched here and open all bridges
     pub faults: Faults,
     /// Faults that are latched here and cost a wheel
-    pub costs: Faults,
+    pub motor_faults: Faults,
     /// One bit a motor: it is out of use
-    pub lost: u8,
+    pub disabled: u8,
     /// True once the offsets are known
     pub ready: bool,
 }
 
 /// What the board is to do in the next period.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Drive {
+pub struct BridgeCommand {
     /// Duties of the three phases [1]
     pub duties: [[f32; 3]; MOTORS],
     /// One bit a motor: its gate driver is enabled
@@ -84,151 +84,156 @@ pub struct Drive {
 /// All windings.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Windings {
-    setup: Setup,
+    config: WindingConfig,
     offsets: Offsets,
-    guard: Guard,
-    motors: [Motor; MOTORS],
-    ask: Ask,
-    told: Told,
+    protection: Protection,
+    motors: [MotorController; MOTORS],
+    setpoints: MotorSetpoints,
+    feedback: WindingFeedback,
     period: u32,
 }
 
 impl Windings {
     /// Takes what a motion turn decided, from the next period on.
-    pub fn take(&mut self, turn: &Turn) {
-        self.ask = turn.ask;
-        if let Some(setup) = &turn.setup {
-            self.install(setup);
+    pub fn apply(&mut self, output: &MotionOutput) {
+        self.setpoints = output.setpoints;
+        if let Some(config) = &output.config {
+            self.install(config);
         }
-        if turn.clear {
+        if output.clear {
             self.clear();
         }
-        self.guard.latch_all(turn.faults);
-        for j in (0..MOTORS).filter(|j| turn.stalled >> j & 1 != 0) {
-            self.guard.lose(Fault::Stall, j, self.setup.wheels);
+        self.protection.latch_all(output.faults);
+        for j in (0..MOTORS).filter(|j| output.stalled >> j & 1 != 0) {
+            self.protection.disable_motor(Fault::Stall, j, self.config.wheels);
         }
     }
 
     /// Takes other parameters; motors that come or go begin anew.
     #[inline(never)]
-    fn install(&mut self, setup: &Setup) {
-        if setup.wheels != self.setup.wheels {
-            self.motors = [Motor::default(); MOTORS];
-            self.guard.recount(setup.wheels);
+    fn install(&mut self, config: &WindingConfig) {
+        if config.wheels != self.config.wheels {
+            self.motors = [MotorController::default(); MOTORS];
+            self.protection.set_wheels(config.wheels);
         }
-        self.setup = *setup;
+        self.config = *config;
     }
 
     /// Forgets latched faults; what is still there is found again in the next turns.
     fn clear(&mut self) {
-        self.guard = Guard::default();
-        if self.offsets.bad() & self.setup.motors() != 0 {
+        self.protection = Protection::default();
+        if self.offsets.bad() & self.config.motors() != 0 {
             self.offsets = Offsets::default();
         }
     }
 
     /// What has been found and is latched.
-    pub fn guard(&self) -> &Guard {
-        &self.guard
+    pub fn protection(&self) -> &Protection {
+        &self.protection
     }
 
     /// Latches a fault that was seen elsewhere.
     pub fn latch(&mut self, fault: Fault) {
-        self.guard.latch(fault);
+        self.protection.latch(fault);
     }
 
     /// What the last motion turn's codes were, and what goes with them.
-    pub fn told(&self) -> Told {
-        self.told
+    pub fn feedback(&self) -> WindingFeedback {
+        self.feedback
     }
 
     /// True if a motion turn begins with the period that has just been looked at.
     #[inline]
-    pub fn begins_motion(&self) -> bool {
-        self.period.is_multiple_of(PERIODS_PER_TURN)
+    pub fn motion_is_due(&self) -> bool {
+        self.period.is_multiple_of(PERIODS_PER_TICK)
     }
 
     /// One period: what to do in the next.
     #[inline]
-    pub fn turn(&mut self, codes: &Codes) -> Drive {
+    pub fn tick(&mut self, codes: &Codes) -> BridgeCommand {
         self.period = self.period.wrapping_add(1);
-        let ask = self.ask;
-        let bus = self.setup.calibration.bus_voltage(codes.bus);
-        if self.setup.wheels > 0 {
-            self.guard.supply(&self.setup.limits, bus);
+        let setpoints = self.setpoints;
+        let bus = self.config.calibration.bus_voltage(codes.bus);
+        if self.config.wheels > 0 {
+            self.protection.supply(&self.config.limits, bus);
         }
         if codes.driver_fault {
-            self.guard.latch(Fault::DriverLine);
+            self.protection.latch(Fault::DriverLine);
         }
         if !self.offsets.are_known() {
             self.offsets.learn(&codes.phases);
         }
         let ready = self.offsets.are_known();
-        let broken = self.offsets.bad() & self.setup.motors();
+        let broken = self.offsets.bad() & self.config.motors();
         if broken != 0 {
             for j in (0..MOTORS).filter(|j| broken >> j & 1 != 0) {
-                self.guard.lose(Fault::OffsetCalibration, j, self.setup.wheels);
+                self.protection.disable_motor(Fault::OffsetCalibration, j, self.config.wheels);
             }
         }
-        let may = if ready { ask.enabled & self.setup.motors() & !self.guard.lost() } else { 0 };
+        let may = if ready { setpoints.enabled & self.config.motors() & !self.protection.disabled() } else { 0 };
 
-        let mut drive = Drive::default();
+        let mut command = BridgeCommand::default();
         let per_bus = 1.0 / bus;
         for j in 0..MOTORS {
             let motor = &mut self.motors[j];
-            motor.hold();
-            if j >= usize::from(self.setup.wheels) {
+            motor.accumulate_voltage();
+            if j >= usize::from(self.config.wheels) {
                 continue;
             }
-            let sensed = Sensed { codes: codes.phases[j], offsets: self.offsets.of(j), bus, per_bus };
-            let want = CurrentSetpoint { current: ask.current[j], voltage: ask.voltage[j], closed: ask.closed };
+            let measured = MotorMeasurement { codes: codes.phases[j], offsets: self.offsets.of(j), bus, per_bus };
+            let setpoint = CurrentSetpoint {
+                current: setpoints.current[j],
+                voltage: setpoints.voltage[j],
+                closed: setpoints.closed,
+            };
             let place = Place { motor: j, ready, closed: may >> j & 1 != 0 };
-            drive.duties[j] = turn_of(motor, &mut self.guard, &self.setup, &place, codes.halls[j], &sensed, &want);
+            command.duties[j] =
+                tick_motor(motor, &mut self.protection, &self.config, &place, codes.halls[j], &measured, &setpoint);
         }
-        if self.guard.faults().is_empty() {
-            drive.enabled = may & !self.guard.lost();
+        if self.protection.faults().is_empty() {
+            command.enabled = may & !self.protection.disabled();
         }
-        if drive.enabled != may {
+        if command.enabled != may {
             // what was decided above and is not applied
-            for (j, (motor, duties)) in self.motors.iter_mut().zip(&mut drive.duties).enumerate() {
-                if drive.enabled >> j & 1 == 0 {
+            for (j, (motor, duties)) in self.motors.iter_mut().zip(&mut command.duties).enumerate() {
+                if command.enabled >> j & 1 == 0 {
                     *duties = NO_VOLTAGE;
-                    motor.opened();
+                    motor.bridge_opened();
                 }
             }
         }
-        if self.begins_motion() {
-            self.told = self.tell(codes, bus);
+        if self.motion_is_due() {
+            self.feedback = self.measure(codes, bus);
         }
-        drive
+        command
     }
 
     /// What the motion turn is to know of this period; begins its next mean.
     #[inline]
-    fn tell(&mut self, codes: &Codes, bus: f32) -> Told {
-        let mut told = Told {
+    fn measure(&mut self, codes: &Codes, bus: f32) -> WindingFeedback {
+        let mut feedback = WindingFeedback {
             period: self.period,
             codes: *codes,
             bus,
-            faults: self.guard.faults(),
-            costs: self.guard.costs(),
-            lost: self.guard.lost(),
+            faults: self.protection.faults(),
+            motor_faults: self.protection.motor_faults(),
+            disabled: self.protection.disabled(),
             ready: self.offsets.are_known(),
             offsets: *self.offsets.all(),
-            ..Told::default()
+            ..WindingFeedback::default()
         };
-        for (j, motor) in self.motors.iter_mut().enumerate().take(usize::from(self.setup.wheels)) {
-            told.angle[j] = motor.angle();
-            told.current[j] = motor.current();
-            told.voltage[j] = motor.mean_voltage();
+        for (j, motor) in self.motors.iter_mut().enumerate().take(usize::from(self.config.wheels)) {
+            feedback.angle[j] = motor.angle();
+            feedback.current[j] = motor.current();
+            feedback.voltage[j] = motor.mean_voltage();
             if let Some(halls) = motor.halls() {
-                told.edges[j] = halls.edges();
-                told.since_edge[j] = halls.since_edge();
-                told.interval[j] = halls.interval();
-                told.wheel_speed[j] = halls.electrical_speed::<f32>() * self.setup.wheel_speed_per_electrical;
+                feedback.edges[j] = halls.edges();
+                feedback.since_edge[j] = halls.since_edge();
+                feedback.interval[j] = halls.interval();
+                feedback.wheel_speed[j] = halls.electrical_speed::<f32>() * self.config.wheel_speed_per_electrical;
             }
         }
-        told
+        feedback
     }
 }
 
@@ -243,26 +248,26 @@ struct Place {
 
 /// One motor's turn: what to put on its phases. By itself, so that four motors are not four times the code.
 #[inline(never)]
-fn turn_of(
-    motor: &mut Motor,
-    guard: &mut Guard,
-    setup: &Setup,
+fn tick_motor(
+    motor: &mut MotorController,
+    protection: &mut Protection,
+    config: &WindingConfig,
     place: &Place,
     hall: HallCode,
-    sensed: &Sensed,
-    want: &CurrentSetpoint,
+    measured: &MotorMeasurement,
+    setpoint: &CurrentSetpoint,
 ) -> [f32; 3] {
-    match motor.follow(hall) {
-        Ok(()) => guard.good_hall(place.motor),
-        Err(_) => guard.bad_hall(place.motor, setup.wheels),
+    match motor.update_halls(hall) {
+        Ok(()) => protection.good_hall(place.motor),
+        Err(_) => protection.bad_hall(place.motor, config.wheels),
     }
     if !place.ready {
         return NO_VOLTAGE;
     }
     // a lost motor's bridge is open, and its amplifiers may be what it was lost for
-    let in_use = guard.lost() >> place.motor & 1 == 0;
-    if in_use && guard.over_current(&setup.limits, &sensed.codes, &sensed.offsets) {
-        guard.latch(Fault::OverCurrent);
+    let in_use = protection.disabled() >> place.motor & 1 == 0;
+    if in_use && protection.over_current(&config.limits, &measured.codes, &measured.offsets) {
+        protection.latch(Fault::OverCurrent);
     }
-    motor.decide(setup, sensed, want, place.closed)
+    motor.tick(config, measured, setpoint, place.closed)
 }

@@ -52,11 +52,11 @@ mod tests {
         let mut bytes = [0; 256];
         bytes.iter_mut().zip(0..).for_each(|(byte, at)| *byte = at);
         for _ in 0..20 {
-            assert_eq!(parts.wire.send(&bytes), bytes.len());
+            assert_eq!(parts.serial.send(&bytes), bytes.len());
             // 256 bytes of 10 bits at 2 Mbaud
             wait(1_500);
             let mut heard = [0; 300];
-            assert_eq!(parts.wire.receive(&mut heard), bytes.len());
+            assert_eq!(parts.serial.receive(&mut heard), bytes.len());
             assert_eq!(heard[..256], bytes);
         }
     }

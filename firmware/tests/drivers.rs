@@ -5,10 +5,10 @@ use embedded_hal_mock::eh1::digital::{Mock as PinMock, State, Transaction as Pin
 use embedded_hal_mock::eh1::pwm::{Mock as PwmMock, Transaction as PwmDo};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use firmware::drivers::fault::FaultLine;
+use firmware::drivers::flash_slots::{HEAD, MAX_BLOCK, Slot, StoreError, find, save};
 use firmware::drivers::gate::{GateDriver, GateFault};
 use firmware::drivers::halls::HallLines;
-use firmware::drivers::roll::{RollCall, Task};
-use firmware::drivers::store::{HEAD, LONGEST, NotKept, Slot, find, keep};
+use firmware::drivers::heartbeat::{Heartbeats, Task};
 use model_core::control::halls::HallCode;
 
 fn broken() -> MockError {
@@ -17,9 +17,9 @@ fn broken() -> MockError {
 
 /// A PWM channel of 4200 counts that is told these.
 fn pwm(counts: &[u16]) -> PwmMock {
-    let told: Vec<_> =
+    let feedback: Vec<_> =
         counts.iter().flat_map(|count| [PwmDo::max_duty_cycle(4200), PwmDo::set_duty_cycle(*count)]).collect();
-    PwmMock::new(&told)
+    PwmMock::new(&feedback)
 }
 
 /// A pin that reads a level, or fails.
@@ -105,15 +105,15 @@ fn the_fault_line_is_pulled_when_low_and_when_it_cannot_be_read() {
 fn the_dog_is_fed_only_if_every_task_has_been_seen_since() {
     let all = [Task::Current, Task::Motion, Task::Listen, Task::Record];
     for missing in all {
-        let roll = RollCall::new();
+        let heartbeats = Heartbeats::new();
         for task in all.into_iter().filter(|task| *task != missing) {
-            roll.here(task);
-            roll.here(task);
+            heartbeats.beat(task);
+            heartbeats.beat(task);
         }
-        assert!(!roll.complete(), "{missing:?} is missing");
-        roll.here(missing);
-        assert!(roll.complete());
-        assert!(!roll.complete(), "the roll begins anew");
+        assert!(!heartbeats.all_alive(), "{missing:?} is missing");
+        heartbeats.beat(missing);
+        assert!(heartbeats.all_alive());
+        assert!(!heartbeats.all_alive(), "the roll begins anew");
     }
 }
 
@@ -147,8 +147,8 @@ impl<const WRITE: usize> Flash<WRITE> {
     }
 
     fn block(&mut self) -> Option<Vec<u8>> {
-        let kept = find(self, &SLOTS)?;
-        Some(self.bytes[kept.at as usize..][..kept.len].to_vec())
+        let stored = find(self, &SLOTS)?;
+        Some(self.bytes[stored.at as usize..][..stored.len].to_vec())
     }
 }
 
@@ -211,8 +211,8 @@ fn the_block_kept_last_is_in_force() {
     let mut flash = Flash::<1>::new();
     for round in 0..6_u8 {
         let block = vec![round; 100 + usize::from(round)];
-        let kept = keep(&mut flash, &SLOTS, &block).unwrap();
-        assert_eq!(kept.slot, usize::from(round % 2), "the slots take turns");
+        let stored = save(&mut flash, &SLOTS, &block).unwrap();
+        assert_eq!(stored.slot, usize::from(round % 2), "the slots take turns");
         assert_eq!(flash.block(), Some(block));
     }
 }
@@ -220,9 +220,9 @@ fn the_block_kept_last_is_in_force() {
 #[test]
 fn blocks_of_any_length_fit_words_of_any_size() {
     let mut flash = Flash::<8>::new();
-    for len in [0, 1, 7, 8, 9, 511, 512, LONGEST] {
+    for len in [0, 1, 7, 8, 9, 511, 512, MAX_BLOCK] {
         let block: Vec<u8> = (0..len).map(|at| at as u8).collect();
-        keep(&mut flash, &SLOTS, &block).unwrap();
+        save(&mut flash, &SLOTS, &block).unwrap();
         assert_eq!(flash.block(), Some(block));
     }
 }
@@ -233,22 +233,22 @@ fn a_power_loss_at_any_step_leaves_the_old_block_or_the_new_one() {
     let mut before = Flash::<1>::new();
     // both slots have been used, so that the one to erase holds an older block
     for block in [vec![1; 50], vec![2; 60], old.clone()] {
-        keep(&mut before, &SLOTS, &block).unwrap();
+        save(&mut before, &SLOTS, &block).unwrap();
     }
     let whole = 8 + new.len() + HEAD;
     let mut lasted = 0;
     for steps in 0..=whole {
         let mut flash = Flash { steps, ..before.clone() };
-        let kept = keep(&mut flash, &SLOTS, &new);
+        let stored = save(&mut flash, &SLOTS, &new);
         flash.steps = usize::MAX;
         let found = flash.block().expect("a block is in force");
         assert!(found == old || found == new, "after {steps} steps");
-        if kept.is_ok() {
+        if stored.is_ok() {
             assert_eq!(found, new, "what was said to be kept is");
         }
         lasted += usize::from(found == new);
         // and the store still works
-        keep(&mut flash, &SLOTS, &[7; 9]).unwrap();
+        save(&mut flash, &SLOTS, &[7; 9]).unwrap();
         assert_eq!(flash.block(), Some(vec![7; 9]));
     }
     assert_eq!(lasted, 1, "the last byte of the head puts the new block in force");
@@ -257,16 +257,16 @@ fn a_power_loss_at_any_step_leaves_the_old_block_or_the_new_one() {
 #[test]
 fn a_block_that_is_too_long_is_refused_before_anything_is_erased() {
     let mut flash = Flash::<1>::new();
-    keep(&mut flash, &SLOTS, &[3; 3]).unwrap();
-    assert_eq!(keep(&mut flash, &SLOTS, &vec![0; LONGEST + 1]), Err(NotKept::TooLong));
+    save(&mut flash, &SLOTS, &[3; 3]).unwrap();
+    assert_eq!(save(&mut flash, &SLOTS, &vec![0; MAX_BLOCK + 1]), Err(StoreError::TooLong));
     assert_eq!(flash.block(), Some(vec![3; 3]));
 }
 
 #[test]
 fn a_flipped_bit_anywhere_in_the_newer_slot_brings_the_older_block_back() {
     let mut flash = Flash::<1>::new();
-    keep(&mut flash, &SLOTS, &[1; 20]).unwrap();
-    let newer = keep(&mut flash, &SLOTS, &[2; 20]).unwrap();
+    save(&mut flash, &SLOTS, &[1; 20]).unwrap();
+    let newer = save(&mut flash, &SLOTS, &[2; 20]).unwrap();
     for at in newer.at as usize - HEAD..newer.at as usize + newer.len {
         let mut worn = flash.clone();
         worn.bytes[at] ^= 0x10;

@@ -16,13 +16,13 @@ mod tests {
     use defmt::{assert, assert_eq, info, unwrap};
     use firmware::board::{self, Parts, pac::Interrupt};
     use firmware::codes::{Codes, MOTORS, PERIODS_PER_SECOND};
-    use firmware::guard::Limits;
-    use firmware::motion::Turn;
+    use firmware::motion::MotionOutput;
     use firmware::offsets;
     use firmware::parity;
+    use firmware::protection::TripLimits;
     use firmware::registers::timing;
-    use firmware::setup::Setup;
-    use firmware::windings::{Ask, Windings};
+    use firmware::winding_config::WindingConfig;
+    use firmware::windings::{MotorSetpoints, Windings};
     use model_core::control::calibration::{AdcCode, Calibration};
     use model_core::control::current_loop::CurrentLoop;
     use model_core::control::halls::HallCode;
@@ -108,11 +108,11 @@ mod tests {
             // the bridges stay open
             parts.bridges.drive(&[[duty, 0.5, 1.0 - duty]; MOTORS], 0);
             while board::cycles() < timing::PERIOD - timing::LATCH_BEFORE_TOP - 100 {}
-            let [asked, got] = board::pending();
+            let [requested, got] = board::pending();
             assert_eq!(got, before, "not before the latch");
             while board::cycles() > 1_000 {}
             let [_, got] = board::pending();
-            assert_eq!(got, asked, "after it");
+            assert_eq!(got, requested, "after it");
         }
     }
 
@@ -175,17 +175,17 @@ mod tests {
     fn a_turn_of_four_windings_fits_its_time(mut parts: Parts) {
         let calibration = Calibration::of_board(7);
         let current_loop = CurrentLoop::new(1.0, 2.0e-4, calibration.amps_per_count, 6_000.0, calibration.period, 0.8);
-        let setup = Setup {
+        let setup = WindingConfig {
             wheels: MOTORS as u8,
             calibration,
             current_loop,
             six_step: false,
-            limits: Limits { trip_counts: 2_000.0, least_supply: 1.0, most_supply: 35.0 },
+            limits: TripLimits { trip_counts: 2_000.0, least_supply: 1.0, most_supply: 35.0 },
             wheel_speed_per_electrical: 100.0,
         };
-        let ask = Ask { current: [1.0; MOTORS], voltage: [2.0; MOTORS], closed: true, enabled: 0b1111 };
+        let ask = MotorSetpoints { current: [1.0; MOTORS], voltage: [2.0; MOTORS], closed: true, enabled: 0b1111 };
         let mut windings = Windings::default();
-        windings.take(&Turn { setup: Some(setup), ask, ..Turn::default() });
+        windings.apply(&MotionOutput { config: Some(setup), setpoints: ask, ..MotionOutput::default() });
 
         parts.bridges.start();
         let (mut most, mut driven) = (0, 0_u32);
@@ -197,7 +197,7 @@ mod tests {
             let hall = HallCode(FORWARD[period / 17 % 6]);
             let codes =
                 Codes { phases: [[AdcCode(2048); 3]; MOTORS], bus: AdcCode(1354), halls: [hall; MOTORS], ..read };
-            let drive = windings.turn(&Codes { driver_fault: false, ..codes });
+            let drive = windings.tick(&Codes { driver_fault: false, ..codes });
             // whatever was decided: the bridges stay open
             parts.bridges.drive(&drive.duties, 0);
             most = most.max(board::ticks().wrapping_sub(began));
@@ -219,12 +219,12 @@ mod tests {
     #[test]
     fn the_store_keeps_what_it_is_given(mut parts: Parts) {
         let mut old = [0; 512];
-        let kept = parts.store.load();
-        let len = kept.len().min(old.len());
-        old[..len].copy_from_slice(&kept[..len]);
-        assert!(parts.store.save(b"a block of the test"));
-        assert_eq!(parts.store.load(), b"a block of the test");
-        assert!(parts.store.save(&old[..len]), "what was there before is put back");
-        assert_eq!(parts.store.load(), &old[..len]);
+        let stored = parts.flash_store.load();
+        let len = stored.len().min(old.len());
+        old[..len].copy_from_slice(&stored[..len]);
+        assert!(parts.flash_store.save(b"a block of the test"));
+        assert_eq!(parts.flash_store.load(), b"a block of the test");
+        assert!(parts.flash_store.save(&old[..len]), "what was there before is put back");
+        assert_eq!(parts.flash_store.load(), &old[..len]);
     }
 }

@@ -3,12 +3,12 @@
 mod program;
 
 use firmware::codes::Codes;
-use firmware::listener::{Heard, Listener};
+use firmware::command_receiver::{CommandReceiver, ReceivedCommand};
 use firmware::motion::events;
-use firmware::motor::NO_VOLTAGE;
-use firmware::post::{self, Room};
-use firmware::setup::{MOST_TRIP, Setup};
-use firmware::windings::Told;
+use firmware::motor_controller::NO_VOLTAGE;
+use firmware::tx_queue::{self, TxStorage};
+use firmware::winding_config::{MAX_TRIP_COUNTS, WindingConfig};
+use firmware::windings::WindingFeedback;
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
 use model_core::geometry::frames::BodyTwist;
@@ -40,10 +40,10 @@ fn bad_hall(motor: usize) -> Codes {
 #[test]
 fn without_parameters_nothing_is_driven() {
     let mut program = Program::new();
-    program.turns(100, &still());
+    program.ticks(100, &still());
     program.drive();
-    assert_eq!(program.turns(20, &still()).enabled, 0);
-    assert_eq!(program.turn.stage, OperatingState::Asleep);
+    assert_eq!(program.ticks(20, &still()).enabled, 0);
+    assert_eq!(program.output.state, OperatingState::Asleep);
 }
 
 #[test]
@@ -53,13 +53,13 @@ fn only_a_fresh_command_closes_the_bridges_of_the_motors_that_the_robot_has() {
         program.send_block(&bytes(&parameters));
         // heard before anything is ready, and not kept for later
         program.drive();
-        assert_eq!(program.turns(100, &still()).enabled, 0);
-        assert_eq!(program.turn.stage, OperatingState::Open);
+        assert_eq!(program.ticks(100, &still()).enabled, 0);
+        assert_eq!(program.output.state, OperatingState::Open);
         program.drive();
-        assert_eq!(program.turns(2, &still()).enabled, motors);
+        assert_eq!(program.ticks(2, &still()).enabled, motors);
         program.command(&Command::Open);
-        assert_eq!(program.turns(2, &still()).enabled, 0);
-        assert_eq!(program.turn.stage, OperatingState::Open);
+        assert_eq!(program.ticks(2, &still()).enabled, 0);
+        assert_eq!(program.output.state, OperatingState::Open);
     }
 }
 
@@ -69,19 +69,19 @@ fn a_command_does_not_restart_a_robot_with_a_fault_and_a_clear_does_not_drive_it
     program.period(&Codes { driver_fault: true, ..still() });
     for _ in 0..10 {
         program.drive();
-        assert_eq!(program.turns(10, &still()).enabled, 0);
+        assert_eq!(program.ticks(10, &still()).enabled, 0);
     }
     assert!(program.records.last().is_some_and(|last| last.faults.has(Fault::DriverLine)));
     // the command that stands before the clear is not taken up after it
     program.drive();
     program.command(&Command::Clear);
-    assert_eq!(program.turns(20, &still()).enabled, 0);
+    assert_eq!(program.ticks(20, &still()).enabled, 0);
     assert_eq!(
-        (program.turn.stage, program.records.last().map(|r| r.faults)),
+        (program.output.state, program.records.last().map(|r| r.faults)),
         (OperatingState::Open, Some(Faults::NONE))
     );
     program.drive();
-    assert_eq!(program.turns(2, &still()).enabled, 0b1111);
+    assert_eq!(program.ticks(2, &still()).enabled, 0b1111);
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn a_lost_wheel_opens_in_the_turn_that_sees_it_and_is_named_while_the_others_dri
     let drive = program.period(&bad_hall(2));
     assert_eq!((drive.enabled, drive.duties[2]), (0b1011, NO_VOLTAGE));
     program.drive();
-    program.turns(2, &still());
+    program.ticks(2, &still());
     let last = program.records.last().expect("records");
     assert!(last.faults.iter().eq([Fault::HallCode]) && last.events & events::WHEEL_LOST != 0);
     assert_eq!((last.state, last.enabled), (OperatingState::Driving, 0b1011));
@@ -100,21 +100,21 @@ fn a_lost_wheel_opens_in_the_turn_that_sees_it_and_is_named_while_the_others_dri
 #[test]
 fn a_second_wheel_stops_the_robot() {
     let mut program = Program::driving(&four());
-    program.turns(1, &bad_hall(2));
-    assert_eq!(program.turns(1, &bad_hall(0)).enabled, 0);
-    program.turns(1, &still());
-    assert_eq!(program.turn.stage, OperatingState::Faulted);
+    program.ticks(1, &bad_hall(2));
+    assert_eq!(program.ticks(1, &bad_hall(0)).enabled, 0);
+    program.ticks(1, &still());
+    assert_eq!(program.output.state, OperatingState::Faulted);
 }
 
 #[test]
 fn a_clear_while_three_wheels_drive_opens_all_and_waits_for_a_command() {
     let mut program = Program::driving(&four());
-    program.turns(2, &bad_hall(1));
+    program.ticks(2, &bad_hall(1));
     program.command(&Command::Clear);
-    assert_eq!(program.turns(2, &still()).enabled, 0);
-    assert_eq!(program.turn.stage, OperatingState::Open);
+    assert_eq!(program.ticks(2, &still()).enabled, 0);
+    assert_eq!(program.output.state, OperatingState::Open);
     program.drive();
-    assert_eq!(program.turns(2, &still()).enabled, 0b1111);
+    assert_eq!(program.ticks(2, &still()).enabled, 0b1111);
 }
 
 #[test]
@@ -130,10 +130,10 @@ fn a_clear_with_nothing_to_forget_disturbs_nobody() {
 fn halls_that_are_wrong_from_the_start_never_drive() {
     let mut program = Program::new();
     program.send_block(&bytes(&three()));
-    program.turns(100, &bad_hall(0));
+    program.ticks(100, &bad_hall(0));
     program.drive();
-    assert_eq!(program.turns(5, &bad_hall(0)).enabled, 0);
-    assert_eq!(program.turn.stage, OperatingState::Faulted);
+    assert_eq!(program.ticks(5, &bad_hall(0)).enabled, 0);
+    assert_eq!(program.output.state, OperatingState::Faulted);
 }
 
 #[test]
@@ -143,9 +143,9 @@ fn the_bridge_that_a_robot_of_three_wheels_has_over_may_measure_anything() {
     codes.halls[3] = HallCode(0);
     let mut program = Program::new();
     program.send_block(&bytes(&three()));
-    program.turns(60, &codes);
+    program.ticks(60, &codes);
     program.drive();
-    assert_eq!(program.turns(3, &codes).enabled, 0b0111);
+    assert_eq!(program.ticks(3, &codes).enabled, 0b0111);
 }
 
 #[test]
@@ -159,22 +159,22 @@ fn a_block_of_another_machine_opens_the_bridges_and_one_that_retunes_does_not() 
     for (parameters, opens) in others.into_iter().map(|p| (p, true)).chain([(retuned(|b| b.feedback = 0.1), false)]) {
         let mut program = Program::driving(&four());
         program.send_block(&bytes(&parameters));
-        let drive = program.turns(2, &still());
+        let drive = program.ticks(2, &still());
         assert_eq!(drive.enabled == 0, opens, "{parameters:?}");
         program.drive();
         let motors = if matches!(parameters, Parameters::Three(_)) { 0b0111 } else { 0b1111 };
-        assert_eq!(program.turns(2, &still()).enabled, motors);
+        assert_eq!(program.ticks(2, &still()).enabled, motors);
     }
 }
 
 #[test]
 fn a_wheel_lost_stops_the_robot_when_a_block_says_that_it_has_three() {
     let mut program = Program::driving(&four());
-    program.turns(1, &bad_hall(1));
+    program.ticks(1, &bad_hall(1));
     program.send_block(&bytes(&three()));
-    program.turns(3, &still());
+    program.ticks(3, &still());
     program.drive();
-    assert_eq!(program.turns(3, &still()).enabled, 0);
+    assert_eq!(program.ticks(3, &still()).enabled, 0);
     assert!(program.records.last().is_some_and(|last| last.faults.has(Fault::HallCode)));
 }
 
@@ -182,12 +182,12 @@ fn a_wheel_lost_stops_the_robot_when_a_block_says_that_it_has_three() {
 fn motors_that_come_with_a_block_begin_anew() {
     let mut program = Program::driving(&four());
     program.send_block(&bytes(&three()));
-    program.turns(50, &still());
+    program.ticks(50, &still());
     program.send_block(&bytes(&four()));
     let mut codes = still();
     // turned by hand meanwhile
     codes.halls[3] = HallCode(6);
-    program.turns(3, &codes);
+    program.ticks(3, &codes);
     let last = program.records.last().expect("records");
     assert_eq!((last.faults, last.edges[3], last.voltage[3]), (Faults::NONE, 0, 0.0));
 }
@@ -197,7 +197,7 @@ fn a_command_that_cannot_be_meant_is_a_fault_in_the_turn_that_hears_it() {
     for v in [f32::NAN, f32::NEG_INFINITY, 20.5] {
         let mut program = Program::driving(&four());
         program.command(&Command::Drive { sequence: 99, twist: BodyTwist { v, ..AHEAD } });
-        while !program.windings.begins_motion() || program.turn.faults.is_empty() {
+        while !program.windings.motion_is_due() || program.output.faults.is_empty() {
             program.period(&still());
         }
         assert_eq!(program.period(&still()).enabled, 0, "{v}");
@@ -210,7 +210,7 @@ fn a_command_that_is_only_repeated_is_silence() {
     let mut program = Program::driving(&four());
     for _ in 0..30 {
         program.command(&Command::Drive { sequence: 1, twist: AHEAD });
-        program.turns(10, &still());
+        program.ticks(10, &still());
     }
     let last = program.records.last().expect("records");
     assert!(last.faults.has(Fault::CommandSilent) && last.state == OperatingState::Faulted);
@@ -242,33 +242,33 @@ fn a_block_is_made_of_its_own_chunks_alone() {
 
 #[test]
 fn a_block_that_was_kept_is_taken_and_a_spoilt_one_is_a_fault() {
-    let mut kept = bytes(&four());
-    assert!(Listener::default().restore(&[0xff; 64]).is_none());
-    assert!(matches!(Listener::default().restore(&kept), Some(Heard::Parameters(_, None))));
-    kept[40] ^= 1;
+    let mut stored = bytes(&four());
+    assert!(CommandReceiver::default().restore(&[0xff; 64]).is_none());
+    assert!(matches!(CommandReceiver::default().restore(&stored), Some(ReceivedCommand::Parameters(_, None))));
+    stored[40] ^= 1;
     let mut program = Program::new();
-    program.inbox.put(Listener::default().restore(&kept).expect("something was kept"));
-    program.turns(60, &still());
-    assert_eq!(program.turn.stage, OperatingState::Faulted);
+    program.inbox.put(CommandReceiver::default().restore(&stored).expect("something was kept"));
+    program.ticks(60, &still());
+    assert_eq!(program.output.state, OperatingState::Faulted);
     assert!(program.records.last().is_some_and(|last| last.faults.has(Fault::BadBlock)));
 }
 
 #[test]
 fn what_finds_no_room_is_counted() {
-    let (mut sender, mut post) = post::split(Box::leak(Box::new(Room::new())));
+    let (mut tx_producer, mut tx_consumer) = tx_queue::split(Box::leak(Box::new(TxStorage::new())));
     for _ in 0..10 {
-        sender.turn(&Told::default(), &firmware::motion::Turn::default(), (0, 0));
+        tx_producer.enqueue_tick(&WindingFeedback::default(), &firmware::motion::MotionOutput::default(), (0, 0));
     }
     let mut sent = Vec::new();
-    while let Some(bytes) = post.waiting().map(<[u8]>::to_vec) {
+    while let Some(bytes) = tx_consumer.pending().map(<[u8]>::to_vec) {
         assert!(!bytes.is_empty() && bytes.len() <= MAX_FRAME);
         // the link takes what it has room for
         let taken = bytes.len().min(10);
         sent.extend_from_slice(&bytes[..taken]);
-        post.sent(taken);
+        tx_consumer.consume(taken);
     }
-    sender.turn(&Told::default(), &firmware::motion::Turn::default(), (0, 0));
-    sent.extend_from_slice(post.waiting().expect("one more"));
+    tx_producer.enqueue_tick(&WindingFeedback::default(), &firmware::motion::MotionOutput::default(), (0, 0));
+    sent.extend_from_slice(tx_consumer.pending().expect("one more"));
     let mut decoder = model_core::link::framing::FrameDecoder::new();
     let mut records = Vec::new();
     for byte in sent {
@@ -276,8 +276,8 @@ fn what_finds_no_room_is_counted() {
             .extend(decoder.push(byte).and_then(|f| model_core::link::record::TelemetryRecord::from_bytes(f.payload)));
     }
     // a queue of 8 holds 7
-    let told: Vec<(u32, u16)> = records.iter().map(|record| (record.sequence, record.dropped)).collect();
-    assert_eq!(told, [(0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (5, 0), (6, 0), (10, 3)]);
+    let feedback: Vec<(u32, u16)> = records.iter().map(|record| (record.sequence, record.dropped)).collect();
+    assert_eq!(feedback, [(0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (5, 0), (6, 0), (10, 3)]);
 }
 
 #[test]
@@ -286,8 +286,8 @@ fn the_largest_limit_that_a_block_may_state_can_be_seen_being_broken() {
     block.limits.current = 1500.0 * block.amps_per_count;
     let parameters = Parameters::Four(block);
     bytes(&parameters);
-    let trip = Setup::of(&parameters).limits.trip_counts;
-    assert_eq!(trip, MOST_TRIP);
+    let trip = WindingConfig::of(&parameters).limits.trip_counts;
+    assert_eq!(trip, MAX_TRIP_COUNTS);
     // a zero at its worst, and a converter at either end
     let nearest_end = (4095.0 - (2048.0 + 150.0_f32)).min(2048.0 - 150.0);
     assert!(nearest_end > trip);

@@ -56,10 +56,10 @@ fn bytes_without_sense_do_nothing() {
     let mut program = Program::new();
     for _ in 0..40_000 {
         let noise: Vec<u8> = (0..dice.below(11)).map(|_| dice.byte()).collect();
-        program.hear(&noise);
+        program.receive(&noise);
         program.period(&still());
     }
-    assert!(program.turn.setup.is_none() && program.turn.ask.enabled == 0);
+    assert!(program.output.config.is_none() && program.output.setpoints.enabled == 0);
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn whole_frames_without_sense_do_no_harm() {
     let mut program = Program::new();
     for _ in 0..40_000 {
         let frame = dice.frame();
-        program.hear(&frame);
+        program.receive(&frame);
         let codes = if dice.below(2) == 0 { still() } else { dice.mad() };
         program.period(&codes);
     }
@@ -89,7 +89,7 @@ fn codes_without_sense_do_no_harm_to_a_robot_that_is_cleared_and_driven_on() {
                 100 if dice.below(20) == 0 => program.send_block(&bytes(&parameters)),
                 150 if dice.below(5) == 0 => {
                     let frame = dice.frame();
-                    program.hear(&frame);
+                    program.receive(&frame);
                 }
                 _ => {}
             }

@@ -10,10 +10,10 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use firmware::board::{self, Stopwatch};
 use firmware::codes::Codes;
-use firmware::motion::Turn;
+use firmware::motion::MotionOutput;
 use firmware::offsets;
-use firmware::setup::{MAX_DUTY, Setup};
-use firmware::windings::{Ask, Drive, Windings};
+use firmware::winding_config::{MAX_DUTY, WindingConfig};
+use firmware::windings::{BridgeCommand, MotorSetpoints, Windings};
 use model_core::control::calibration::AdcCode;
 use model_core::control::compensation::Compensation;
 use model_core::control::current_loop::{
@@ -31,10 +31,10 @@ use panic_halt as _;
 fn main() -> ! {
     let mut watch = Stopwatch::take();
     motion(&mut watch);
-    undone(&mut watch);
+    compensations(&mut watch);
     currents(&mut watch);
     halls(&mut watch);
-    whole(&mut watch);
+    current_interrupt(&mut watch);
     board::end()
 }
 
@@ -46,8 +46,13 @@ fn say(name: &str, detail: &str, instructions: u32) {
 // The motion turn
 
 #[inline(never)]
-fn tick<const N: usize>(c: &Controller<N>, memory: &mut Memory, seen: &Measurement<N>, want: &BodyTwist) -> Output<N> {
-    c.tick(memory, seen, *want)
+fn tick<const N: usize>(
+    c: &Controller<N>,
+    memory: &mut Memory,
+    measured: &Measurement<N>,
+    want: &BodyTwist,
+) -> Output<N> {
+    c.tick(memory, measured, *want)
 }
 
 #[inline(never)]
@@ -59,10 +64,10 @@ const MOVING: BodyTwist = BodyTwist { v: 0.4, vn: -0.3, w: 1.5 };
 const NEAR: BodyTwist = BodyTwist { v: 0.401, vn: -0.301, w: 1.505 };
 const FAR: BodyTwist = BodyTwist { v: 1.4, vn: 0.6, w: -1.5 };
 
-fn settings<const N: usize>(robot: Robot<N>, undo: Compensation<N>) -> Settings<N> {
+fn settings<const N: usize>(robot: Robot<N>, compensation: Compensation<N>) -> Settings<N> {
     Settings {
         robot,
-        compensation: undo,
+        compensation,
         acceleration: [3.0, 3.0, 20.0],
         current_limit: 4.0,
         max_duty: MAX_DUTY,
@@ -77,9 +82,9 @@ fn settings<const N: usize>(robot: Robot<N>, undo: Compensation<N>) -> Settings<
 fn tick_costs<const N: usize>(watch: &mut Stopwatch, settings: &Settings<N>, want: BodyTwist, bus: f32) -> u32 {
     let controller = Controller::new(settings);
     let start = Memory { reference: MOVING, heading: 0.3, integral: [0.1, -0.1, 0.01] };
-    let seen = Measurement { wheel_speed: core::array::from_fn(|j| 8.0 - 5.0 * j as f32), bus };
-    let (controller, seen, want) = (black_box(controller), black_box(seen), black_box(want));
-    watch.cost(|| start, |memory| tick(&controller, memory, &seen, &want))
+    let measured = Measurement { wheel_speed: core::array::from_fn(|j| 8.0 - 5.0 * j as f32), bus };
+    let (controller, measured, want) = (black_box(controller), black_box(measured), black_box(want));
+    watch.cost(|| start, |memory| tick(&controller, memory, &measured, &want))
 }
 
 fn motion(watch: &mut Stopwatch) {
@@ -94,7 +99,7 @@ fn motion(watch: &mut Stopwatch) {
     say("feedforward alone, 4 wheels", "", cost);
 }
 
-fn undone(watch: &mut Stopwatch) {
+fn compensations(watch: &mut Stopwatch) {
     let effects: [(&str, Option<usize>, &[f32]); 9] = [
         ("coriolis", None, &[1.0]),
         ("floor_tilt", None, &[0.0175, 0.5]),
@@ -107,11 +112,11 @@ fn undone(watch: &mut Stopwatch) {
         ("current_sensor_offset", None, &[0.05]),
     ];
     for (id, wheel, params) in effects {
-        let mut undo = Compensation::none();
-        if undo.add(black_box(id), black_box(wheel), black_box(params)).is_err() {
+        let mut compensation = Compensation::none();
+        if compensation.add(black_box(id), black_box(wheel), black_box(params)).is_err() {
             board::fail(format_args!("{id} cannot be undone"));
         }
-        let settings = settings(paper::four_wheels(), undo);
+        let settings = settings(paper::four_wheels(), compensation);
         say("motion tick, 4 wheels, undoing ", id, tick_costs(watch, &settings, NEAR, 16.0));
     }
 }
@@ -143,7 +148,8 @@ fn currents(watch: &mut Stopwatch) {
     let current_loop = black_box(CurrentLoop::new(4.3, 0.6e-3, 0.0049, 2000.0, 50.0e-6, MAX_DUTY));
     let codes = [AdcCode(2100), AdcCode(2000), AdcCode(2044)];
     let offsets = [2048.0, 2047.5, 2049.1];
-    let seen = black_box(CurrentMeasurement { codes, offsets, angle: 2.0, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 });
+    let measured =
+        black_box(CurrentMeasurement { codes, offsets, angle: 2.0, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 });
     let wants = [
         ("", CurrentSetpoint { current: 0.3, voltage: 3.0, closed: true }),
         (", voltage at its limit", CurrentSetpoint { current: 2.0, voltage: 20.0, closed: true }),
@@ -152,17 +158,17 @@ fn currents(watch: &mut Stopwatch) {
     // integrals as they are found, so that the case stays what it is
     let found = || (CurrentMemory { d: 0.02, q: 0.5 }, 1_u8);
     for (detail, want) in wants {
-        let cost = watch.cost(found, |(memory, _)| field_oriented(&current_loop, memory, &seen, &want));
+        let cost = watch.cost(found, |(memory, _)| field_oriented(&current_loop, memory, &measured, &want));
         say("field-oriented current tick", detail, cost);
     }
     for (detail, want) in wants {
-        let cost = watch.cost(found, |(memory, sector)| six_step(&current_loop, memory, &seen, *sector, &want));
+        let cost = watch.cost(found, |(memory, sector)| six_step(&current_loop, memory, &measured, *sector, &want));
         say("six-step current tick", detail, cost);
     }
 }
 
 #[inline(never)]
-fn hall_turn(halls: &mut HallDecoder, code: HallCode) -> bool {
+fn hall_update(halls: &mut HallDecoder, code: HallCode) -> bool {
     halls.update(code).is_ok()
 }
 
@@ -170,24 +176,24 @@ fn halls(watch: &mut Stopwatch) {
     let Ok(mut halls) = HallDecoder::new(HallCode::of_sector(0)) else {
         board::fail(format_args!("sector 0 is legal"))
     };
-    let cost = watch.cost(|| HallCode::of_sector(0), |code| hall_turn(&mut halls, *code));
+    let cost = watch.cost(|| HallCode::of_sector(0), |code| hall_update(&mut halls, *code));
     say("halls, no edge", "", cost);
     let mut sector = 0;
     let edge = || {
         sector = if sector == 5 { 0 } else { sector + 1 };
         HallCode::of_sector(black_box(sector))
     };
-    say("halls, an edge", "", watch.cost(edge, |code| hall_turn(&mut halls, *code)));
+    say("halls, an edge", "", watch.cost(edge, |code| hall_update(&mut halls, *code)));
 }
 
 #[inline(never)]
-fn current_turn(windings: &mut Windings, codes: &Codes) -> Drive {
-    windings.turn(codes)
+fn windings_tick(windings: &mut Windings, codes: &Codes) -> BridgeCommand {
+    windings.tick(codes)
 }
 
 /// The whole current interrupt but for the board: four motors that turn and are driven, an edge of every motor each eighth
 /// period (2,600 rad/s electrical).
-fn whole(watch: &mut Stopwatch) {
+fn current_interrupt(watch: &mut Stopwatch) {
     let block = Block {
         robot: paper::four_wheels(),
         inductance: 0.6e-3,
@@ -204,9 +210,13 @@ fn whole(watch: &mut Stopwatch) {
         bus_volts_per_count: 0.00886,
         ..Block::default()
     };
-    let ask = Ask { current: [0.3; 4], voltage: [3.0; 4], closed: true, enabled: 0b1111 };
+    let ask = MotorSetpoints { current: [0.3; 4], voltage: [3.0; 4], closed: true, enabled: 0b1111 };
     let mut windings = Windings::default();
-    windings.take(&Turn { setup: Some(Setup::of(&Parameters::Four(block))), ask, ..Turn::default() });
+    windings.apply(&MotionOutput {
+        config: Some(WindingConfig::of(&Parameters::Four(block))),
+        setpoints: ask,
+        ..MotionOutput::default()
+    });
     let mut period = 0_u32;
     let mut codes = || {
         period = period.wrapping_add(1);
@@ -215,12 +225,12 @@ fn whole(watch: &mut Stopwatch) {
         black_box(Codes { phases: [[AdcCode(2048); 3]; 4], bus: AdcCode(1354), halls, driver_fault: false })
     };
     for _ in 0..offsets::PERIODS + 100 {
-        current_turn(&mut windings, &codes());
+        windings_tick(&mut windings, &codes());
     }
-    let driven = current_turn(&mut windings, &codes()).enabled;
+    let driven = windings_tick(&mut windings, &codes()).enabled;
     if driven != 0b1111 {
         board::fail(format_args!("the windings are not driven: {driven:04b}"));
     }
-    let cost = watch.cost(&mut codes, |codes| current_turn(&mut windings, codes));
+    let cost = watch.cost(&mut codes, |codes| windings_tick(&mut windings, codes));
     say("current turn, four motors, field-oriented", "", cost);
 }

@@ -18,7 +18,7 @@ use heapless::spsc::Queue;
 use stm32f4xx_hal::pac;
 
 use crate::codes::{Codes, MOTORS};
-use crate::exchange::{Bytes, DOWN_FILE, Down, LINK_BYTES, TOPS, UP_FILE, Up, compare};
+use crate::exchange::{DOWN_FILE, DownFrame, LINK_BYTES, LinkBytes, TOPS, UP_FILE, UpFrame, compare};
 
 /// Processor cycles in one period of a chip that runs at 168 MHz.
 pub const CYCLES_PER_PERIOD: u32 = 8_400;
@@ -26,12 +26,12 @@ pub const CYCLES_PER_PERIOD: u32 = 8_400;
 /// What SysTick counts in one period.
 const SYSTICK_PER_PERIOD: u32 = 8_400;
 
-/// Periods without food after which the dog bites: 20 ms.
-const DOG_PERIODS: u32 = 400;
+/// Periods after which an unfed watchdog fires: 20 ms.
+const WATCHDOG_PERIODS: u32 = 400;
 
 /// Bytes on their way out and in; the task of the link is the one end, the exchange the other.
-static WIRE: Line = Line(UnsafeCell::new(Buffers { out: Queue::new(), inward: Queue::new() }));
-static DOG: Line<u32> = Line(UnsafeCell::new(0));
+static SERIAL: Line = Line(UnsafeCell::new(Buffers { out: Queue::new(), inward: Queue::new() }));
+static PERIODS_UNFED: Line<u32> = Line(UnsafeCell::new(0));
 static BURN: Line<u16> = Line(UnsafeCell::new(0));
 
 struct Buffers {
@@ -56,11 +56,11 @@ pub struct Parts {
     /// Bridges, converters and halls
     pub bridges: Bridges,
     /// The link
-    pub wire: Wire,
+    pub serial: SerialLink,
     /// The watchdog
-    pub dog: Dog,
-    /// Where the parameter block is kept
-    pub store: Store,
+    pub watchdog: Watchdog,
+    /// Where the parameter block is stored
+    pub flash_store: FlashStore,
 }
 
 /// The bridges of all motors, with what is measured there.
@@ -68,18 +68,18 @@ pub struct Bridges {
     syst: SYST,
     up: usize,
     down: usize,
-    next: Up,
+    next: UpFrame,
     began: u32,
 }
 
 /// The link to the host.
-pub struct Wire(());
+pub struct SerialLink(());
 
-/// The watchdog: it bites by opening all bridges for good.
-pub struct Dog(());
+/// The watchdog: when it fires, all bridges open for good.
+pub struct Watchdog(());
 
-/// Where the parameter block is kept: memory, which a reset of the emulator forgets.
-pub struct Store(());
+/// Where the parameter block is stored: memory, which a reset of the emulator forgets.
+pub struct FlashStore(());
 
 /// Takes the board, everything asleep.
 pub fn take(core: cortex_m::Peripherals, _device: pac::Peripherals) -> Parts {
@@ -87,10 +87,10 @@ pub fn take(core: cortex_m::Peripherals, _device: pac::Peripherals) -> Parts {
         syst: core.SYST,
         up: open(UP_FILE, open::W_TRUNC_BINARY),
         down: open(DOWN_FILE, open::R_BINARY),
-        next: Up::default(),
+        next: UpFrame::default(),
         began: 0,
     };
-    Parts { bridges, wire: Wire(()), dog: Dog(()), store: Store(()) }
+    Parts { bridges, serial: SerialLink(()), watchdog: Watchdog(()), flash_store: FlashStore(()) }
 }
 
 /// Opens a file of the host; ends the emulator where there is none.
@@ -117,35 +117,35 @@ impl Bridges {
 
     /// What was measured in this period. Called once a period, first of all.
     pub fn read(&mut self) -> Codes {
-        let hungry = DOG.with(|hungry| {
-            *hungry = hungry.saturating_add(1);
-            *hungry
+        let unfed = PERIODS_UNFED.with(|unfed| {
+            *unfed = unfed.saturating_add(1);
+            *unfed
         });
-        if hungry > DOG_PERIODS {
-            self.next.bitten = true;
+        if unfed > WATCHDOG_PERIODS {
+            self.next.watchdog_fired = true;
         }
-        if self.next.bitten {
+        if self.next.watchdog_fired {
             self.next.enabled = 0;
         }
         let mut out = [0; LINK_BYTES];
-        let count = WIRE.with(|wire| take_from(&mut wire.out, &mut out));
-        self.next.link = Bytes::of(&out[..count]);
+        let count = SERIAL.with(|serial| take_from(&mut serial.out, &mut out));
+        self.next.link = LinkBytes::of(&out[..count]);
 
         let sent = self.next.to_bytes();
-        let mut got = [0_u8; Down::LEN];
+        let mut got = [0_u8; DownFrame::LEN];
         // SAFETY: semihosting reads and writes the lengths given, of buffers that live over the calls.
         let left = unsafe {
             syscall!(WRITE, self.up, sent.as_ptr(), sent.len()) + syscall!(READ, self.down, got.as_mut_ptr(), got.len())
         };
-        let down = Down::from_bytes(&got);
+        let down = DownFrame::from_bytes(&got);
         if left != 0 || down.end {
             debug::exit(if left == 0 { debug::EXIT_SUCCESS } else { debug::EXIT_FAILURE });
         }
         self.began = cycles();
         self.next.period = self.next.period.wrapping_add(1);
-        WIRE.with(|wire| {
+        SERIAL.with(|serial| {
             for byte in down.link.as_slice() {
-                let _full = wire.inward.enqueue(*byte);
+                let _full = serial.inward.enqueue(*byte);
             }
         });
         BURN.with(|burn| *burn = (*burn).max(down.burn_motion));
@@ -175,43 +175,43 @@ impl Bridges {
     }
 }
 
-impl Wire {
+impl SerialLink {
     /// Hands bytes to the link; how many it had room for.
     pub fn send(&mut self, bytes: &[u8]) -> usize {
-        WIRE.with(|wire| bytes.iter().take_while(|byte| wire.out.enqueue(**byte).is_ok()).count())
+        SERIAL.with(|serial| bytes.iter().take_while(|byte| serial.out.enqueue(**byte).is_ok()).count())
     }
 
     /// Takes the bytes that have come; how many.
     pub fn receive(&mut self, into: &mut [u8]) -> usize {
-        WIRE.with(|wire| take_from(&mut wire.inward, into))
+        SERIAL.with(|serial| take_from(&mut serial.inward, into))
     }
 }
 
 /// Moves as many bytes as wait and have room; how many.
 fn take_from(queue: &mut Queue<u8, 1024>, into: &mut [u8]) -> usize {
     let mut count = 0;
-    for place in into {
+    for slot in into {
         let Some(byte) = queue.dequeue() else { break };
-        *place = byte;
+        *slot = byte;
         count += 1;
     }
     count
 }
 
-impl Dog {
-    /// Feeds the dog.
+impl Watchdog {
+    /// Feeds the watchdog.
     pub fn feed(&mut self) {
-        DOG.with(|hungry| *hungry = 0);
+        PERIODS_UNFED.with(|unfed| *unfed = 0);
     }
 }
 
-impl Store {
-    /// The block that was kept; empty here, because the emulator starts from nothing.
+impl FlashStore {
+    /// The stored block; empty here, because the emulator starts from nothing.
     pub fn load(&self) -> &'static [u8] {
         &[]
     }
 
-    /// Keeps a block; true if it is kept.
+    /// Stores a block; true if it is stored.
     pub fn save(&mut self, _block: &[u8]) -> bool {
         true
     }

@@ -24,9 +24,10 @@
 
 mod bridges;
 mod check;
-mod keep;
+mod flash_store;
 mod parts;
-mod wire;
+mod serial;
+mod watchdog;
 
 use cortex_m::peripheral::DWT;
 use defmt_rtt as _;
@@ -36,9 +37,10 @@ use crate::registers::timing;
 
 pub use bridges::Bridges;
 pub use check::{Reading, counters, pending, readings};
-pub use keep::{Dog, Store};
+pub use flash_store::FlashStore;
 pub use parts::{HSE_HZ, Parts, take};
-pub use wire::Wire;
+pub use serial::SerialLink;
+pub use watchdog::Watchdog;
 
 /// What [`cycles`] counts in one period.
 pub const CYCLES_PER_PERIOD: u32 = timing::PERIOD;

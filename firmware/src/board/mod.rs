@@ -6,9 +6,9 @@
 //! | part | verbs |
 //! |---|---|
 //! | `Bridges` | `start`, `read` the codes of this period, `drive` the next one; `spent`, `is_late` |
-//! | `Wire` | `send` and `receive` bytes, as many as it has room for |
-//! | `Dog` | `feed` |
-//! | `Store` | `load` and `save` the parameter block |
+//! | `SerialLink` | `send` and `receive` bytes, as many as it has room for |
+//! | `Watchdog` | `feed` |
+//! | `FlashStore` | `load` and `save` the parameter block |
 //!
 //! and a counter of processor cycles, [`cycles`], with `CYCLES_PER_PERIOD`.
 #![allow(unsafe_code)]

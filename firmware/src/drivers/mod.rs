@@ -7,11 +7,11 @@
 //! | [`gate`] | a gate driver: three PWM inputs and an enable |
 //! | [`halls`] | three hall lines |
 //! | [`fault`] | the fault line that all gate drivers share |
-//! | [`store`] | the parameter block in two flash slots |
-//! | [`roll`] | who has to be alive before the watchdog is fed |
+//! | [`flash_slots`] | the parameter block in two flash slots |
+//! | [`heartbeat`] | who has to be alive before the watchdog is fed |
 
 pub mod fault;
+pub mod flash_slots;
 pub mod gate;
 pub mod halls;
-pub mod roll;
-pub mod store;
+pub mod heartbeat;

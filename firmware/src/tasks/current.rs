@@ -1,7 +1,7 @@
 //! The turn of the windings: read, decide, drive.
 
 use firmware::board::{self, pac::Interrupt};
-use firmware::drivers::roll::Task;
+use firmware::drivers::heartbeat::Task;
 use model_core::link::faults::Fault;
 use rtic::Mutex;
 
@@ -12,21 +12,21 @@ pub fn current(mut cx: app::current::Context<'_>) {
     let entered = board::cycles();
     let bridges = cx.local.bridges;
     let codes = bridges.read();
-    let (drive, begins_motion) = cx.shared.windings.lock(|windings| {
-        let drive = windings.turn(&codes);
-        (drive, windings.begins_motion())
+    let (command, motion_due) = cx.shared.windings.lock(|windings| {
+        let command = windings.tick(&codes);
+        (command, windings.motion_is_due())
     });
-    bridges.drive(&drive.duties, drive.enabled);
+    bridges.drive(&command.duties, command.enabled);
 
     let spent = bridges.spent();
     let late = bridges.is_late();
-    let overrun = cx.shared.load.lock(|load| load.current(entered, spent, begins_motion)) || late;
+    let overrun = cx.shared.load.lock(|load| load.current(entered, spent, motion_due)) || late;
     if overrun {
         cx.shared.windings.lock(|windings| windings.latch(Fault::TurnOverrun));
-        bridges.drive(&drive.duties, 0);
+        bridges.drive(&command.duties, 0);
     }
-    if begins_motion {
+    if motion_due {
         rtic::pend(Interrupt::EXTI0);
     }
-    cx.shared.roll.here(Task::Current);
+    cx.shared.heartbeats.beat(Task::Current);
 }

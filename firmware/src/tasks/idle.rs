@@ -5,8 +5,8 @@ use crate::app;
 /// Waits for the next interrupt, for ever.
 pub fn idle(cx: app::idle::Context<'_>) -> ! {
     loop {
-        if cx.shared.roll.complete() {
-            cx.local.dog.feed();
+        if cx.shared.heartbeats.all_alive() {
+            cx.local.watchdog.feed();
         }
         cortex_m::asm::wfi();
     }

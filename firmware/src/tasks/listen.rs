@@ -1,6 +1,6 @@
 //! The link's bytes, made commands and parameters.
 
-use firmware::drivers::roll::Task;
+use firmware::drivers::heartbeat::Task;
 use rtic::Mutex;
 
 use crate::app;
@@ -9,15 +9,15 @@ use crate::app;
 pub fn listen(mut cx: app::listen::Context<'_>) {
     let mut bytes = [0; 64];
     loop {
-        let count = cx.shared.wire.lock(|wire| wire.receive(&mut bytes));
+        let count = cx.shared.serial.lock(|serial| serial.receive(&mut bytes));
         for byte in bytes.iter().take(count) {
-            if let Some(heard) = cx.local.listener.hear(*byte) {
-                cx.shared.inbox.lock(|inbox| inbox.put(heard));
+            if let Some(command) = cx.local.receiver.push(*byte) {
+                cx.shared.inbox.lock(|inbox| inbox.put(command));
             }
         }
         if count < bytes.len() {
             break;
         }
     }
-    cx.shared.roll.here(Task::Listen);
+    cx.shared.heartbeats.beat(Task::Listen);
 }

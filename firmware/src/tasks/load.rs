@@ -19,21 +19,21 @@ pub struct Load {
 impl Load {
     /// Takes note of a current turn; true if a motion turn is due and the last one still runs.
     #[inline]
-    pub fn current(&mut self, entered: u32, spent: u32, begins_motion: bool) -> bool {
+    pub fn current(&mut self, entered: u32, spent: u32, motion_due: bool) -> bool {
         self.spent = self.spent.max(spent);
         let first = *self.first.get_or_insert(entered);
         // both are counted from the beginning of a period; a turn may come before the place of the first one too
         let apart = (entered + CYCLES_PER_PERIOD - first) % CYCLES_PER_PERIOD;
         self.jitter = self.jitter.max(apart.min(CYCLES_PER_PERIOD - apart));
-        let overrun = begins_motion && self.motion_runs;
-        self.motion_runs |= begins_motion;
+        let overrun = motion_due && self.motion_runs;
+        self.motion_runs |= motion_due;
         overrun
     }
 
     /// The motion turn is over: (load [‰], jitter [cycles]) of the current turns since the last.
     pub fn motion(&mut self) -> (u16, u16) {
-        let told = (self.spent * 1000 / CYCLES_PER_PERIOD, self.jitter);
+        let worst = (self.spent * 1000 / CYCLES_PER_PERIOD, self.jitter);
         *self = Self { first: self.first, ..Self::default() };
-        (told.0.min(0xffff) as u16, told.1.min(0xffff) as u16)
+        (worst.0.min(0xffff) as u16, worst.1.min(0xffff) as u16)
     }
 }

@@ -1,11 +1,11 @@
 //! Everything asleep, then the first period.
 
 use firmware::board;
-use firmware::drivers::roll::RollCall;
+use firmware::command_receiver::CommandReceiver;
+use firmware::drivers::heartbeat::Heartbeats;
 use firmware::inbox::Inbox;
-use firmware::listener::Listener;
 use firmware::motion::Motion;
-use firmware::post;
+use firmware::tx_queue;
 use firmware::windings::Windings;
 
 use crate::app;
@@ -13,18 +13,24 @@ use crate::tasks::load::Load;
 
 /// Takes the board, reads the parameters that were kept, and lets the periods begin.
 pub fn init(cx: app::init::Context<'_>) -> (app::Shared, app::Local) {
-    let board::Parts { mut bridges, wire, dog, store } = board::take(cx.core, cx.device);
-    let (sender, post) = post::split(cx.local.room);
-    let mut listener = Listener::default();
+    let board::Parts { mut bridges, serial, watchdog, flash_store } = board::take(cx.core, cx.device);
+    let (tx_producer, tx_consumer) = tx_queue::split(cx.local.tx_storage);
+    let mut receiver = CommandReceiver::default();
     let mut inbox = Inbox::default();
-    let kept = store.load();
-    if let Some(heard) = listener.restore(kept) {
-        inbox.put(heard);
+    let stored = flash_store.load();
+    if let Some(command) = receiver.restore(stored) {
+        inbox.put(command);
     }
-    defmt::info!("asleep; bridges open, {} bytes of parameters kept", kept.len());
+    defmt::info!("asleep; bridges open, {} bytes of parameters kept", stored.len());
     bridges.start();
     (
-        app::Shared { windings: Windings::default(), inbox, load: Load::default(), wire, roll: RollCall::new() },
-        app::Local { bridges, motion_turn: Motion::default(), listener, sender, post, dog },
+        app::Shared {
+            windings: Windings::default(),
+            inbox,
+            load: Load::default(),
+            serial,
+            heartbeats: Heartbeats::new(),
+        },
+        app::Local { bridges, motion_control: Motion::default(), receiver, tx_producer, tx_consumer, watchdog },
     )
 }

@@ -1,12 +1,12 @@
 //! The program as its tasks call it, turn by turn, and blocks to call it with.
 #![allow(dead_code)]
 
-use firmware::codes::{Codes, MOTORS, PERIODS_PER_TURN};
+use firmware::codes::{Codes, MOTORS, PERIODS_PER_TICK};
+use firmware::command_receiver::CommandReceiver;
 use firmware::inbox::Inbox;
-use firmware::listener::Listener;
-use firmware::motion::{Motion, Turn};
-use firmware::post::{self, Post, Room, Sender};
-use firmware::windings::{Drive, Windings};
+use firmware::motion::{Motion, MotionOutput};
+use firmware::tx_queue::{self, TxConsumer, TxProducer, TxStorage};
+use firmware::windings::{BridgeCommand, Windings};
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
 use model_core::geometry::frames::BodyTwist;
@@ -64,29 +64,29 @@ pub struct Program {
     pub windings: Windings,
     pub motion: Motion,
     pub inbox: Inbox,
-    pub listener: Listener,
-    sender: Sender,
-    post: Post,
+    pub receiver: CommandReceiver,
+    tx_producer: TxProducer,
+    tx_consumer: TxConsumer,
     decoder: FrameDecoder,
     pub records: Vec<TelemetryRecord>,
     /// What the last motion turn decided
-    pub turn: Turn,
+    pub output: MotionOutput,
     sequence: u16,
 }
 
 impl Program {
     pub fn new() -> Self {
-        let (sender, post) = post::split(Box::leak(Box::new(Room::new())));
+        let (tx_producer, tx_consumer) = tx_queue::split(Box::leak(Box::new(TxStorage::new())));
         Self {
             windings: Windings::default(),
             motion: Motion::default(),
             inbox: Inbox::default(),
-            listener: Listener::default(),
-            sender,
-            post,
+            receiver: CommandReceiver::default(),
+            tx_producer,
+            tx_consumer,
             decoder: FrameDecoder::new(),
             records: Vec::new(),
-            turn: Turn::default(),
+            output: MotionOutput::default(),
             sequence: 0,
         }
     }
@@ -95,16 +95,16 @@ impl Program {
     pub fn driving(parameters: &Parameters) -> Self {
         let mut program = Self::new();
         program.send_block(&bytes(parameters));
-        program.turns(60, &still());
+        program.ticks(60, &still());
         program.drive();
-        program.turns(10, &still());
+        program.ticks(10, &still());
         program
     }
 
-    pub fn hear(&mut self, bytes: &[u8]) {
+    pub fn receive(&mut self, bytes: &[u8]) {
         for byte in bytes {
-            if let Some(heard) = self.listener.hear(*byte) {
-                self.inbox.put(heard);
+            if let Some(command) = self.receiver.push(*byte) {
+                self.inbox.put(command);
             }
         }
     }
@@ -112,7 +112,7 @@ impl Program {
     pub fn command(&mut self, command: &Command) {
         let mut room = [0; MAX_FRAME];
         let frame = command.frame(&mut room).expect("every command fits").to_vec();
-        self.hear(&frame);
+        self.receive(&frame);
     }
 
     pub fn drive(&mut self) {
@@ -128,22 +128,22 @@ impl Program {
     }
 
     /// One period; what must hold whatever it sees.
-    pub fn period(&mut self, codes: &Codes) -> Drive {
-        let drive = self.windings.turn(codes);
+    pub fn period(&mut self, codes: &Codes) -> BridgeCommand {
+        let drive = self.windings.tick(codes);
         for j in 0..MOTORS {
             assert!(drive.duties[j].iter().all(|duty| (0.0..=1.0).contains(duty)), "{drive:?}");
         }
-        let guard = self.windings.guard();
-        assert_eq!(drive.enabled & guard.lost(), 0, "a lost wheel is open");
-        assert!(guard.faults().is_empty() || drive.enabled == 0, "{guard:?} {drive:?}");
-        if self.windings.begins_motion() {
-            let told = self.windings.told();
-            self.turn = self.motion.turn(&told, &mut self.inbox);
-            let ask = &self.turn.ask;
-            assert!(ask.current.iter().chain(&ask.voltage).all(|x| x.is_finite()), "{ask:?}");
-            self.windings.take(&self.turn);
-            self.sender.turn(&told, &self.turn, (0, 0));
-            while let Some(bytes) = self.post.waiting() {
+        let protection = self.windings.protection();
+        assert_eq!(drive.enabled & protection.disabled(), 0, "a lost wheel is open");
+        assert!(protection.faults().is_empty() || drive.enabled == 0, "{protection:?} {drive:?}");
+        if self.windings.motion_is_due() {
+            let feedback = self.windings.feedback();
+            self.output = self.motion.tick(&feedback, &mut self.inbox);
+            let setpoints = &self.output.setpoints;
+            assert!(setpoints.current.iter().chain(&setpoints.voltage).all(|x| x.is_finite()), "{setpoints:?}");
+            self.windings.apply(&self.output);
+            self.tx_producer.enqueue_tick(&feedback, &self.output, (0, 0));
+            while let Some(bytes) = self.tx_consumer.pending() {
                 let count = bytes.len();
                 for byte in bytes {
                     if let Some(frame) = self.decoder.push(*byte)
@@ -152,7 +152,7 @@ impl Program {
                         self.records.extend(TelemetryRecord::from_bytes(frame.payload));
                     }
                 }
-                self.post.sent(count);
+                self.tx_consumer.consume(count);
                 if count == 0 {
                     break;
                 }
@@ -162,9 +162,9 @@ impl Program {
     }
 
     /// So many motion turns; what the last period was driven with.
-    pub fn turns(&mut self, turns: u32, codes: &Codes) -> Drive {
-        let mut last = Drive::default();
-        for _ in 0..turns * PERIODS_PER_TURN {
+    pub fn ticks(&mut self, ticks: u32, codes: &Codes) -> BridgeCommand {
+        let mut last = BridgeCommand::default();
+        for _ in 0..ticks * PERIODS_PER_TICK {
             last = self.period(codes);
         }
         last

@@ -10,7 +10,7 @@ use std::path::Path;
 use fields::*;
 use firmware::codes::MOTORS;
 use firmware::registers::pins::{Job, PINS, Pin, RANKS};
-use firmware::registers::{adc, dog, link, timers, timing};
+use firmware::registers::{adc, link, timers, timing, watchdog};
 
 /// Every register that the board sets, with its fields.
 fn settings() -> Vec<(String, u32, &'static [Field])> {
@@ -58,10 +58,10 @@ fn settings() -> Vec<(String, u32, &'static [Field])> {
         ("DMA1 stream 1 CR, in", link::IN_CR, DMA_CR),
         ("DMA1 stream 3 CR, out", link::OUT_CR, DMA_CR),
         ("DMA1 LIFCR", link::OUT_CLEAR, DMA_LIFCR),
-        ("IWDG PR", u32::from(dog::PR), IWDG_PR),
-        ("IWDG RLR", u32::from(dog::RLR), IWDG_RLR),
-        ("IWDG PR, while erasing", u32::from(dog::PR_LONG), IWDG_PR),
-        ("IWDG RLR, while erasing", u32::from(dog::RLR_LONG), IWDG_RLR),
+        ("IWDG PR", u32::from(watchdog::PR), IWDG_PR),
+        ("IWDG RLR", u32::from(watchdog::RLR), IWDG_RLR),
+        ("IWDG PR, while erasing", u32::from(watchdog::PR_LONG), IWDG_PR),
+        ("IWDG RLR, while erasing", u32::from(watchdog::RLR_LONG), IWDG_RLR),
     ];
     all.extend(rest.into_iter().map(|(name, value, fields)| (name.to_string(), value, fields)));
     all
@@ -376,11 +376,12 @@ fn the_baud_rate_is_exact() {
 #[test]
 fn the_dog_bites_after_ten_to_thirty_milliseconds() {
     // DS8626, LSI oscillator: 17 to 47 kHz
-    let [fast, typical, slow] = [47_000, 32_000, 17_000].map(|hz| dog::bites_after(dog::PR, dog::RLR, hz));
+    let [fast, typical, slow] =
+        [47_000, 32_000, 17_000].map(|hz| watchdog::timeout_us(watchdog::PR, watchdog::RLR, hz));
     assert!(fast > 10_000 && slow < 31_000, "{fast} {slow}");
     assert_eq!(typical, 16_000);
     // DS8626, flash programming: a sector of 128 KiB takes 4 s at most, byte by byte
-    assert!(dog::bites_after(dog::PR_LONG, dog::RLR_LONG, 47_000) > 8_000_000);
+    assert!(watchdog::timeout_us(watchdog::PR_LONG, watchdog::RLR_LONG, 47_000) > 8_000_000);
 }
 
 #[test]

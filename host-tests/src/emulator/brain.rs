@@ -3,7 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
-use firmware::exchange::{Down, Up};
+use firmware::exchange::{DownFrame, UpFrame};
 
 /// A program that drives a board: the image in QEMU, or the same turns called on the host.
 ///
@@ -13,13 +13,13 @@ pub trait Brain {
     ///
     /// # Errors
     /// [`Trouble`] says what became of it.
-    fn up(&mut self) -> Result<Up, Trouble>;
+    fn up(&mut self) -> Result<UpFrame, Trouble>;
 
     /// What is measured in that period.
     ///
     /// # Errors
     /// [`Trouble`] says what became of it.
-    fn down(&mut self, down: &Down) -> Result<(), Trouble>;
+    fn down(&mut self, down: &DownFrame) -> Result<(), Trouble>;
 }
 
 /// Why a run cannot go on.

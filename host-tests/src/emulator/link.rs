@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use firmware::exchange::{Bytes, LINK_BYTES};
+use firmware::exchange::{LINK_BYTES, LinkBytes};
 use model_core::link::command::Command;
 use model_core::link::framing::{FrameDecoder, MAX_FRAME};
 
@@ -39,14 +39,14 @@ impl Line {
     }
 
     /// What leaves in this period.
-    pub fn leave(&mut self) -> Bytes {
+    pub fn leave(&mut self) -> LinkBytes {
         let count = self.waiting.len().min(LINK_BYTES);
         let leaving: Vec<u8> = self.waiting.drain(..count).collect();
-        Bytes::of(&leaving)
+        LinkBytes::of(&leaving)
     }
 
     /// What came in this period.
-    pub fn take(&mut self, bytes: &Bytes) {
+    pub fn take(&mut self, bytes: &LinkBytes) {
         self.received.extend(bytes.as_slice());
         for byte in bytes.as_slice() {
             if let Some(frame) = self.decoder.push(*byte) {
@@ -102,7 +102,7 @@ mod tests {
         let whole = encode_frame(FrameKind::Reply.code(), &[1, 2, 3], &mut room).expect("it fits").to_vec();
         let mut line = Line::default();
         for piece in [&[9, 9, 0][..], &whole, &[4, 1, 0]].concat().chunks(LINK_BYTES) {
-            line.take(&Bytes::of(piece));
+            line.take(&LinkBytes::of(piece));
         }
         assert_eq!(line.frames(), [Frame { kind: FrameKind::Reply.code(), payload: vec![1, 2, 3] }]);
     }

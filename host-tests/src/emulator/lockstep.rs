@@ -5,7 +5,7 @@
 //! down(k): codes of the middle of period k, bytes       →  turn k
 //! ```
 
-use firmware::exchange::{Down, Up};
+use firmware::exchange::{DownFrame, UpFrame};
 
 use super::brain::{Brain, Trouble};
 use super::link::Line;
@@ -25,7 +25,7 @@ pub struct Lockstep<B, const N: usize> {
     /// The same for the next motion turn
     pub burn_motion: u16,
     period: Option<u32>,
-    last: Option<Down>,
+    last: Option<DownFrame>,
 }
 
 impl<B: Brain, const N: usize> Lockstep<B, N> {
@@ -38,7 +38,7 @@ impl<B: Brain, const N: usize> Lockstep<B, N> {
     ///
     /// # Errors
     /// [`Trouble`] says what became of the brain.
-    pub fn period(&mut self) -> Result<Up, Trouble> {
+    pub fn period(&mut self) -> Result<UpFrame, Trouble> {
         let up = self.brain.up()?;
         let due = self.period.map_or(up.period, |last| last.wrapping_add(1));
         if up.period != due {
@@ -47,7 +47,7 @@ impl<B: Brain, const N: usize> Lockstep<B, N> {
         self.period = Some(up.period);
         self.line.take(&up.link);
         let codes = self.board.period(&Outputs { compare: up.compare, enabled: up.enabled });
-        let down = Down {
+        let down = DownFrame {
             codes,
             end: false,
             burn_current: std::mem::take(&mut self.burn_current),
@@ -63,7 +63,7 @@ impl<B: Brain, const N: usize> Lockstep<B, N> {
     ///
     /// # Errors
     /// [`Trouble`] says what became of the brain.
-    pub fn run(&mut self, periods: u32, mut see: impl FnMut(&Up, &mut VirtualBoard<N>)) -> Result<(), Trouble> {
+    pub fn run(&mut self, periods: u32, mut see: impl FnMut(&UpFrame, &mut VirtualBoard<N>)) -> Result<(), Trouble> {
         for _ in 0..periods {
             let up = self.period()?;
             see(&up, &mut self.board);
@@ -72,7 +72,7 @@ impl<B: Brain, const N: usize> Lockstep<B, N> {
     }
 
     /// What was measured last.
-    pub fn last(&self) -> Option<&Down> {
+    pub fn last(&self) -> Option<&DownFrame> {
         self.last.as_ref()
     }
 }
@@ -86,7 +86,7 @@ impl<const N: usize> Lockstep<super::Qemu, N> {
     pub fn end(mut self) -> Result<(), Trouble> {
         let up = self.brain.up()?;
         let codes = self.board.period(&Outputs { compare: up.compare, enabled: up.enabled });
-        let last = Down { codes, end: true, burn_current: 0, burn_motion: 0, link: self.line.leave() };
+        let last = DownFrame { codes, end: true, burn_current: 0, burn_motion: 0, link: self.line.leave() };
         self.brain.end(&last)
     }
 }
@@ -95,7 +95,7 @@ impl<const N: usize> Lockstep<super::Qemu, N> {
 mod tests {
     use super::*;
     use crate::virtual_board::Setup;
-    use firmware::exchange::{Bytes, TOPS};
+    use firmware::exchange::{LinkBytes, TOPS};
     use model_core::control::halls::HallCode;
     use model_core::effects::active::Effects;
     use model_core::plant::paper::four_wheels;
@@ -105,12 +105,12 @@ mod tests {
     struct Simple {
         period: u32,
         halls: HallCode,
-        back: Bytes,
+        back: LinkBytes,
         skips: bool,
     }
 
     impl Brain for Simple {
-        fn up(&mut self) -> Result<Up, Trouble> {
+        fn up(&mut self) -> Result<UpFrame, Trouble> {
             let middle = TOPS[0] / 2;
             let (high, low) = (middle + 700, middle - 700);
             // the phase that pulls the magnet on from each sector: forward torque is current into b, out of c, at θ = 0
@@ -122,13 +122,13 @@ mod tests {
                 4 => [high, low, middle],
                 _ => [high, middle, low],
             };
-            let mut up = Up { period: self.period, enabled: 1, link: self.back, ..Up::default() };
+            let mut up = UpFrame { period: self.period, enabled: 1, link: self.back, ..UpFrame::default() };
             up.compare[0] = compare;
             self.period += if self.skips { 2 } else { 1 };
             Ok(up)
         }
 
-        fn down(&mut self, down: &Down) -> Result<(), Trouble> {
+        fn down(&mut self, down: &DownFrame) -> Result<(), Trouble> {
             self.halls = down.codes.halls[0];
             self.back = down.link;
             Ok(())
@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(periods, 9_999);
         assert!(run.board.wheel_speeds()[0] > 3.0, "{:?}", run.board.wheel_speeds());
         assert_eq!(run.line.received(), [1, 2, 3]);
-        assert!(run.last().is_some_and(|down| down.codes == Down { ..*down }.codes));
+        assert!(run.last().is_some_and(|down| down.codes == DownFrame { ..*down }.codes));
     }
 
     #[test]

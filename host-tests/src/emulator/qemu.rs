@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-use firmware::exchange::{DOWN_FILE, Down, UP_FILE, Up};
+use firmware::exchange::{DOWN_FILE, DownFrame, UP_FILE, UpFrame};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{CWD, Mode, mkfifoat};
 use tempfile::TempDir;
@@ -118,8 +118,8 @@ impl Qemu {
     ///
     /// # Errors
     /// [`Trouble::Silent`] if it does not end in time, [`Trouble::Ended`] if it ends with a failure.
-    pub fn end(&mut self, last: &Down) -> Result<(), Trouble> {
-        self.down(&Down { end: true, ..*last })?;
+    pub fn end(&mut self, last: &DownFrame) -> Result<(), Trouble> {
+        self.down(&DownFrame { end: true, ..*last })?;
         let status = self.wait()?;
         if status.success() { Ok(()) } else { Err(self.ended(status)) }
     }
@@ -161,18 +161,18 @@ fn not_started(what: String) -> impl FnOnce(std::io::Error) -> Trouble {
 }
 
 impl Brain for Qemu {
-    fn up(&mut self) -> Result<Up, Trouble> {
-        let mut bytes = [0; Up::LEN];
+    fn up(&mut self) -> Result<UpFrame, Trouble> {
+        let mut bytes = [0; UpFrame::LEN];
         let mut have = 0;
         while have < bytes.len() {
             self.listen()?;
             have += self.up.read(&mut bytes[have..]).map_err(Trouble::Exchange)?;
         }
         self.exchanges += 1;
-        Ok(Up::from_bytes(&bytes))
+        Ok(UpFrame::from_bytes(&bytes))
     }
 
-    fn down(&mut self, down: &Down) -> Result<(), Trouble> {
+    fn down(&mut self, down: &DownFrame) -> Result<(), Trouble> {
         // far less than a pipe holds: this does not wait, and what a dead image does not take is found at the next `up`
         self.down.write_all(&down.to_bytes()).map_err(Trouble::Exchange)
     }
@@ -190,14 +190,14 @@ impl Drop for Qemu {
 mod tests {
     use super::*;
     use firmware::codes::Codes;
-    use firmware::exchange::Bytes;
+    use firmware::exchange::LinkBytes;
     use model_core::control::calibration::AdcCode;
     use model_core::control::halls::HallCode;
 
-    fn down() -> Down {
+    fn down() -> DownFrame {
         let phases = [[AdcCode(2048); 3]; 4];
         let codes = Codes { phases, bus: AdcCode(1354), halls: [HallCode(1); 4], driver_fault: false };
-        Down { codes, end: false, burn_current: 0, burn_motion: 0, link: Bytes::default() }
+        DownFrame { codes, end: false, burn_current: 0, burn_motion: 0, link: LinkBytes::default() }
     }
 
     /// A shell in the emulator's place.
@@ -213,11 +213,11 @@ mod tests {
         let script = "exec 3>omni-up 4<omni-down; head -c 44 /dev/zero >&3; head -c 48 <&4 >seen; \
                       head -c 44 /dev/zero >&3; head -c 48 <&4 >seen; cat seen";
         let mut qemu = shell(script, Duration::from_secs(20));
-        assert_eq!(qemu.up().expect("a frame"), Up::default());
+        assert_eq!(qemu.up().expect("a frame"), UpFrame::default());
         qemu.down(&down()).expect("taken");
-        assert_eq!(qemu.up().expect("a frame"), Up::default());
+        assert_eq!(qemu.up().expect("a frame"), UpFrame::default());
         qemu.end(&down()).expect("it ends well");
-        assert_eq!(qemu.said_bytes(), Down { end: true, ..down() }.to_bytes());
+        assert_eq!(qemu.said_bytes(), DownFrame { end: true, ..down() }.to_bytes());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! # Ride: one run with a robot, from the block to the last record
 
-use firmware::exchange::Up;
+use firmware::exchange::UpFrame;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::link::block::{MAX_BYTES, Parameters};
 use model_core::link::command::{Command, MAX_CHUNK, Reply};
@@ -104,7 +104,7 @@ impl<B: Brain, const N: usize> Ride<B, N> {
     ///
     /// # Errors
     /// [`Trouble`] says what became of the program.
-    pub fn period(&mut self) -> Result<Up, Trouble> {
+    pub fn period(&mut self) -> Result<UpFrame, Trouble> {
         let up = self.lockstep.period()?;
         self.periods += 1;
         if self.periods.is_multiple_of(TURN) {

@@ -29,7 +29,7 @@ const ASKED: [f64; 2] = [6.0, 1.6];
 const WATCHED: f64 = 0.4;
 
 /// Largest part of the bus that a motor gets [1], and the length of a turn [s]
-const MAX_DUTY: f64 = firmware::setup::MAX_DUTY as f64;
+const MAX_DUTY: f64 = firmware::winding_config::MAX_DUTY as f64;
 const TURN: f64 = 1e-3;
 
 /// Speed from which on directions are compared [m/s]: a start goes aside where friction is not what is believed.

@@ -7,11 +7,11 @@
 use std::collections::VecDeque;
 use std::fmt;
 
-use firmware::exchange::{Bytes, Down, LINK_BYTES, TOPS, Up, compare};
+use firmware::command_receiver::CommandReceiver;
+use firmware::exchange::{DownFrame, LINK_BYTES, LinkBytes, TOPS, UpFrame, compare};
 use firmware::inbox::Inbox;
-use firmware::listener::Listener;
 use firmware::motion::Motion;
-use firmware::post::{self, Post, Room, Sender};
+use firmware::tx_queue::{self, TxConsumer, TxProducer, TxStorage};
 use firmware::windings::Windings;
 use model_core::link::faults::Faults;
 
@@ -21,29 +21,29 @@ use crate::emulator::{Brain, Trouble};
 pub struct Software {
     windings: Windings,
     motion: Motion,
-    listener: Listener,
+    receiver: CommandReceiver,
     inbox: Inbox,
-    sender: Sender,
-    post: Post,
+    tx_producer: TxProducer,
+    tx_consumer: TxConsumer,
     out: VecDeque<u8>,
     inward: VecDeque<u8>,
-    next: Up,
+    next: UpFrame,
 }
 
 impl Default for Software {
     fn default() -> Self {
         // the firmware's queue lives for ever too
-        let (sender, post) = post::split(Box::leak(Box::new(Room::new())));
+        let (tx_producer, tx_consumer) = tx_queue::split(Box::leak(Box::new(TxStorage::new())));
         Self {
             windings: Windings::default(),
             motion: Motion::default(),
-            listener: Listener::default(),
+            receiver: CommandReceiver::default(),
             inbox: Inbox::default(),
-            sender,
-            post,
+            tx_producer,
+            tx_consumer,
             out: VecDeque::new(),
             inward: VecDeque::new(),
-            next: Up::default(),
+            next: UpFrame::default(),
         }
     }
 }
@@ -60,43 +60,43 @@ impl fmt::Debug for Software {
 impl Software {
     /// The faults that are latched, those included that only cost a wheel.
     pub fn faults(&self) -> Faults {
-        let guard = self.windings.guard();
-        Faults::from_bits(guard.faults().bits() | guard.costs().bits())
+        let guard = self.windings.protection();
+        Faults::from_bits(guard.faults().bits() | guard.motor_faults().bits())
     }
 }
 
 impl Brain for Software {
-    fn up(&mut self) -> Result<Up, Trouble> {
+    fn up(&mut self) -> Result<UpFrame, Trouble> {
         let count = self.out.len().min(LINK_BYTES);
         let leaving: Vec<u8> = self.out.drain(..count).collect();
-        self.next.link = Bytes::of(&leaving);
+        self.next.link = LinkBytes::of(&leaving);
         let up = self.next;
         self.next.period = self.next.period.wrapping_add(1);
         Ok(up)
     }
 
-    fn down(&mut self, down: &Down) -> Result<(), Trouble> {
+    fn down(&mut self, down: &DownFrame) -> Result<(), Trouble> {
         self.inward.extend(down.link.as_slice());
-        let drive = self.windings.turn(&down.codes);
-        for ((counts, duties), top) in self.next.compare.iter_mut().zip(drive.duties).zip(TOPS) {
+        let command = self.windings.tick(&down.codes);
+        for ((counts, duties), top) in self.next.compare.iter_mut().zip(command.duties).zip(TOPS) {
             *counts = duties.map(|duty| compare(duty, top));
         }
-        self.next.enabled = drive.enabled;
-        if self.windings.begins_motion() {
-            let told = self.windings.told();
-            let turn = self.motion.turn(&told, &mut self.inbox);
-            self.windings.take(&turn);
+        self.next.enabled = command.enabled;
+        if self.windings.motion_is_due() {
+            let feedback = self.windings.feedback();
+            let output = self.motion.tick(&feedback, &mut self.inbox);
+            self.windings.apply(&output);
             // nothing is timed here
-            self.sender.turn(&told, &turn, (0, 0));
+            self.tx_producer.enqueue_tick(&feedback, &output, (0, 0));
             for byte in std::mem::take(&mut self.inward) {
-                if let Some(heard) = self.listener.hear(byte) {
-                    self.inbox.put(heard);
+                if let Some(command) = self.receiver.push(byte) {
+                    self.inbox.put(command);
                 }
             }
-            while let Some(bytes) = self.post.waiting() {
+            while let Some(bytes) = self.tx_consumer.pending() {
                 let count = bytes.len();
                 self.out.extend(bytes);
-                self.post.sent(count);
+                self.tx_consumer.consume(count);
                 if count == 0 {
                     break;
                 }

@@ -4,7 +4,7 @@
 //! has latched the other has latched too, in the same period: that is how the moment of a detection is known, which no
 //! record tells to a period.
 
-use firmware::exchange::{Down, Up};
+use firmware::exchange::{DownFrame, UpFrame};
 use model_core::link::faults::Faults;
 
 use super::software::Software;
@@ -37,7 +37,7 @@ impl<B: Brain> Twin<B> {
 }
 
 impl<B: Brain> Brain for Twin<B> {
-    fn up(&mut self) -> Result<Up, Trouble> {
+    fn up(&mut self) -> Result<UpFrame, Trouble> {
         let up = self.brain.up()?;
         let twin = self.software.up()?;
         if (up.compare, up.enabled) != (twin.compare, twin.enabled) {
@@ -46,7 +46,7 @@ impl<B: Brain> Brain for Twin<B> {
         Ok(up)
     }
 
-    fn down(&mut self, down: &Down) -> Result<(), Trouble> {
+    fn down(&mut self, down: &DownFrame) -> Result<(), Trouble> {
         self.software.down(down)?;
         self.brain.down(down)
     }

@@ -29,7 +29,7 @@ pub fn any_closed() -> bool {
 }
 
 /// The compare counts that the last turn asked for.
-pub fn asked() -> [[u16; 3]; MOTORS] {
+pub fn requested_counts() -> [[u16; 3]; MOTORS] {
     PENDING.each_ref().map(|motor| motor.each_ref().map(|count| count.load(Ordering::Relaxed)))
 }
 

@@ -88,5 +88,5 @@ pub fn pending() -> [[[u16; 3]; MOTORS]; 2] {
             [tim4.ccr1(), tim4.ccr2(), tim4.ccr3()].map(|ccr| ccr.read().bits() as u16),
         ]
     };
-    [super::bridges::asked(), got]
+    [super::bridges::requested_counts(), got]
 }

@@ -14,8 +14,9 @@ use stm32f4xx_hal::prelude::*;
 use stm32f4xx_hal::rcc::{Config, Enable};
 
 use super::bridges::{AllHalls, Bridges, Gates, Phase};
-use super::keep::{Dog, Store};
-use super::wire::Wire;
+use super::flash_store::FlashStore;
+use super::serial::SerialLink;
+use super::watchdog::Watchdog;
 use crate::drivers::fault::FaultLine;
 use crate::drivers::gate::GateDriver;
 use crate::drivers::halls::HallLines;
@@ -29,11 +30,11 @@ pub struct Parts {
     /// Bridges, converters and halls
     pub bridges: Bridges,
     /// The link
-    pub wire: Wire,
+    pub serial: SerialLink,
     /// The watchdog
-    pub dog: Dog,
-    /// Where the parameter block is kept
-    pub store: Store,
+    pub watchdog: Watchdog,
+    /// Where the parameter block is stored
+    pub flash_store: FlashStore,
 }
 
 /// Takes the board, everything asleep: bridges open, timers standing, converters on but not triggered, no watchdog.
@@ -155,9 +156,9 @@ pub fn take(mut core: cortex_m::Peripherals, device: pac::Peripherals) -> Parts 
             timers,
             bus: AdcCode(0),
         },
-        wire: Wire::new(device.USART3, device.DMA1),
-        dog: Dog::new(device.IWDG),
-        store: Store::new(device.FLASH),
+        serial: SerialLink::new(device.USART3, device.DMA1),
+        watchdog: Watchdog::new(device.IWDG),
+        flash_store: FlashStore::new(device.FLASH),
     }
 }
 

@@ -43,7 +43,7 @@ pub fn starve<B: Brain>(brain: B) -> Result<Bitten, Trouble> {
         if up.enabled == 0 {
             bitten.overrun.get_or_insert(k);
         }
-        if up.bitten {
+        if up.watchdog_fired {
             bitten.bite.get_or_insert(k);
         }
     }

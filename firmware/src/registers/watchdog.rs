@@ -1,19 +1,19 @@
-//! # Dog: the independent watchdog
+//! # Watchdog: the independent one of the chip
 //!
 //! It counts its own oscillator, which is 32 kHz at best guess and 17 to 47 kHz by the datasheet (DS8626, LSI
-//! oscillator characteristics). At the fast end it must not bite before 10 ms, ten motion turns; at the slow end it
-//! then bites after 30 ms.
+//! oscillator characteristics). At the fast end it must not fire before 10 ms, ten motion turns; at the slow end it
+//! then fires after 30 ms.
 //!
-//! Erasing a flash sector stalls the core for seconds, so the dog is given a long meal before ([`PR_LONG`]). Source:
+//! Erasing a flash sector stalls the core for seconds, so the watchdog is given a long timeout before ([`PR_LONG`]). Source:
 //! RM0090, independent watchdog.
 
 /// KR: feed.
 pub const FEED: u16 = 0xAAAA;
 /// KR: open PR and RLR for writing.
 pub const OPEN: u16 = 0x5555;
-/// KR: let it out; nothing but a reset calls it back.
+/// KR: start it; nothing but a reset stops it.
 pub const START: u16 = 0xCCCC;
-/// SR: PR or RLR is still on its way into the dog's clock domain.
+/// SR: PR or RLR is still on its way into the watchdog's clock domain.
 pub const BUSY: u16 = 0b11;
 
 /// PR: oscillator by 4.
@@ -25,7 +25,7 @@ pub const PR_LONG: u16 = 5;
 /// RLR for the time of an erase.
 pub const RLR_LONG: u16 = 0xFFF;
 
-/// After how long an unfed dog bites [µs], for an oscillator [Hz].
-pub const fn bites_after(pr: u16, rlr: u16, oscillator: u32) -> u32 {
+/// After how long an unfed watchdog resets the chip [µs], for an oscillator [Hz].
+pub const fn timeout_us(pr: u16, rlr: u16, oscillator: u32) -> u32 {
     ((rlr as u64 + 1) * (4 << pr) * 1_000_000 / oscillator as u64) as u32
 }

@@ -1,4 +1,4 @@
-//! # Roll call: the watchdog is fed only if every task has been seen since it was fed last
+//! # Heartbeat: the watchdog is fed only if every task has been seen since it was fed last
 //!
 //! A watchdog that one task feeds proves that this task runs. So each task says that it is here, and the idle task
 //! feeds when all have. Tasks of any priority may say so at any moment.
@@ -21,11 +21,11 @@ pub enum Task {
 
 const ALL: u8 = Task::Current as u8 | Task::Motion as u8 | Task::Listen as u8 | Task::Record as u8;
 
-/// Who has been seen since the dog was fed.
+/// Who has been seen since the watchdog was fed.
 #[derive(Debug, Default)]
-pub struct RollCall(AtomicU8);
+pub struct Heartbeats(AtomicU8);
 
-impl RollCall {
+impl Heartbeats {
     /// Nobody has been seen yet.
     pub const fn new() -> Self {
         Self(AtomicU8::new(0))
@@ -33,12 +33,12 @@ impl RollCall {
 
     /// A task says that it is here.
     #[inline]
-    pub fn here(&self, task: Task) {
+    pub fn beat(&self, task: Task) {
         self.0.fetch_or(task as u8, Ordering::Relaxed);
     }
 
     /// True if all have been seen since this was true last; then the roll begins anew.
-    pub fn complete(&self) -> bool {
+    pub fn all_alive(&self) -> bool {
         self.0.compare_exchange(ALL, 0, Ordering::Relaxed, Ordering::Relaxed).is_ok()
     }
 }

@@ -1,4 +1,4 @@
-//! # Wire: USART3 and its two DMA streams
+//! # Serial link: USART3 and its two DMA streams
 //!
 //! What comes in goes round a circle, read up to where the DMA is. What goes out has two buffers: one is on its way
 //! while the other is filled, and they change places whenever the link is asked for something and the first is through.
@@ -22,7 +22,7 @@ static OUTWARD: [Buffer<OUT>; 2] = [const { Buffer(UnsafeCell::new([0; OUT])) };
 /// Memory that the DMA reads or writes, in the RAM that it reaches (not the core-coupled one).
 struct Buffer<const N: usize>(UnsafeCell<[u8; N]>);
 
-// SAFETY: only `Wire` touches it, and there is one `Wire`: `new` takes the one USART3.
+// SAFETY: only `SerialLink` touches it, and there is one `SerialLink`: `new` takes the one USART3.
 unsafe impl<const N: usize> Sync for Buffer<N> {}
 
 impl<const N: usize> Buffer<N> {
@@ -32,7 +32,7 @@ impl<const N: usize> Buffer<N> {
 }
 
 /// The link to the host.
-pub struct Wire {
+pub struct SerialLink {
     dma: pac::DMA1,
     /// Where reading goes on
     read: usize,
@@ -43,7 +43,7 @@ pub struct Wire {
     filled: usize,
 }
 
-impl Wire {
+impl SerialLink {
     /// The link, listening.
     pub(super) fn new(usart: pac::USART3, dma: pac::DMA1) -> Self {
         let data = usart.dr().as_ptr() as u32;
@@ -102,11 +102,11 @@ impl Wire {
         self.go_on();
         let left = self.dma.st(link::IN_STREAM).ndtr().read().bits() as usize;
         let count = link::waiting(IN, self.read, left).min(into.len());
-        for place in into.iter_mut().take(count) {
+        for slot in into.iter_mut().take(count) {
             // SAFETY: `read` stays below the buffer's length. The DMA may write other bytes of it meanwhile, not this
             // one, unless the reader is a whole circle late, and then it is only a wrong byte, which the frame's CRC
             // finds; volatile, so no value is assumed.
-            *place = unsafe { INWARD.start().add(self.read).read_volatile() };
+            *slot = unsafe { INWARD.start().add(self.read).read_volatile() };
             self.read = (self.read + 1) % IN;
         }
         count

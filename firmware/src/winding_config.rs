@@ -1,4 +1,4 @@
-//! # Setup: what the windings' turn needs of the parameters
+//! # Winding configuration: what the windings' turn needs of the parameters
 
 use model_core::control::calibration::{Calibration, FULL_SCALE};
 use model_core::control::current_loop::CurrentLoop;
@@ -7,8 +7,8 @@ use model_core::link::hello::{Commutation, Hello};
 use model_core::link::record::MOTORS;
 
 use crate::codes::PERIODS_PER_SECOND;
-use crate::guard::Limits;
 use crate::offsets::{MIDDLE, REACH};
+use crate::protection::TripLimits;
 use crate::registers::timing;
 
 /// Version of this firmware, as a hello tells it.
@@ -22,14 +22,14 @@ pub const MAX_DUTY: f32 = timing::MAX_SHARE;
 const TRIP_OVER_LIMIT: f32 = 1.6;
 
 /// The largest phase current that every converter can tell from its end, whatever its zero [counts].
-pub const MOST_TRIP: f32 = FULL_SCALE as f32 - MIDDLE - REACH - NOISE;
+pub const MAX_TRIP_COUNTS: f32 = FULL_SCALE as f32 - MIDDLE - REACH - NOISE;
 
 /// What a converter at its end may read below it [counts].
 const NOISE: f32 = 10.0;
 
 /// What the windings' turn needs to know of the robot.
 #[derive(Clone, Copy, Debug)]
-pub struct Setup {
+pub struct WindingConfig {
     /// Motors in use; 0 without parameters
     pub wheels: u8,
     /// What codes mean
@@ -39,12 +39,12 @@ pub struct Setup {
     /// True: commutate by the halls' sectors at every speed
     pub six_step: bool,
     /// What is too much
-    pub limits: Limits,
+    pub limits: TripLimits,
     /// Speed of the wheel's shaft [rad/s] over electrical speed [rad a period]
     pub wheel_speed_per_electrical: f32,
 }
 
-impl Default for Setup {
+impl Default for WindingConfig {
     /// No motors.
     fn default() -> Self {
         let calibration = Calibration::of_board(1);
@@ -53,13 +53,13 @@ impl Default for Setup {
             calibration,
             current_loop: CurrentLoop::new(1.0, 0.0, calibration.amps_per_count, 0.0, calibration.period, 0.0),
             six_step: false,
-            limits: Limits::default(),
+            limits: TripLimits::default(),
             wheel_speed_per_electrical: 0.0,
         }
     }
 }
 
-impl Setup {
+impl WindingConfig {
     /// One bit a motor in use.
     #[inline]
     pub fn motors(&self) -> u8 {
@@ -94,8 +94,8 @@ impl Setup {
                 MAX_DUTY,
             ),
             six_step: block.commutation == Commutation::SixStep,
-            limits: Limits {
-                trip_counts: (TRIP_OVER_LIMIT * block.limits.current / calibration.amps_per_count).min(MOST_TRIP),
+            limits: TripLimits {
+                trip_counts: (TRIP_OVER_LIMIT * block.limits.current / calibration.amps_per_count).min(MAX_TRIP_COUNTS),
                 least_supply: block.limits.under_voltage,
                 most_supply: block.limits.over_voltage,
             },

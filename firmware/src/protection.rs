@@ -1,4 +1,4 @@
-//! # Guard: what must not be, looked for once a period
+//! # Protection: what must not be, looked for once a period
 //!
 //! | fault | seen when | periods |
 //! |---|---|---|
@@ -15,9 +15,9 @@ use model_core::link::faults::{Fault, Faults};
 
 use crate::codes::MOTORS;
 
-/// What is too much.
+/// What trips the protection.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limits {
+pub struct TripLimits {
     /// Phase current beyond which the bridges open [counts from the offset]
     pub trip_counts: f32,
     /// Lowest supply [V]
@@ -34,16 +34,16 @@ const HALL_PERIODS: u8 = 2;
 
 /// What was seen, latched.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Guard {
+pub struct Protection {
     faults: Faults,
-    costs: Faults,
-    lost: u8,
+    motor_faults: Faults,
+    disabled: u8,
     over: u8,
     under: u8,
     halls: [u8; MOTORS],
 }
 
-impl Guard {
+impl Protection {
     /// Faults that open all bridges.
     #[inline]
     pub fn faults(&self) -> Faults {
@@ -52,14 +52,14 @@ impl Guard {
 
     /// Faults that cost a wheel; the others may go on.
     #[inline]
-    pub fn costs(&self) -> Faults {
-        self.costs
+    pub fn motor_faults(&self) -> Faults {
+        self.motor_faults
     }
 
     /// One bit a motor that is out of use while the others go on.
     #[inline]
-    pub fn lost(&self) -> u8 {
-        self.lost
+    pub fn disabled(&self) -> u8 {
+        self.disabled
     }
 
     /// Latches a fault that opens all bridges.
@@ -75,7 +75,7 @@ impl Guard {
 
     /// Looks at the supply [V].
     #[inline]
-    pub fn supply(&mut self, limits: &Limits, bus: f32) {
+    pub fn supply(&mut self, limits: &TripLimits, bus: f32) {
         let lasts = |count: &mut u8, bad: bool| {
             *count = if bad { count.saturating_add(1) } else { 0 };
             *count >= SUPPLY_PERIODS
@@ -90,7 +90,7 @@ impl Guard {
 
     /// True if any phase carries too much.
     #[inline]
-    pub fn over_current(&self, limits: &Limits, codes: &[AdcCode; 3], offsets: &[f32; 3]) -> bool {
+    pub fn over_current(&self, limits: &TripLimits, codes: &[AdcCode; 3], offsets: &[f32; 3]) -> bool {
         let beyond = |k: usize| (f32::from(codes[k].0) - offsets[k]).abs() > limits.trip_counts;
         beyond(0) | beyond(1) | beyond(2)
     }
@@ -100,7 +100,7 @@ impl Guard {
         if let Some(count) = self.halls.get_mut(motor) {
             *count = count.saturating_add(1);
             if *count >= HALL_PERIODS {
-                self.lose(Fault::HallCode, motor, wheels);
+                self.disable_motor(Fault::HallCode, motor, wheels);
             }
         }
     }
@@ -115,19 +115,19 @@ impl Guard {
 
     /// Takes a motor out of use; a robot that cannot go on without it, or has lost another, stops.
     #[cold]
-    pub fn lose(&mut self, fault: Fault, motor: usize, wheels: u8) {
+    pub fn disable_motor(&mut self, fault: Fault, motor: usize, wheels: u8) {
         let bit = 1_u8 << (motor & 7);
-        if wheels < 4 || self.lost & !bit != 0 || !fault.one_motor() {
+        if wheels < 4 || self.disabled & !bit != 0 || !fault.one_motor() {
             self.latch(fault);
         }
-        self.costs.add(fault);
-        self.lost |= bit;
+        self.motor_faults.add(fault);
+        self.disabled |= bit;
     }
 
     /// Other parameters say that the robot has so many wheels: what four can lose three cannot.
-    pub fn recount(&mut self, wheels: u8) {
-        if wheels < 4 && self.lost != 0 {
-            self.latch_all(self.costs);
+    pub fn set_wheels(&mut self, wheels: u8) {
+        if wheels < 4 && self.disabled != 0 {
+            self.latch_all(self.motor_faults);
         }
     }
 }
@@ -136,81 +136,81 @@ impl Guard {
 mod tests {
     use super::*;
 
-    const LIMITS: Limits = Limits { trip_counts: 1000.0, least_supply: 9.0, most_supply: 14.0 };
+    const LIMITS: TripLimits = TripLimits { trip_counts: 1000.0, least_supply: 9.0, most_supply: 14.0 };
 
     #[test]
     fn one_sample_of_the_supply_is_noise_and_three_are_a_fault() {
         for (bus, fault) in [(14.1, Fault::OverVoltage), (8.9, Fault::UnderVoltage)] {
-            let mut guard = Guard::default();
+            let mut protection = Protection::default();
             for bus in [bus, bus, 12.0, bus, bus] {
-                guard.supply(&LIMITS, bus);
+                protection.supply(&LIMITS, bus);
             }
-            assert!(guard.faults().is_empty());
-            guard.supply(&LIMITS, bus);
-            assert!(guard.faults().has(fault));
+            assert!(protection.faults().is_empty());
+            protection.supply(&LIMITS, bus);
+            assert!(protection.faults().has(fault));
         }
     }
 
     #[test]
     fn a_short_is_seen_in_any_phase_and_of_either_sign() {
-        let guard = Guard::default();
+        let protection = Protection::default();
         for phase in 0..3 {
             for code in [3049, 1047] {
                 let mut codes = [AdcCode(2048); 3];
                 codes[phase] = AdcCode(code);
-                assert!(guard.over_current(&LIMITS, &codes, &[2048.0; 3]), "{phase} {code}");
+                assert!(protection.over_current(&LIMITS, &codes, &[2048.0; 3]), "{phase} {code}");
             }
         }
-        assert!(!guard.over_current(&LIMITS, &[AdcCode(3048), AdcCode(1048), AdcCode(2048)], &[2048.0; 3]));
+        assert!(!protection.over_current(&LIMITS, &[AdcCode(3048), AdcCode(1048), AdcCode(2048)], &[2048.0; 3]));
     }
 
     #[test]
     fn four_wheels_go_on_without_one_and_not_without_two() {
-        let mut guard = Guard::default();
-        guard.lose(Fault::HallCode, 2, 4);
-        assert!(guard.faults().is_empty() && guard.lost() == 0b0100);
-        assert!(guard.costs().iter().eq([Fault::HallCode]), "it is named all the same");
-        guard.lose(Fault::HallCode, 2, 4);
-        assert!(guard.faults().is_empty(), "the same wheel once more is not another");
-        guard.lose(Fault::Stall, 0, 4);
-        assert!(guard.faults().has(Fault::Stall) && guard.lost() == 0b0101);
+        let mut protection = Protection::default();
+        protection.disable_motor(Fault::HallCode, 2, 4);
+        assert!(protection.faults().is_empty() && protection.disabled() == 0b0100);
+        assert!(protection.motor_faults().iter().eq([Fault::HallCode]), "it is named all the same");
+        protection.disable_motor(Fault::HallCode, 2, 4);
+        assert!(protection.faults().is_empty(), "the same wheel once more is not another");
+        protection.disable_motor(Fault::Stall, 0, 4);
+        assert!(protection.faults().has(Fault::Stall) && protection.disabled() == 0b0101);
     }
 
     #[test]
     fn three_wheels_do_not_go_on_without_one() {
-        let mut guard = Guard::default();
-        guard.lose(Fault::Stall, 1, 3);
-        assert!(guard.faults().has(Fault::Stall));
+        let mut protection = Protection::default();
+        protection.disable_motor(Fault::Stall, 1, 3);
+        assert!(protection.faults().has(Fault::Stall));
     }
 
     #[test]
     fn a_wheel_lost_of_four_stops_a_robot_that_is_told_it_has_three() {
-        let mut guard = Guard::default();
-        guard.recount(3);
-        guard.lose(Fault::HallCode, 2, 4);
-        guard.recount(4);
-        assert!(guard.faults().is_empty());
-        guard.recount(3);
-        assert!(guard.faults().has(Fault::HallCode));
+        let mut protection = Protection::default();
+        protection.set_wheels(3);
+        protection.disable_motor(Fault::HallCode, 2, 4);
+        protection.set_wheels(4);
+        assert!(protection.faults().is_empty());
+        protection.set_wheels(3);
+        assert!(protection.faults().has(Fault::HallCode));
     }
 
     #[test]
     fn what_is_not_one_motors_alone_stops_four_wheels_too() {
-        let mut guard = Guard::default();
-        guard.lose(Fault::OverCurrent, 0, 4);
-        assert!(guard.faults().has(Fault::OverCurrent));
+        let mut protection = Protection::default();
+        protection.disable_motor(Fault::OverCurrent, 0, 4);
+        assert!(protection.faults().has(Fault::OverCurrent));
     }
 
     #[test]
     fn a_single_bad_hall_code_is_a_glitch() {
-        let mut guard = Guard::default();
+        let mut protection = Protection::default();
         for _ in 0..5 {
-            guard.bad_hall(1, 3);
-            guard.good_hall(1);
+            protection.bad_hall(1, 3);
+            protection.good_hall(1);
         }
-        assert!(guard.faults().is_empty());
-        guard.bad_hall(1, 3);
-        guard.bad_hall(1, 3);
-        assert!(guard.faults().has(Fault::HallCode));
+        assert!(protection.faults().is_empty());
+        protection.bad_hall(1, 3);
+        protection.bad_hall(1, 3);
+        assert!(protection.faults().has(Fault::HallCode));
     }
 }

@@ -1,4 +1,4 @@
-//! # Motor: one motor's turn, once a period
+//! # Motor controller: one motor's turn, once a period
 //!
 //! The halls are followed whether the bridge is closed or not. While the speed is not known the motor commutates in six
 //! steps, by the middle of its sector; once the halls tell where the rotor is between two edges, field-oriented.
@@ -7,8 +7,8 @@ use model_core::control::calibration::AdcCode;
 use model_core::control::current_loop::{CurrentMeasurement, CurrentMemory, CurrentSetpoint};
 use model_core::control::halls::{HallCode, HallDecoder, HallFault, angle_of_code};
 
-use crate::codes::PERIODS_PER_TURN;
-use crate::setup::Setup;
+use crate::codes::PERIODS_PER_TICK;
+use crate::winding_config::WindingConfig;
 
 /// A sector that no rotor is in: the current loop then applies no voltage.
 const NO_SECTOR: u8 = 6;
@@ -18,7 +18,7 @@ pub const NO_VOLTAGE: [f32; 3] = [0.5; 3];
 
 /// What is measured at a motor.
 #[derive(Clone, Copy, Debug)]
-pub struct Sensed {
+pub struct MotorMeasurement {
     /// The three phases
     pub codes: [AdcCode; 3],
     /// What they say without current [counts]
@@ -31,7 +31,7 @@ pub struct Sensed {
 
 /// One motor's memory.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Motor {
+pub struct MotorController {
     halls: Option<HallDecoder>,
     memory: CurrentMemory<f32>,
     /// Electrical angle of this period [2⁻¹⁶ turn]
@@ -43,13 +43,13 @@ pub struct Motor {
     sum: f32,
 }
 
-impl Motor {
+impl MotorController {
     /// Follows the halls.
     ///
     /// # Errors
     /// [`HallFault`] says what is wrong with the code; the rotor is then taken to be where it was.
     #[inline]
-    pub fn follow(&mut self, code: HallCode) -> Result<(), HallFault> {
+    pub fn update_halls(&mut self, code: HallCode) -> Result<(), HallFault> {
         match &mut self.halls {
             Some(halls) => halls.update(code)?,
             None => self.halls = Some(HallDecoder::new(code)?),
@@ -59,39 +59,45 @@ impl Motor {
 
     /// Counts the voltage that was on the motor over this period.
     #[inline]
-    pub fn hold(&mut self) {
+    pub fn accumulate_voltage(&mut self) {
         self.sum += self.applied;
     }
 
     /// The bridge is open in the next period.
     #[inline]
-    pub fn opened(&mut self) {
+    pub fn bridge_opened(&mut self) {
         self.memory = CurrentMemory::default();
         self.applied = 0.0;
     }
 
     /// Duties of the next period [1]; those of no voltage where the bridge is to be open.
     #[inline]
-    pub fn decide(&mut self, setup: &Setup, sensed: &Sensed, want: &CurrentSetpoint, closed: bool) -> [f32; 3] {
-        let sector = self.sector(setup.six_step);
-        let seen = CurrentMeasurement {
-            codes: sensed.codes,
-            offsets: sensed.offsets,
+    pub fn tick(
+        &mut self,
+        config: &WindingConfig,
+        measured: &MotorMeasurement,
+        setpoint: &CurrentSetpoint,
+        closed: bool,
+    ) -> [f32; 3] {
+        let sector = self.sector(config.six_step);
+        let measurement = CurrentMeasurement {
+            codes: measured.codes,
+            offsets: measured.offsets,
             angle: angle_of_code(self.angle),
             ahead: self.halls.as_ref().map_or(0.0, HallDecoder::ahead),
-            bus: sensed.bus,
-            per_bus: sensed.per_bus,
+            bus: measured.bus,
+            per_bus: measured.per_bus,
         };
-        let decided = match sector {
-            Some(sector) => setup.current_loop.six_step(&mut self.memory, &seen, sector, want),
-            None => setup.current_loop.field_oriented(&mut self.memory, &seen, want),
+        let output = match sector {
+            Some(sector) => config.current_loop.six_step(&mut self.memory, &measurement, sector, setpoint),
+            None => config.current_loop.field_oriented(&mut self.memory, &measurement, setpoint),
         };
-        self.current = decided.current;
+        self.current = output.current;
         if closed {
-            self.applied = decided.voltage;
-            return decided.duties;
+            self.applied = output.voltage;
+            return output.duties;
         }
-        self.opened();
+        self.bridge_opened();
         NO_VOLTAGE
     }
 
@@ -129,6 +135,6 @@ impl Motor {
     /// Mean DC-equivalent voltage since this was last asked, a motion turn ago [V].
     #[inline]
     pub fn mean_voltage(&mut self) -> f32 {
-        core::mem::take(&mut self.sum) * (1.0 / PERIODS_PER_TURN as f32)
+        core::mem::take(&mut self.sum) * (1.0 / PERIODS_PER_TICK as f32)
     }
 }

@@ -19,7 +19,7 @@ use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};
 /// Bytes before the block.
 pub const HEAD: usize = 16;
 /// The longest block [bytes].
-pub const LONGEST: usize = 1024;
+pub const MAX_BLOCK: usize = 1024;
 
 const MAGIC: [u8; 4] = *b"SLOT";
 
@@ -37,7 +37,7 @@ pub struct Slot {
 
 /// A block that was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kept {
+pub struct StoredBlock {
     /// Which of the two slots
     pub slot: usize,
     /// Offset of the block in the flash
@@ -50,7 +50,7 @@ pub struct Kept {
 
 /// Why a block was not kept; the old one still is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NotKept {
+pub enum StoreError {
     /// Longer than [`LONGEST`] or than the slot
     TooLong,
     /// The flash refused
@@ -60,8 +60,8 @@ pub enum NotKept {
 }
 
 /// The block in force, if there is one.
-pub fn find<F: ReadNorFlash>(flash: &mut F, slots: &[Slot; 2]) -> Option<Kept> {
-    let [first, second] = [look(flash, slots, 0), look(flash, slots, 1)];
+pub fn find<F: ReadNorFlash>(flash: &mut F, slots: &[Slot; 2]) -> Option<StoredBlock> {
+    let [first, second] = [read_slot(flash, slots, 0), read_slot(flash, slots, 1)];
     match (first, second) {
         // the sequence wraps: of two neighbours the one ahead
         (Some(a), Some(b)) => Some(if (b.sequence.wrapping_sub(a.sequence) as i32) > 0 { b } else { a }),
@@ -70,26 +70,26 @@ pub fn find<F: ReadNorFlash>(flash: &mut F, slots: &[Slot; 2]) -> Option<Kept> {
 }
 
 /// Keeps a block, which is in force when this returns `Ok`. Takes as long as erasing takes.
-pub fn keep<F: NorFlash>(flash: &mut F, slots: &[Slot; 2], block: &[u8]) -> Result<Kept, NotKept> {
+pub fn save<F: NorFlash>(flash: &mut F, slots: &[Slot; 2], block: &[u8]) -> Result<StoredBlock, StoreError> {
     const { assert!(HEAD.is_multiple_of(F::WRITE_SIZE), "the head is written in whole words of the flash") }
     let old = find(flash, slots);
     let (index, sequence) = old.map_or((0, 0), |old| (1 - old.slot, old.sequence.wrapping_add(1)));
-    let slot = slots.get(index).copied().ok_or(NotKept::Flash)?;
-    if block.len() > LONGEST || (HEAD + LONGEST) as u32 > slot.to - slot.from {
-        return Err(NotKept::TooLong);
+    let slot = slots.get(index).copied().ok_or(StoreError::Flash)?;
+    if block.len() > MAX_BLOCK || (HEAD + MAX_BLOCK) as u32 > slot.to - slot.from {
+        return Err(StoreError::TooLong);
     }
-    flash.erase(slot.from, slot.to).map_err(|_| NotKept::Flash)?;
+    flash.erase(slot.from, slot.to).map_err(|_| StoreError::Flash)?;
 
     let body = slot.from + HEAD as u32;
     let whole = block.len() - block.len() % F::WRITE_SIZE;
     let (words, rest) = block.split_at(whole);
-    flash.write(body, words).map_err(|_| NotKept::Flash)?;
+    flash.write(body, words).map_err(|_| StoreError::Flash)?;
     if !rest.is_empty() {
         // the last word is filled up with what erased flash holds
         let mut word = [0xFF_u8; HEAD];
         word.iter_mut().zip(rest).for_each(|(to, from)| *to = *from);
-        let word = word.get(..F::WRITE_SIZE).ok_or(NotKept::Flash)?;
-        flash.write(body + whole as u32, word).map_err(|_| NotKept::Flash)?;
+        let word = word.get(..F::WRITE_SIZE).ok_or(StoreError::Flash)?;
+        flash.write(body + whole as u32, word).map_err(|_| StoreError::Flash)?;
     }
 
     let mut head = [0; HEAD];
@@ -98,22 +98,22 @@ pub fn keep<F: NorFlash>(flash: &mut F, slots: &[Slot; 2], block: &[u8]) -> Resu
     let check = check.finalize().to_le_bytes();
     let fields = [MAGIC, sequence.to_le_bytes(), (block.len() as u32).to_le_bytes(), check];
     head.iter_mut().zip(fields.as_flattened()).for_each(|(to, from)| *to = *from);
-    flash.write(slot.from, &head).map_err(|_| NotKept::Flash)?;
+    flash.write(slot.from, &head).map_err(|_| StoreError::Flash)?;
 
-    match look(flash, slots, index) {
-        Some(kept) if kept.sequence == sequence && kept.len == block.len() => Ok(kept),
-        _ => Err(NotKept::Unread),
+    match read_slot(flash, slots, index) {
+        Some(stored) if stored.sequence == sequence && stored.len == block.len() => Ok(stored),
+        _ => Err(StoreError::Unread),
     }
 }
 
 /// What a slot holds, if it is good.
-fn look<F: ReadNorFlash>(flash: &mut F, slots: &[Slot; 2], index: usize) -> Option<Kept> {
+fn read_slot<F: ReadNorFlash>(flash: &mut F, slots: &[Slot; 2], index: usize) -> Option<StoredBlock> {
     let slot = slots.get(index)?;
     let mut head = [0; HEAD];
     flash.read(slot.from, &mut head).ok()?;
     let [magic, sequence, len, stated] = words(&head);
     let len = len as usize;
-    if magic != u32::from_le_bytes(MAGIC) || len > LONGEST || (HEAD + len) as u32 > slot.to - slot.from {
+    if magic != u32::from_le_bytes(MAGIC) || len > MAX_BLOCK || (HEAD + len) as u32 > slot.to - slot.from {
         return None;
     }
     let at = slot.from + HEAD as u32;
@@ -126,7 +126,7 @@ fn look<F: ReadNorFlash>(flash: &mut F, slots: &[Slot; 2], index: usize) -> Opti
         add(&mut check, part);
         done += part.len();
     }
-    (check.finalize() == stated).then_some(Kept { slot: index, at, len, sequence })
+    (check.finalize() == stated).then_some(StoredBlock { slot: index, at, len, sequence })
 }
 
 /// Counts bytes into a check. By itself: the check has no table, and its loop is long when written out.
