@@ -3,7 +3,7 @@
 //! Faults are injected one by one and stay until they are healed.
 
 use model_core::effects::Effect;
-use model_core::effects::card::{Card, Scope, Seam};
+use model_core::effects::card::{Card, Physics, Scope, Seam, Undone};
 use model_core::effects::seams::{EffectContext, Gear};
 
 /// Something that is wrong.
@@ -67,6 +67,9 @@ static CARD: Card = Card {
     needs_current: false,
     signature: "the wheel stands, whatever its current",
     look_alikes: &[],
+    code: 0,
+    undone: Undone::No("it is a fault, which the firmware finds"),
+    physics: Physics::PASSIVE,
 };
 
 impl Effect<f64> for BlockedWheel {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use model_core::effects::card::{Card, Role, Scope};
+use model_core::effects::card::{Card, Role, Scope, Undone};
 use model_core::effects::catalogue;
 
 use crate::golden;
@@ -41,6 +41,10 @@ fn section(card: &Card) -> String {
     let _ = writeln!(page, "- stage: {} (seam: {})", card.stage().name(), seams.join(", "));
     let _ = writeln!(page, "- sits on: {}", place(card));
     let _ = writeln!(page, "- shows as: {}", card.signature);
+    let _ = match card.undone {
+        Undone::By(how) => writeln!(page, "- the robot undoes it: {how}"),
+        Undone::No(why) => writeln!(page, "- the robot cannot undo it: {why}"),
+    };
     let _ = writeln!(page, "- source: {}\n", card.source);
     let _ = writeln!(page, "| parameter | symbol | unit | absent | typical | from | to | role |");
     let _ = writeln!(page, "|---|---|---|---|---|---|---|---|");

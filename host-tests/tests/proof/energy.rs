@@ -2,8 +2,8 @@
 
 use host_tests::excite::voltages;
 use model_core::effects::active::Effects;
-use model_core::effects::card::Role;
-use model_core::effects::catalogue;
+use model_core::effects::card::{Card, Role, Scope, Seam, Stage};
+use model_core::effects::{CARDS, catalogue};
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
@@ -22,12 +22,25 @@ fn energy<const N: usize, T: Real + Into<f64>>(run: &Run<N, T>, inertia: f64) ->
     sum
 }
 
-/// Effects that may move a robot without a motor: gravity does, and the turning force is tested by itself.
-const NOT_FRICTION: [&str; 2] = ["floor_tilt", "coriolis"];
+/// Every effect of some kind that can sit on all wheels or on the robot, typical and together, and the inertia that they
+/// add to a wheel [kg·m²].
+fn everything<const N: usize, T: Real>(of: impl Fn(&Card) -> bool) -> (Effects<N, T>, f64) {
+    let (mut all, mut inertia) = (Effects::default(), 0.0);
+    for effect in catalogue::<T>() {
+        let card = effect.card();
+        if card.scope != Scope::OneWheel && of(card) {
+            let params = typical(card);
+            inertia += card.physics.inertia.map_or(0.0, |k| params[k]);
+            let params: Vec<T> = params.into_iter().map(T::lit).collect();
+            all.add(*effect, None, &params).expect("room");
+        }
+    }
+    (all, inertia)
+}
 
 /// Each friction-like effect at several sizes, and all at once.
 fn friction_like<const N: usize>(robot: Robot<N, f64>, check: impl Fn(&str, Plant<N, f64>, f64)) {
-    for effect in catalogue::<f64>().iter().filter(|e| !NOT_FRICTION.contains(&e.card().id)) {
+    for effect in catalogue::<f64>().iter().filter(|e| e.card().physics.passive) {
         let card = effect.card();
         for seat in seats(card, N).into_iter().take(2) {
             for part in [0.1, 0.5, 1.0] {
@@ -39,7 +52,7 @@ fn friction_like<const N: usize>(robot: Robot<N, f64>, check: impl Fn(&str, Plan
                         *value = p.absent + part * (most - p.absent);
                     }
                 }
-                let inertia = if card.id == "rotor_inertia" { params[0] } else { 0.0 };
+                let inertia = card.physics.inertia.map_or(0.0, |k| params[k]);
                 // an inertia on one wheel alone is not what `energy` counts
                 if inertia == 0.0 || seat.is_none() {
                     check(
@@ -51,12 +64,7 @@ fn friction_like<const N: usize>(robot: Robot<N, f64>, check: impl Fn(&str, Plan
             }
         }
     }
-    let mut all = Effects::default();
-    for id in ["dead_time", "gear_efficiency", "stribeck", "rotor_inertia"] {
-        let effect = effect::<f64>(id);
-        all.add(effect, None, &typical(effect.card())).expect("room");
-    }
-    let inertia = typical(effect::<f64>("rotor_inertia").card())[0];
+    let (all, inertia) = everything(|card| card.physics.passive);
     check("all together", Plant::new(robot, all), inertia);
     check("nothing", plain(robot), 0.0);
 }
@@ -121,14 +129,15 @@ fn gained<const N: usize>(plant: Plant<N, f64>, inertia: f64, steps: u32) -> f64
 #[test]
 fn driven_or_not_friction_adds_nothing_to_the_motors_work() {
     let robot = four::<f64>();
-    for id in ["gear_efficiency", "stribeck", "rotor_inertia"] {
-        let e = effect::<f64>(id);
+    // on the shafts: what is in bridge and winding does not turn, and what a contact loses is not the motors' work
+    for e in catalogue::<f64>().iter().filter(|e| e.card().seams == [Seam::Gear] && e.card().physics.passive) {
+        let id = e.card().id;
         for seat in [None, Some(2)] {
-            let inertia = if id == "rotor_inertia" { typical(e.card())[0] } else { 0.0 };
+            let inertia = e.card().physics.inertia.map_or(0.0, |k| typical(e.card())[k]);
             if inertia > 0.0 && seat.is_some() {
                 continue;
             }
-            let plant = with_effect(robot, e, seat, &typical(e.card()));
+            let plant = with_effect(robot, *e, seat, &typical(e.card()));
             let [coarse, fine] = [1, 4].map(|steps| gained(plant, inertia, steps));
             // In a step in which something turns round, friction is spent for the whole step against the way it ends:
             // budget (2 N at most on an axis) times the way gone before, ½·a·Δt² with a of 10 m/s² = 5e-6 m
@@ -156,13 +165,12 @@ fn the_turning_force_does_no_work() {
 }
 
 /// On a floor tilted by `tilt`, from rest, after 2 s: has anything moved at all?
-fn moves<const N: usize, T: Real + Into<f64>>(robot: Robot<N, T>, tilt: f64, others: &[&str], theta: f64) -> bool {
-    let mut effects = Effects::default();
-    for id in others {
-        let e = effect::<T>(id);
-        let params: Vec<T> = typical(e.card()).into_iter().map(T::lit).collect();
-        effects.add(e, None, &params).expect("room");
-    }
+fn moves<const N: usize, T: Real + Into<f64>>(
+    robot: Robot<N, T>,
+    tilt: f64,
+    mut effects: Effects<N, T>,
+    theta: f64,
+) -> bool {
     effects.add(effect("floor_tilt"), None, &[T::lit(tilt), T::lit(0.5)]).expect("room");
     let start = [0.3, -0.2, theta];
     let mut run = Run::from(Plant::new(robot, effects), start, [0.0; 3]);
@@ -177,28 +185,33 @@ fn moves<const N: usize, T: Real + Into<f64>>(robot: Robot<N, T>, tilt: f64, oth
 fn a_robot_on_a_floor_tilted_too_little_stays_exactly_where_it_is() {
     // break-away: sin β = C_v/(M·g) = 0.082 at the least (four wheels); in any other direction more
     for theta in [0.0, 0.5, 1.3, -2.0] {
-        assert!(!moves(three::<f64>(), 0.08, &[], theta), "three wheels, {theta}");
-        assert!(!moves(four::<f64>(), 0.08, &[], theta), "four wheels, {theta}");
-        assert!(!moves(three::<f32>(), 0.08, &[], theta), "three wheels, single precision, {theta}");
-        assert!(!moves(four::<f32>(), 0.08, &[], theta), "four wheels, single precision, {theta}");
+        assert!(!moves(three::<f64>(), 0.08, Effects::default(), theta), "three wheels, {theta}");
+        assert!(!moves(four::<f64>(), 0.08, Effects::default(), theta), "four wheels, {theta}");
+        assert!(!moves(three::<f32>(), 0.08, Effects::default(), theta), "three wheels, single precision, {theta}");
+        assert!(!moves(four::<f32>(), 0.08, Effects::default(), theta), "four wheels, single precision, {theta}");
     }
-    assert!(moves(four::<f64>(), 0.085, &[], 0.5), "C_v holds 0.0817");
-    assert!(!moves(four::<f64>(), 0.09, &[], 0.5 + std::f64::consts::FRAC_PI_2), "C_vn holds 0.0969");
+    assert!(moves(four::<f64>(), 0.085, Effects::default(), 0.5), "C_v holds 0.0817");
+    assert!(!moves(four::<f64>(), 0.09, Effects::default(), 0.5 + std::f64::consts::FRAC_PI_2), "C_vn holds 0.0969");
 }
 
 #[test]
 fn a_robot_with_friction_on_its_shafts_stays_exactly_where_it_is() {
     for theta in [0.0, 0.5, 1.3, -2.0] {
-        for others in [&["stribeck"][..], &["gear_efficiency"], &["stribeck", "dead_time", "coriolis", "rotor_inertia"]]
-        {
-            assert!(!moves(three::<f64>(), 0.08, others, theta), "three wheels, {others:?}, {theta}");
-            assert!(!moves(four::<f64>(), 0.08, others, theta), "four wheels, {others:?}, {theta}");
-            assert!(!moves(four::<f32>(), 0.08, others, theta), "four wheels, single precision, {others:?}, {theta}");
+        for card in CARDS.into_iter().filter(|card| card.seams == [Seam::Gear] && card.scope != Scope::OneWheel) {
+            let alone = |other: &Card| other.id == card.id;
+            assert!(!moves(three::<f64>(), 0.08, everything(alone).0, theta), "three wheels, {}, {theta}", card.id);
+            assert!(!moves(four::<f64>(), 0.08, everything(alone).0, theta), "four wheels, {}, {theta}", card.id);
+            assert!(!moves(four::<f32>(), 0.08, everything(alone).0, theta), "single precision, {}, {theta}", card.id);
         }
+        // with the turning force, and all that lies between command and wheel; a contact that gives way does not hold
+        let held = |card: &Card| card.physics.direction.is_none() && card.stage() != Stage::Contact;
+        assert!(!moves(three::<f64>(), 0.08, everything(held).0, theta), "three wheels, {theta}");
+        assert!(!moves(four::<f64>(), 0.08, everything(held).0, theta), "four wheels, {theta}");
+        assert!(!moves(four::<f32>(), 0.08, everything(held).0, theta), "four wheels, single precision, {theta}");
     }
     // static friction is 1.5 times the kinetic: between the two a robot at rest stays
-    assert!(!moves(four::<f64>(), 0.1, &["stribeck"], 0.5), "stribeck holds 0.12");
-    assert!(moves(four::<f64>(), 0.1, &[], 0.5));
+    assert!(!moves(four::<f64>(), 0.1, everything(|card| card.id == "stribeck").0, 0.5), "stribeck holds 0.12");
+    assert!(moves(four::<f64>(), 0.1, Effects::default(), 0.5));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use model_core::effects::Effect;
-use model_core::effects::card::{Card, Param, Role, Scope, Seam};
+use model_core::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
 use model_core::number::scalar::Real;
 
@@ -23,6 +23,9 @@ const BLANK: Card = Card {
     needs_current: false,
     signature: "",
     look_alikes: &[],
+    code: 0,
+    undone: Undone::No("it is invented"),
+    physics: Physics::PASSIVE,
 };
 
 /// Teeth of the motor that pull the wheel into 18 places a turn: τ += x·sin(18·angle).

@@ -159,6 +159,22 @@ fn cards_say_all_that_a_person_asks() {
 }
 
 #[test]
+fn cards_say_how_an_effect_is_undone_or_why_not_and_what_physics_says_of_it() {
+    for card in cards() {
+        let words = card.undone.words();
+        assert!(words.len() > 10 && !words.ends_with('.'), "{}: {words}", card.id);
+        let physics = card.physics;
+        let known = |k: usize| card.params.get(k).unwrap_or_else(|| panic!("{} has no parameter {k}", card.id));
+        assert!(physics.inertia.is_none_or(|k| known(k).unit == "kg·m²"), "{}: an inertia", card.id);
+        assert!(physics.direction.is_none_or(|k| known(k).unit == "rad"), "{}: a direction", card.id);
+        for p in physics.mirrored.iter().map(|k| known(*k)) {
+            assert_eq!(p.within.0, -p.within.1, "{}.{}: what a mirror turns round has both signs", card.id, p.key);
+        }
+        assert!((1e-12..1e-2).contains(&physics.apart), "{}: {:e} apart", card.id, physics.apart);
+    }
+}
+
+#[test]
 fn equations_name_the_symbols_that_size_them() {
     for card in cards() {
         for p in card.params.iter().filter(|p| p.role == Role::Size) {

@@ -6,19 +6,13 @@
 
 use host_tests::excite::{Hold, voltages};
 use model_core::effects::active::Effects;
+use model_core::effects::card::{Card, Physics, Scope};
 use model_core::effects::catalogue;
 use model_core::plant::Plant;
 use model_core::plant::robot::Robot;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::fixture::{Run, effect, four, gap, plain, three, typical, wrapped};
-
-/// Rounding, kept small by friction: two runs of 2 s that differ in the last bits only.
-const ROUNDING: f64 = 1e-9;
-
-/// Where budgets couple, the sweeps over them stop once nothing moves by more than 1e-6 m/s, and they go through the axes
-/// in their order, which a turned robot has otherwise: each step may differ by that.
-const SWEEPS: f64 = 1e-4;
+use crate::fixture::{Run, four, gap, plain, three, typical, wrapped};
 
 type Params = Vec<f64>;
 
@@ -26,37 +20,27 @@ type Params = Vec<f64>;
 fn each<const N: usize>(
     robot: (Robot<N, f64>, Robot<N, f64>),
     wheel_there: impl Fn(usize) -> usize,
-    params_there: impl Fn(&str, Params) -> Params,
-    check: impl Fn(&str, Plant<N, f64>, Plant<N, f64>),
+    params_there: impl Fn(&Card, Params) -> Params,
+    check: impl Fn(&str, f64, Plant<N, f64>, Plant<N, f64>),
 ) {
-    check("nothing", plain(robot.0), plain(robot.1));
+    check("nothing", apart(None), plain(robot.0), plain(robot.1));
     for effect in catalogue::<f64>() {
         let card = effect.card();
         for seat in crate::fixture::seats(card, N).into_iter().take(2) {
             let params = typical(card);
             let mut sets: [Effects<N, f64>; 2] = Default::default();
             sets[0].add(*effect, seat, &params).expect("a seat that the card allows");
-            let there = params_there(card.id, params);
+            let there = params_there(card, params);
             sets[1].add(*effect, seat.map(&wheel_there), &there).expect("a seat that the card allows");
             let [here, there] = sets;
-            check(card.id, Plant::new(robot.0, here), Plant::new(robot.1, there));
+            check(card.id, apart(Some(card)), Plant::new(robot.0, here), Plant::new(robot.1, there));
         }
     }
 }
 
 /// How far two runs that ought to be the same may part [m/s, rad/s, m, rad].
-fn apart(id: &str) -> f64 {
-    match id {
-        // budgets on the wheels' shafts couple the axes
-        "stribeck" => SWEEPS,
-        // besides, a wheel that sticks has a speed of ±1e-16, whose sign decides whether it counts as driven: a budget
-        // that differs by 2.6 % of a torque of 0.2 N·m, 0.16 N at the rim of 2 kg, for some milliseconds each time
-        "gear_efficiency" => 2e-3,
-        // Newton's rule stops at 1e-6 of the current, and its h points the same way whichever way the current flows:
-        // 1e-6 A push with 4e-6 N, on 2 kg for the 0.1 s that the motors take to brake it, and 0.1 N·m on 0.02 kg·m²
-        "dead_time" => 2e-5,
-        _ => ROUNDING,
-    }
+fn apart(card: Option<&Card>) -> f64 {
+    card.map_or(Physics::PASSIVE, |card| card.physics).apart
 }
 
 fn holds<const N: usize>() -> Vec<Hold<N>> {
@@ -74,7 +58,7 @@ fn four_wheels_turned_by_90_degrees_are_the_same_robot() {
         (here, there),
         |j| (j + 1) % 4,
         |_, params| params,
-        |id, here, there| {
+        |id, apart, here, there| {
             let mut here = Run::new(here);
             let mut there = Run::from(there, [0.0, 0.0, -FRAC_PI_2], [0.0; 3]);
             for hold in holds::<4>() {
@@ -85,7 +69,7 @@ fn four_wheels_turned_by_90_degrees_are_the_same_robot() {
                 let [v, vn, w] = here.twist();
                 let (p, q) = (here.pose(), there.pose());
                 let off = gap(there.twist(), [-vn, v, w]).max(gap(q, [p[0], p[1], p[2] - FRAC_PI_2]));
-                assert!(off < apart(id), "{id}: {off:e}");
+                assert!(off < apart, "{id}: {off:e}");
             }
         },
     );
@@ -101,7 +85,7 @@ fn three_wheels_turned_by_120_degrees_are_the_same_robot() {
         (robot, robot),
         |j| (j + 1) % 3,
         |_, params| params,
-        |id, here, there| {
+        |id, apart, here, there| {
             let mut here = Run::new(here);
             let mut there = Run::from(there, [0.0, 0.0, -third], [0.0; 3]);
             for hold in holds::<3>() {
@@ -114,7 +98,7 @@ fn three_wheels_turned_by_120_degrees_are_the_same_robot() {
                 let (p, q) = (here.pose(), there.pose());
                 let turned = [cos * v - sin * vn, sin * v + cos * vn, w];
                 let off = gap(there.twist(), turned).max(gap(q, [p[0], p[1], p[2] - third]));
-                assert!(off < apart(id), "{id}: {off:e}");
+                assert!(off < apart, "{id}: {off:e}");
             }
         },
     );
@@ -122,21 +106,15 @@ fn three_wheels_turned_by_120_degrees_are_the_same_robot() {
 
 /// Left and right swapped: vn and ω change sign, wheel j becomes `wheel[j]` and drives the other way.
 fn mirrored<const N: usize>(robot: Robot<N, f64>, wheel: [usize; N]) {
-    let params = |id: &str, mut params: Params| {
-        match id {
-            // downhill is mirrored too
-            "floor_tilt" => params[1] = -params[1],
-            // a current that changes its sign is read with the other offset
-            "current_sensor_offset" => params[0] = -params[0],
-            _ => {}
-        }
+    let params = |card: &Card, mut params: Params| {
+        card.physics.mirrored.iter().for_each(|k| params[*k] = -params[*k]);
         params
     };
     each(
         (robot, robot),
         |j| wheel[j],
         params,
-        |id, here, there| {
+        |id, apart, here, there| {
             let (mut here, mut there) = (Run::new(here), Run::new(there));
             for hold in holds::<N>() {
                 let mut u = [0.0; N];
@@ -147,11 +125,11 @@ fn mirrored<const N: usize>(robot: Robot<N, f64>, wheel: [usize; N]) {
                     let (a, b) = (here.drive(hold.u, 1e-3), there.drive(u, 1e-3));
                     // a current is twist errors times l·Kv/(r·R), about one ampere for each m/s
                     let off = gap(a.current, wheel.map(|k| -b.current[k]));
-                    assert!(off < 10.0 * apart(id), "{id}, a current: {off:e}");
+                    assert!(off < 10.0 * apart, "{id}, a current: {off:e}");
                 }
                 let ([v, vn, w], [x, y, theta]) = (here.twist(), here.pose());
                 let off = gap(there.twist(), [v, -vn, -w]).max(gap(there.pose(), [x, -y, -theta]));
-                assert!(off < apart(id), "{id}: {off:e}");
+                assert!(off < apart, "{id}: {off:e}");
             }
         },
     );
@@ -171,7 +149,7 @@ fn a_run_that_starts_later_is_the_same_run() {
         (robot, robot),
         |j| j,
         |_, params| params,
-        |id, here, there| {
+        |id, _, here, there| {
             let (mut here, mut there) = (Run::new(here), Run::new(there));
             there.state.time = 1000.3;
             for hold in holds::<4>() {
@@ -192,17 +170,15 @@ fn a_run_that_starts_later_is_the_same_run() {
 fn a_run_somewhere_else_in_the_world_is_the_same_run() {
     fn check<const N: usize>(robot: Robot<N, f64>) {
         let [x0, y0, turn] = [3.0, -2.0, 2.1];
-        let params = |id: &str, mut params: Params| {
-            if id == "floor_tilt" {
-                params[1] = wrapped(params[1] + turn);
-            }
+        let params = |card: &Card, mut params: Params| {
+            card.physics.direction.into_iter().for_each(|k| params[k] = wrapped(params[k] + turn));
             params
         };
         each(
             (robot, robot),
             |j| j,
             params,
-            |id, here, there| {
+            |id, apart, here, there| {
                 let mut here = Run::from(here, [0.0; 3], [0.3, 0.2, -1.0]);
                 let mut there = Run::from(there, [x0, y0, turn], [0.3, 0.2, -1.0]);
                 for hold in holds::<N>() {
@@ -213,7 +189,7 @@ fn a_run_somewhere_else_in_the_world_is_the_same_run() {
                     let ([x, y, theta], (sin, cos)) = (here.pose(), turn.sin_cos());
                     let moved = [x0 + cos * x - sin * y, y0 + sin * x + cos * y, theta + turn];
                     let off = gap(here.twist(), there.twist()).max(gap(there.pose(), moved));
-                    assert!(off < apart(id), "{id}: {off:e}");
+                    assert!(off < apart, "{id}: {off:e}");
                 }
             },
         );
@@ -225,14 +201,17 @@ fn a_run_somewhere_else_in_the_world_is_the_same_run() {
 #[test]
 fn all_effects_together_keep_the_symmetry_of_four_wheels() {
     let robot = four::<f64>();
+    // every one that looks the same from all sides
+    let all: Vec<_> = catalogue::<f64>().iter().filter(|e| e.card().scope != Scope::OneWheel).collect();
+    let all: Vec<_> = all.into_iter().filter(|e| e.card().physics.direction.is_none()).collect();
     let together = || {
         let mut effects = Effects::default();
-        for id in ["supply_sag", "dead_time", "rotor_inertia", "creep", "coriolis", "actuation_delay"] {
-            let effect = effect::<f64>(id);
-            effects.add(effect, None, &typical(effect.card())).expect("room");
+        for effect in &all {
+            effects.add(**effect, None, &typical(effect.card())).expect("room");
         }
         effects
     };
+    let apart: f64 = all.iter().map(|e| e.card().physics.apart).sum();
     // by 180° every axis goes over into itself
     let mut here = Run::new(Plant::new(robot, together()));
     let mut there = Run::from(Plant::new(robot, together()), [0.0, 0.0, PI], [0.0; 3]);
@@ -243,6 +222,6 @@ fn all_effects_together_keep_the_symmetry_of_four_wheels() {
         }
         let ([v, vn, w], p) = (here.twist(), here.pose());
         let off = gap(there.twist(), [-v, -vn, w]).max(gap(there.pose(), [p[0], p[1], p[2] + PI]));
-        assert!(off < 1e-6, "{off:e}");
+        assert!(off < apart, "{off:e}");
     }
 }

@@ -24,8 +24,9 @@
 //!
 //! How to get the numbers: `omni-gap diagnose`, which writes them into `corrected_robot.toml`.
 
+use crate::effects::CARDS;
 use crate::effects::body::{coriolis, floor_tilt};
-use crate::effects::card::{Card, Scope};
+use crate::effects::card::Card;
 use crate::effects::contact::creep;
 use crate::effects::drivetrain::{gear_efficiency, rotor_inertia, stribeck};
 use crate::effects::electrical::{dead_time, motor_mismatch};
@@ -82,15 +83,9 @@ pub struct Compensation<const N: usize, T = f32> {
 /// Why an effect is not undone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotCompensable {
-    /// `actuation_delay`
-    Delay,
-    /// `wheel_slip`
-    Slip,
-    /// `supply_sag`
-    Sag,
-    /// `camera_latency`
-    Camera,
-    /// An id that is no effect, or one that this file does not know how to undo.
+    /// The effect's card says why.
+    Effect(&'static str),
+    /// An id that is no effect.
     Unknown,
     /// The wheel named is not there, or the effect is the robot's, or it needs a wheel and none is named.
     Wheel,
@@ -104,11 +99,8 @@ impl NotCompensable {
     /// The reason, for a person.
     pub const fn reason(self) -> &'static str {
         match self {
-            Self::Delay => "a voltage that arrives late would have to be known before it is asked for",
-            Self::Slip => "no current makes the floor hold more; lower the largest acceleration",
-            Self::Sag => "nothing is left to undo: duties are worked out from the bus voltage as measured",
-            Self::Camera => "the control loop on the robot does not see the camera",
-            Self::Unknown => "no way to undo this effect is known",
+            Self::Effect(why) => why,
+            Self::Unknown => "there is no such effect",
             Self::Wheel => "the effect does not sit on the wheel named",
             Self::Parameters => "the number of parameters is not the effect's, or one is out of its bounds",
             Self::Twice => "the effect is undone on this wheel already",
@@ -197,11 +189,10 @@ impl<const N: usize, T: Real> Compensation<N, T> {
                 let [offset] = checked::<N, 1, T>(&current_sensor_offset::CARD, wheel, params)?;
                 put(&mut self.current_offset, none.current_offset, wheel, offset)?;
             }
-            "actuation_delay" => return Err(NotCompensable::Delay),
-            "wheel_slip" => return Err(NotCompensable::Slip),
-            "supply_sag" => return Err(NotCompensable::Sag),
-            "camera_latency" => return Err(NotCompensable::Camera),
-            _ => return Err(NotCompensable::Unknown),
+            _ => {
+                let card = CARDS.into_iter().find(|card| card.id == id).ok_or(NotCompensable::Unknown)?;
+                return Err(NotCompensable::Effect(card.undone.words()));
+            }
         }
         Ok(self)
     }
@@ -216,12 +207,7 @@ fn checked<const N: usize, const K: usize, T: Real>(
     wheel: Option<usize>,
     params: &[T],
 ) -> Result<[T; K], NotCompensable> {
-    let sits = match card.scope {
-        Scope::Robot => wheel.is_none(),
-        Scope::Wheels => wheel.is_none_or(|j| j < N),
-        Scope::OneWheel => wheel.is_some_and(|j| j < N),
-    };
-    if !sits {
+    if !card.scope.admits(wheel, N) {
         return Err(NotCompensable::Wheel);
     }
     let held: [T; K] = params.try_into().map_err(|_| NotCompensable::Parameters)?;

@@ -118,9 +118,7 @@ impl<const N: usize, T: Real> Effects<N, T> {
         if self.len == MAX_EFFECTS {
             return Err(EffectError::Full);
         }
-        if wheel.is_some_and(|w| w >= N || card.scope == Scope::Robot)
-            || (wheel.is_none() && card.scope == Scope::OneWheel)
-        {
+        if !card.scope.admits(wheel, N) {
             return Err(EffectError::Wheel);
         }
         if params.len() != card.params.len() || params.len() > MAX_PARAMS {

@@ -85,6 +85,17 @@ pub enum Scope {
     OneWheel,
 }
 
+impl Scope {
+    /// True if an effect can sit on this wheel of so many, or on none in particular.
+    pub const fn admits(self, wheel: Option<usize>, wheels: usize) -> bool {
+        match (self, wheel) {
+            (Scope::Robot, None) | (Scope::Wheels, None) => true,
+            (Scope::Robot, Some(_)) | (Scope::OneWheel, None) => false,
+            (Scope::Wheels | Scope::OneWheel, Some(wheel)) => wheel < wheels,
+        }
+    }
+}
+
 /// One parameter of an effect.
 #[derive(Clone, Copy, Debug)]
 pub struct Param {
@@ -125,6 +136,45 @@ pub struct LookAlike {
     pub settled_by: &'static str,
 }
 
+/// What the robot's controller does about an effect that its parameters name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Undone {
+    /// It undoes it: how.
+    By(&'static str),
+    /// It cannot: why.
+    No(&'static str),
+}
+
+impl Undone {
+    /// How, or why not.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Undone::By(how) => how,
+            Undone::No(why) => why,
+        }
+    }
+}
+
+/// What physics says of an effect whatever its size: the tests hold every effect to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Physics {
+    /// True if it moves no robot whose motors rest: it takes energy, or keeps it, and never gives any.
+    pub passive: bool,
+    /// The parameter that is an inertia at the wheel shaft [kg·m²]: there it keeps energy.
+    pub inertia: Option<usize>,
+    /// The parameters that change their sign in a mirror that swaps left and right.
+    pub mirrored: &'static [usize],
+    /// The parameter that is a direction in the world [rad].
+    pub direction: Option<usize>,
+    /// How far two runs of some seconds may part that symmetry makes one: of velocities and poses, in SI units.
+    pub apart: f64,
+}
+
+impl Physics {
+    /// An effect that takes energy and looks the same in a mirror, up to rounding, which friction keeps small.
+    pub const PASSIVE: Self = Self { passive: true, inertia: None, mirrored: &[], direction: None, apart: 1e-9 };
+}
+
 /// An effect's page as data.
 #[derive(Clone, Copy, Debug)]
 pub struct Card {
@@ -152,6 +202,12 @@ pub struct Card {
     pub signature: &'static str,
     /// What it can be mistaken for.
     pub look_alikes: &'static [LookAlike],
+    /// Its number in the parameter blocks that robots keep. It stays with the effect for ever; a new one gets the next.
+    pub code: u8,
+    /// How the robot's controller undoes it, or why it cannot.
+    pub undone: Undone,
+    /// What it does to energy and symmetry.
+    pub physics: Physics,
 }
 
 impl Card {

@@ -28,6 +28,23 @@ pub fn catalogue<T: Real>() -> &'static [&'static dyn Effect<T>] {
     }
 }
 
+/// The cards of all effects, in the same order.
+pub const CARDS: [&Card; 13] = [
+    &electrical::actuation_delay::CARD,
+    &electrical::supply_sag::CARD,
+    &electrical::dead_time::CARD,
+    &electrical::motor_mismatch::CARD,
+    &drivetrain::gear_efficiency::CARD,
+    &drivetrain::stribeck::CARD,
+    &drivetrain::rotor_inertia::CARD,
+    &contact::wheel_slip::CARD,
+    &contact::creep::CARD,
+    &body::coriolis::CARD,
+    &body::floor_tilt::CARD,
+    &sensing::camera_latency::CARD,
+    &sensing::current_sensor_offset::CARD,
+];
+
 /// The effect of this id.
 pub fn find<T: Real>(id: &str) -> Option<&'static dyn Effect<T>> {
     catalogue::<T>().iter().copied().find(|e| e.card().id == id)
@@ -70,7 +87,7 @@ impl CauseCard {
 
 /// Every cause that there is: the effects, then the nominal parameters.
 pub fn causes() -> impl Iterator<Item = CauseCard> {
-    let effects = catalogue::<f64>().iter().map(|effect| CauseCard::Effect(effect.card()));
+    let effects = CARDS.into_iter().map(CauseCard::Effect);
     effects.chain(NOMINAL.into_iter().map(CauseCard::Nominal))
 }
 

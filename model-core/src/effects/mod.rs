@@ -30,7 +30,7 @@ pub mod sensing;
 pub mod nominal;
 
 mod catalogue;
-pub use catalogue::{CauseCard, catalogue, cause, causes, find};
+pub use catalogue::{CARDS, CauseCard, catalogue, cause, causes, find};
 
 // The effects of one model
 pub mod active;

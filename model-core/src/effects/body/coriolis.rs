@@ -21,7 +21,7 @@
 //! Source: derivative of a vector in a turning frame; catalogue note B1.
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, EffectContext};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
@@ -48,6 +48,13 @@ pub const CARD: Card = Card {
     needs_current: false,
     signature: "force missing in step with ω·vn on v and with −ω·v on vn; nothing in runs along one axis",
     look_alikes: &[],
+    code: 10,
+    undone: Undone::By("the turning force of the reference is taken away"),
+    physics: Physics {
+        // it does no work, but turns the velocity
+        passive: false,
+        ..Physics::PASSIVE
+    },
 };
 
 /// Turning force (v, vn) of a mass [N, N].

@@ -24,7 +24,7 @@
 //! Source: gravity on an inclined plane; size from catalogue note B5 (0.2–2°).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, EffectContext, STANDARD_GRAVITY};
 use crate::number::scalar::Real;
 
@@ -61,6 +61,15 @@ pub const CARD: Card = Card {
     needs_current: false,
     signature: "a constant force in the world frame, at rest too; in the body frame it turns with the heading",
     look_alikes: &[],
+    code: 11,
+    undone: Undone::By("the downhill pull is taken away, the heading being that of the reference"),
+    physics: Physics {
+        // gravity moves a robot without a motor
+        passive: false,
+        mirrored: &[1],
+        direction: Some(1),
+        ..Physics::PASSIVE
+    },
 };
 
 /// Downhill pull over mass of a floor as steep as this [m/s²].

@@ -18,7 +18,7 @@
 //! Source: brush model at small slip; size from catalogue note C5 (0.005–0.05 (m/s)/N).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, LookAlike, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
 use crate::number::scalar::Real;
 
@@ -47,6 +47,9 @@ pub const CARD: Card = Card {
         with: "wheel_slip",
         settled_by: "drive gently: creep stays at small forces, slip does not",
     }],
+    code: 9,
+    undone: Undone::By("the wheel turns faster than the floor passes by, by c·f/r"),
+    physics: Physics::PASSIVE,
 };
 
 /// Speed of the rim over the floor [m/s].

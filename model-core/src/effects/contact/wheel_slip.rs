@@ -24,7 +24,7 @@
 //! Source: Pacejka, Tire and Vehicle Dynamics; size from catalogue notes C6 and C7 (μ 0.2–0.8).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, LookAlike, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
 use crate::number::scalar::Real;
 
@@ -70,6 +70,9 @@ pub const CARD: Card = Card {
     needs_current: false,
     signature: "wheels faster than the body at high current; wheels disagree with each other; current itself right",
     look_alikes: &[LookAlike { with: "creep", settled_by: "drive gently: creep stays at small forces, slip does not" }],
+    code: 8,
+    undone: Undone::No("no current makes the floor hold more; lower the largest acceleration"),
+    physics: Physics::PASSIVE,
 };
 
 /// Force on the floor [N] and its slope [N/(m/s)], of a contact that holds at most `limit` [N].

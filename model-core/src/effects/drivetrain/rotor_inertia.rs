@@ -21,7 +21,7 @@
 //! Source: kinetic energy of the turning parts; size from catalogue note D9 (3e-5 to 2e-4 kg·m²).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, LookAlike, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
 use crate::number::scalar::Real;
 
@@ -56,6 +56,9 @@ pub const CARD: Card = Card {
             settled_by: "lift the wheels off the floor and step the voltage: their run-up shows the rotors without the body",
         },
     ],
+    code: 7,
+    undone: Undone::By("what turns with the wheels is added to M and J: Σ J_w/r²·G_jᵀG_j"),
+    physics: Physics { inertia: Some(0), ..Physics::PASSIVE },
 };
 
 /// Inertia of rotor and wheel at the wheel shaft [kg·m²].

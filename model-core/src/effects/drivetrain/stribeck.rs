@@ -21,7 +21,7 @@
 //! Source: curve after Stribeck in the form of Bo and Pavelescu; sizes from catalogue note D3 (20–100 %, a = 1–2).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
 use crate::number::scalar::Real;
 
@@ -67,6 +67,14 @@ pub const CARD: Card = Card {
     needs_current: false,
     signature: "torque short near zero speed, at starts and reversals; current itself right",
     look_alikes: &[],
+    code: 6,
+    undone: Undone::By("each wheel's static excess is added, against the rim speed of the reference"),
+    physics: Physics {
+        // budgets on the wheels' shafts couple the axes. The sweeps over them stop once nothing moves by more than
+        // 1e-6 m/s, and go through the axes in their order, which a turned robot has otherwise
+        apart: 1e-4,
+        ..Physics::PASSIVE
+    },
 };
 
 /// The share of the static excess that is left at a rim speed: 1 at rest, 0 well above the Stribeck speed.

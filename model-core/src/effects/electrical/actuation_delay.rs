@@ -25,7 +25,7 @@
 //! Source: held input behind a pure delay; size from catalogue note E13 (1–10 ms over radio).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext, StepOutcome};
 use crate::number::scalar::Real;
 
@@ -58,6 +58,9 @@ pub const CARD: Card = Card {
     needs_current: false,
     signature: "current wrong for a moment after every change of voltage, and right in between; speed and pose late with it",
     look_alikes: &[],
+    code: 1,
+    undone: Undone::No("a voltage that arrives late would have to be known before it is asked for"),
+    physics: Physics::PASSIVE,
 };
 
 /// What has not arrived yet of the command: (its mean over the step, its value when the current is sampled) [V].

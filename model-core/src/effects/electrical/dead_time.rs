@@ -19,7 +19,7 @@
 //! Source: size from catalogue note E2 (0.05–0.6 V); the paper sees it as part of R (section 5.4).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, LookAlike, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
 use crate::number::scalar::Real;
 
@@ -65,6 +65,14 @@ pub const CARD: Card = Card {
             settled_by: "compare current with voltage at standstill: friction leaves u = R·i, dead time does not",
         },
     ],
+    code: 3,
+    undone: Undone::By("the voltage lost is added"),
+    physics: Physics {
+        // Newton's rule stops at 1e-6 of the current, and its h points the same way whichever way the current flows:
+        // 1e-6 A push with 4e-6 N, on 2 kg for the 0.1 s that the motors take to brake it, and 0.1 N·m on 0.02 kg·m²
+        apart: 2e-5,
+        ..Physics::PASSIVE
+    },
 };
 
 /// Voltage lost [V].

@@ -21,7 +21,7 @@
 //! Source: equations of the DC motor; sizes from catalogue notes E8 (−5 to −30 %) and E9 (+5 to +50 %).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Winding};
 use crate::number::scalar::Real;
 
@@ -58,6 +58,9 @@ pub const CARD: Card = Card {
     needs_current: false,
     signature: "current and torque wrong on one wheel alone: in step with its speed (k) or with its current (ρ)",
     look_alikes: &[],
+    code: 4,
+    undone: Undone::By("the odd motor is driven by its own R, K_v and K_t"),
+    physics: Physics::PASSIVE,
 };
 
 /// The winding of the odd motor.

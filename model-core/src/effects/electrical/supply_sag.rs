@@ -22,7 +22,7 @@
 //! Source: voltage source behind a resistance; size from catalogue note E3 (0.05–0.3 Ω).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, LookAlike, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Supply};
 use crate::number::scalar::Real;
 
@@ -62,6 +62,9 @@ pub const CARD: Card = Card {
         with: "resistance",
         settled_by: "hold one wheel at a steady command and load the others: sag lowers its current, resistance does not",
     }],
+    code: 2,
+    undone: Undone::No("nothing is left to undo: duties are worked out from the bus voltage as measured"),
+    physics: Physics::PASSIVE,
 };
 
 /// Bus voltage [V].

@@ -23,7 +23,7 @@
 //! Source: pure delay; size from catalogue note S1 (20–90 ms; one camera frame is 40 ms).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
 use crate::geometry::frames::Pose;
 use crate::number::scalar::Real;
@@ -60,6 +60,9 @@ pub const CARD: Card = Card {
     needs_current: false,
     signature: "pose behind by velocity times latency, in x, y and heading alike; current and wheel speed right",
     look_alikes: &[],
+    code: 12,
+    undone: Undone::No("the control loop on the robot does not see the camera"),
+    physics: Physics::PASSIVE,
 };
 
 /// The pose a `latency` [s] ago.

@@ -16,7 +16,7 @@
 //! Source: zero error of a shunt amplifier; size from catalogue note S9 (10–100 mA).
 
 use crate::effects::Effect;
-use crate::effects::card::{Card, Param, Role, Scope, Seam};
+use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
 use crate::number::scalar::Real;
 
@@ -42,6 +42,13 @@ pub const CARD: Card = Card {
     needs_current: false,
     signature: "a constant in the current, at rest too; speed and pose right",
     look_alikes: &[],
+    code: 13,
+    undone: Undone::By("the current wanted is asked for as its sensor will show it"),
+    physics: Physics {
+        // a current that changes its sign is read with the other offset
+        mirrored: &[0],
+        ..Physics::PASSIVE
+    },
 };
 
 /// Reading of the current [A].

@@ -1,9 +1,9 @@
 //! The effects in a block: a number each, that never changes its meaning, and their parameters.
 
 use super::{BlockError, BlockErrorKind, BoundedField};
+use crate::effects::CARDS;
 use crate::effects::active::MAX_EFFECTS;
 use crate::effects::card::{Card, MAX_PARAMS, Scope};
-use crate::effects::{body, contact, drivetrain, electrical, sensing};
 use crate::link::bytes::Reader;
 
 /// An effect that a block may name.
@@ -19,36 +19,30 @@ pub struct EffectCode {
     fields: [BoundedField; MAX_PARAMS],
 }
 
-/// Every effect with its number. A number stays with its effect for ever; a new effect gets the next one.
-pub static EFFECT_CODES: [EffectCode; 13] = [
-    effect_code(1, &electrical::actuation_delay::CARD),
-    effect_code(2, &electrical::supply_sag::CARD),
-    effect_code(3, &electrical::dead_time::CARD),
-    effect_code(4, &electrical::motor_mismatch::CARD),
-    effect_code(5, &drivetrain::gear_efficiency::CARD),
-    effect_code(6, &drivetrain::stribeck::CARD),
-    effect_code(7, &drivetrain::rotor_inertia::CARD),
-    effect_code(8, &contact::wheel_slip::CARD),
-    effect_code(9, &contact::creep::CARD),
-    effect_code(10, &body::coriolis::CARD),
-    effect_code(11, &body::floor_tilt::CARD),
-    effect_code(12, &sensing::camera_latency::CARD),
-    effect_code(13, &sensing::current_sensor_offset::CARD),
-];
-
-/// What a block needs of a card, in single precision; made when the program is built.
-const fn effect_code(code: u8, card: &Card) -> EffectCode {
-    let mut fields = [BoundedField { key: "", within: (0.0, 0.0) }; MAX_PARAMS];
+/// Every effect with its number, as the cards say.
+pub static EFFECT_CODES: [EffectCode; CARDS.len()] = {
+    let mut codes = [EffectCode::of(CARDS[0]); CARDS.len()];
     let mut k = 0;
-    while k < card.params.len() {
-        let (low, high) = card.params[k].within;
-        fields[k] = BoundedField { key: card.params[k].key, within: (low as f32, high as f32) };
+    while k < codes.len() {
+        codes[k] = EffectCode::of(CARDS[k]);
         k += 1;
     }
-    EffectCode { code, id: card.id, scope: card.scope, count: card.params.len(), fields }
-}
+    codes
+};
 
 impl EffectCode {
+    /// What a block needs of a card, in single precision; made when the program is built.
+    const fn of(card: &Card) -> Self {
+        let mut fields = [BoundedField { key: "", within: (0.0, 0.0) }; MAX_PARAMS];
+        let mut k = 0;
+        while k < card.params.len() {
+            let (low, high) = card.params[k].within;
+            fields[k] = BoundedField { key: card.params[k].key, within: (low as f32, high as f32) };
+            k += 1;
+        }
+        Self { code: card.code, id: card.id, scope: card.scope, count: card.params.len(), fields }
+    }
+
     /// The effect of this number.
     pub fn by_code(code: u8) -> Option<&'static EffectCode> {
         EFFECT_CODES.iter().find(|known| known.code == code)
@@ -125,11 +119,7 @@ impl BlockEffect {
     }
 
     fn check(&self, wheels: usize) -> Result<(), BlockError> {
-        let fits = match (self.wheel, self.known.scope) {
-            (Some(wheel), scope) => scope != Scope::Robot && usize::from(wheel) < wheels,
-            (None, scope) => scope != Scope::OneWheel,
-        };
-        if !fits {
+        if !self.known.scope.admits(self.wheel.map(usize::from), wheels) {
             let value = f32::from(self.wheel.unwrap_or(EVERY_WHEEL));
             return Err(BlockError { value, ..BlockError::because(BlockErrorKind::EffectWheel, self.known.id) });
         }
