@@ -5,6 +5,8 @@
 
 #[path = "walls/code.rs"]
 mod code;
+#[path = "walls/engine.rs"]
+mod engine;
 #[path = "walls/finding.rs"]
 mod finding;
 #[path = "walls/manifest.rs"]
@@ -52,6 +54,16 @@ fn the_core_depends_on_libm_and_crc_alone() {
 #[test]
 fn doors_between_the_rooms_open_one_way() {
     none(in_all(&rust_below(rooms::HOUSE), rooms::backward_doors));
+}
+
+#[test]
+fn every_threshold_of_the_engine_stands_among_its_knobs() {
+    none(in_all(&rust_below(engine::ENGINE), engine::thresholds));
+}
+
+#[test]
+fn a_report_knows_of_the_engine_nothing_but_its_findings() {
+    none(in_all(&rust_below(engine::REPORT), engine::looks_into_the_engine));
 }
 
 #[test]

@@ -17,6 +17,7 @@ mod linear;
 mod noise;
 mod pass;
 mod prior;
+mod relative;
 mod settings;
 mod shoot;
 #[cfg(test)]
@@ -36,6 +37,7 @@ pub use joint::{GIVEN, IDENTIFIED, Identified, Joint, Refused, joint};
 pub use linear::{Linearised, WindowLinear, linearise};
 pub use noise::{Noise, noise_of};
 pub use prior::{Prior, PriorRow, Release};
+pub use relative::relative_std;
 pub use settings::FitSettings;
 pub use shoot::{Shots, Starts, WINDOW_S, Windows, first_starts, run_windows};
 pub use tempered::{fit_tempered, nominal_free};

@@ -5,6 +5,7 @@
 
 mod cause;
 mod changes;
+mod considered;
 mod gap;
 mod place;
 mod traces;
@@ -13,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 pub use cause::{Corrected, Estimate, NextExperiment, Which};
 pub use changes::{EffectChange, FileChanges, NumberChange};
+pub use considered::{ConsideredCause, EstimatedBy, EstimatedNumber};
 pub use gap::{Gap, HorizonError, Shrink, SignalGap};
 pub use place::{Regime, Where};
 pub use traces::{SignalTrace, Traces};
@@ -42,6 +44,8 @@ pub struct Findings {
     pub causes: Vec<String>,
     /// Every cause considered, most probable first; probabilities sum to 1.
     pub which: Vec<Which>,
+    /// The same causes at every place and in every round of the search, each with the estimate of its numbers.
+    pub considered: Vec<ConsideredCause>,
     /// Where the gap lies; shares sum to 1.
     #[serde(rename = "where")]
     pub where_: Vec<Where>,
@@ -71,6 +75,7 @@ impl Findings {
             verdict: Verdict::UnfitData,
             causes: Vec::new(),
             which: Vec::new(),
+            considered: Vec::new(),
             where_: Vec::new(),
             gap: Gap::default(),
             shrink: Shrink::default(),

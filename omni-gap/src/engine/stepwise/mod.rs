@@ -8,6 +8,7 @@
 
 mod accept;
 mod candidate;
+mod considered;
 mod distances;
 mod not_seen;
 mod numbers;
@@ -85,6 +86,7 @@ fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, 
     Findings {
         engine: None,
         verdict: verdict(&search),
+        considered: considered::considered(&search, robot),
         where_: places::places(&search, &nominal, &data),
         gap,
         shrink,

@@ -7,7 +7,7 @@ use model_core::plant::robot::Nominal;
 use super::candidate::Cause;
 use super::search::Search;
 use crate::engine::findings::{Corrected, Estimate, FileChanges};
-use crate::identify::Fit;
+use crate::identify::{Fit, Release};
 use crate::log::{Change, EffectEntry, RobotFile};
 use crate::simulate::{Model, NOMINAL_KEYS, NominalKey, Slot};
 
@@ -29,8 +29,7 @@ pub(super) fn of_cause<const N: usize>(cause: &Cause, fit: &Fit<N>, robot: &Robo
             }
         }
         Cause::Parameter(release) => {
-            let own = |p: &Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
-            for key in NOMINAL_KEYS.iter().filter(|k| k.factors.iter().any(own)) {
+            for key in own_keys(*release) {
                 let value = key.value(robot) * key.factor(&fit.model.factor);
                 let std = relative_std(fit, key).map(|s| s * value);
                 numbers.insert(key.key.to_owned(), Estimate { value, std, unit: key.unit.to_owned() });
@@ -38,6 +37,12 @@ pub(super) fn of_cause<const N: usize>(cause: &Cause, fit: &Fit<N>, robot: &Robo
         }
     }
     numbers
+}
+
+/// The robot file's numbers that a parameter cause speaks of.
+pub(super) fn own_keys(release: Release) -> impl Iterator<Item = &'static NominalKey> {
+    let own = move |p: &Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
+    NOMINAL_KEYS.iter().filter(move |key| key.factors.iter().any(own))
 }
 
 /// Relative uncertainty of a nominal number after a fit, its factors' correlation left aside.

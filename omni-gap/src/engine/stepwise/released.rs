@@ -1,19 +1,72 @@
 //! The screen of the nominal values: what striking out a statement of the robot file promises, without a fit.
 
+use model_core::plant::robot::Nominal;
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::{Fit, Linearised, Prior, Release};
+use crate::identify::{Fit, FitSettings, Linearised, Prior, Release};
 use crate::simulate::Slot;
 
-/// For every parameter cause, the drop of the whole cost that striking out its statement promises.
-///
-/// With v the violations of the statements in question and K their leverage, the drop is vᵀ(1 − K)⁻¹v.
-pub fn parameter_gains<const N: usize>(
+/// A parameter cause and what the screen says of it.
+#[derive(Clone, Debug)]
+pub struct ScreenedRelease {
+    /// The cause.
+    pub release: Release,
+    /// Drop of the whole cost that striking out its statement promises.
+    pub gain: f64,
+    /// Where one linear step without the statement leads; none where the equations cannot be solved.
+    pub step: Option<OneStep>,
+}
+
+/// Nominal factors after one linear step.
+#[derive(Clone, Debug)]
+pub struct OneStep {
+    /// The factors.
+    pub factors: [f64; Nominal::COUNT],
+    /// Covariance of the fit's free numbers by the linear equations
+    covariance: DMatrix<f64>,
+    /// The fit's free numbers
+    slots: Vec<Slot>,
+}
+
+impl OneStep {
+    /// Covariance of two factors; none where one was not free.
+    pub fn covariance_of(&self, a: Nominal, b: Nominal) -> Option<f64> {
+        let at = |p| self.slots.iter().position(|slot| *slot == Slot::Nominal(p));
+        Some(self.covariance[(at(a)?, at(b)?)])
+    }
+}
+
+/// Screens parameter causes at a fit.
+pub fn screen_releases<const N: usize>(
     fit: &Fit<N>,
     linear: &Linearised,
     prior: &Prior,
     causes: &[Release],
-) -> Vec<(Release, f64)> {
+    settings: &FitSettings,
+) -> Vec<ScreenedRelease> {
+    let step = |release| one_step(fit, linear, &prior.without(release, settings.released_sigma));
+    let gains = gains(fit, linear, prior, causes);
+    gains.into_iter().map(|(release, gain)| ScreenedRelease { release, gain, step: step(release) }).collect()
+}
+
+/// Δp = S⁻¹·g with other statements than those of the fit, and S⁻¹.
+fn one_step<const N: usize>(fit: &Fit<N>, linear: &Linearised, prior: &Prior) -> Option<OneStep> {
+    let reduced = fit.reduced(linear, prior);
+    let hess = reduced.hess.cholesky()?;
+    let step = hess.solve(&reduced.grad);
+    let mut factors = fit.model.factor;
+    for (free, step) in fit.free.iter().zip(step.iter()) {
+        if let Slot::Nominal(p) = free.slot {
+            factors[p as usize] += step;
+        }
+    }
+    Some(OneStep { factors, covariance: hess.inverse(), slots: fit.free.iter().map(|f| f.slot).collect() })
+}
+
+/// For every parameter cause, the drop of the whole cost that striking out its statement promises.
+///
+/// With v the violations of the statements in question and K their leverage, the drop is vᵀ(1 − K)⁻¹v.
+fn gains<const N: usize>(fit: &Fit<N>, linear: &Linearised, prior: &Prior, causes: &[Release]) -> Vec<(Release, f64)> {
     let reduced = fit.reduced(linear, prior);
     let Some(hess) = reduced.hess.cholesky() else { return Vec::new() };
     let violations = prior.violations(&fit.model);

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::candidate::{Cause, candidates, releases};
-use super::released::parameter_gains;
+use super::released::{ScreenedRelease, screen_releases};
 use super::scored::{Data, Scored};
 use super::screen::{Screened, screen};
 use crate::engine::knobs::ScreenKnobs;
@@ -28,6 +28,8 @@ pub struct Ranking<const N: usize> {
     pub ranked: Vec<Ranked<N>>,
     /// Every effect with its promise by the screen, best first; kept for the causes that were not fitted.
     pub screened: Vec<Screened>,
+    /// Every parameter cause with its promise, best first.
+    pub released: Vec<ScreenedRelease>,
     /// Error scale: the least held-out Σ error² per number, at least one.
     pub scale: f64,
 }
@@ -66,19 +68,18 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
     screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     drop(linear);
     let whole = base.fit.linearised(data.to_fit());
-    let mut parameters = parameter_gains(&base.fit, &whole, prior, &releases());
-    parameters.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut released = screen_releases(&base.fit, &whole, prior, &releases(), &data.knobs.fit);
+    released.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     drop(whole);
 
     let effects = worth_a_fit(&screened, knobs)
         .into_iter()
         .map(|s| (Cause::Effect(s.candidate.card, s.candidate.wheel), Some(s.from.clone()), prior.clone(), s.gain));
-    let released = parameters.iter().filter(|(_, gain)| *gain > knobs.promising).take(knobs.fitted_parameters).map(
-        |(release, gain)| {
-            (Cause::Parameter(*release), None, prior.without(*release, data.knobs.fit.released_sigma), *gain)
-        },
-    );
-    let mut jobs: Vec<(Cause, Option<Carried>, Prior, f64)> = effects.chain(released).collect();
+    let parameters = released.iter().filter(|r| r.gain > knobs.promising).take(knobs.fitted_parameters).map(|r| {
+        let without = prior.without(r.release, data.knobs.fit.released_sigma);
+        (Cause::Parameter(r.release), None, without, r.gain)
+    });
+    let mut jobs: Vec<(Cause, Option<Carried>, Prior, f64)> = effects.chain(parameters).collect();
     jobs.sort_by(|a, b| b.3.total_cmp(&a.3));
     let fitted = |(cause, effect, prior, _): (Cause, Option<Carried>, Prior, f64)| {
         let mut model = base.fit.model.clone();
@@ -108,5 +109,5 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
         .fold(f64::INFINITY, f64::min)
         .max(1.0);
     ranked.sort_by(|a, b| a.scored.score(scale).total_cmp(&b.scored.score(scale)));
-    Ranking { base, ranked, screened, scale }
+    Ranking { base, ranked, screened, released, scale }
 }

@@ -7,12 +7,14 @@
 //!
 //! The gain is the drop of Σ error²/φ that the best multiple of s would bring.
 
+use model_core::effects::card::{Card, Role};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::Plant;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
+use crate::engine::findings::EstimatedNumber;
 use crate::engine::knobs::ScreenKnobs;
 use crate::identify::{Fit, Linearised, Prior, Shots, Starts, Whitener, run_windows};
 use crate::simulate::{Carried, Recorded};
@@ -29,6 +31,8 @@ pub struct Screened {
     pub visible: f64,
     /// Its best trial, scaled to the size that fits best: where a fit should start.
     pub from: Carried,
+    /// Its free numbers by one linear step, not held to bounds.
+    pub numbers: Vec<EstimatedNumber>,
 }
 
 /// Screens candidates at a fit.
@@ -63,9 +67,10 @@ pub fn screen<const N: usize>(
                     let own = hess.solve(&shared);
                     let explains = overlap - shared.dot(&toward);
                     let left = size - shared.dot(&own);
-                    let amplitude =
-                        if left > knobs.least_left * size && left > knobs.least_size { explains / left } else { 0.0 };
-                    Trial { effect: trial.clone(), amplitude, gain: explains * amplitude, size: left.max(0.0).sqrt() }
+                    let determined = left > knobs.least_left * size && left > knobs.least_size;
+                    let amplitude = if determined { explains / left } else { 0.0 };
+                    let (effect, gain, size) = (trial.clone(), explains * amplitude, left.max(0.0).sqrt());
+                    Trial { effect, amplitude, gain, size, determined }
                 })
                 .collect()
         })
@@ -76,16 +81,12 @@ pub fn screen<const N: usize>(
         .map(|(candidate, tried)| {
             // the first trial is the typical size
             let visible = tried[0].size;
-            let mut best = &tried[0];
             let allowed = |t: &Trial| t.amplitude > 0.0 || both_ways(&candidate, &t.effect);
             let gain = |t: &Trial| if allowed(t) { t.gain } else { 0.0 };
-            for trial in &tried {
-                if gain(trial) > gain(best) {
-                    best = trial;
-                }
-            }
+            let best = first_best(&tried, gain).unwrap_or(&tried[0]);
+            let numbers = one_step(candidate.card, &tried, best, gain);
             let (gain, from) = (gain(best), scaled(&candidate, &best.effect, best.amplitude, knobs.start_between));
-            Screened { candidate, gain, visible, from }
+            Screened { candidate, gain, visible, from, numbers }
         })
         .collect()
 }
@@ -99,6 +100,41 @@ struct Trial {
     gain: f64,
     /// Size of what starts and parameters cannot imitate [σ]
     size: f64,
+    /// Whether that is more than rounding
+    determined: bool,
+}
+
+/// The first of those that gain most.
+fn first_best<'a>(tried: impl IntoIterator<Item = &'a Trial>, gain: impl Fn(&Trial) -> f64) -> Option<&'a Trial> {
+    tried.into_iter().reduce(|best, trial| if gain(trial) > gain(best) { trial } else { best })
+}
+
+/// The free numbers of an effect by one linear step: each of the trial that departs from absent in it alone of the sizes
+/// and gains most; a shape that no such trial has stands where the best trial has it.
+///
+/// ```text
+/// p = p₀ + a·(p_trial − p₀) ± |p_trial − p₀|/√(s⊥·s⊥)        p₀: absent, a: amplitude
+/// ```
+fn one_step(card: &Card, tried: &[Trial], best: &Trial, gain: impl Fn(&Trial) -> f64) -> Vec<EstimatedNumber> {
+    let free = card.params.iter().enumerate().filter(|(_, p)| p.role != Role::Fixed);
+    free.map(|(k, p)| {
+        let departs = |t: &&Trial| t.effect.params[k] != p.absent;
+        let no_size = |t: &&Trial| {
+            let mut sizes = card.params.iter().zip(&t.effect.params).filter(|(other, _)| other.role == Role::Size);
+            p.role == Role::Size || (p.absent == p.typical && sizes.all(|(other, x)| *x == other.absent))
+        };
+        let own = first_best(tried.iter().filter(departs).filter(no_size), &gain);
+        let (value, std) = match own {
+            Some(trial) if trial.determined => {
+                let change = trial.effect.params[k] - p.absent;
+                (Some(p.absent + trial.amplitude * change), Some(change.abs() / trial.size))
+            }
+            Some(_) => (None, None),
+            None => (Some(best.effect.params[k]), None),
+        };
+        EstimatedNumber { key: p.key.to_owned(), unit: p.unit.to_owned(), absent: p.absent, value, std }
+    })
+    .collect()
 }
 
 /// True if the trial's own change may also go the other way: past "absent" within the bounds.
@@ -116,7 +152,7 @@ fn scaled(candidate: &Candidate, trial: &Carried, amplitude: f64, between: (f64,
     let by = amplitude.signum() * amplitude.abs().clamp(between.0, between.1);
     let mut from = trial.clone();
     for (p, x) in candidate.card.params.iter().zip(&mut from.params) {
-        if p.role == model_core::effects::card::Role::Size && (by > 0.0 || p.within.0 < p.absent) {
+        if p.role == Role::Size && (by > 0.0 || p.within.0 < p.absent) {
             *x = (p.absent + by * (*x - p.absent)).clamp(p.within.0, p.within.1);
         }
     }

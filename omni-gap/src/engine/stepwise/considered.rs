@@ -1,0 +1,115 @@
+//! Every cause of every round, fitted or only screened, with the estimate of its numbers.
+
+use model_core::effects::card::{Card, Role};
+
+use super::candidate::Cause;
+use super::numbers::own_keys;
+use super::released::ScreenedRelease;
+use super::round::{Ranked, Ranking};
+use super::screen::Screened;
+use super::search::Search;
+use crate::engine::findings::{ConsideredCause, EstimatedBy, EstimatedNumber};
+use crate::identify::relative_std;
+use crate::log::RobotFile;
+use crate::simulate::Slot;
+use crate::vocabulary::{Axis, Kind};
+
+/// All of them, round by round, effects first.
+pub(super) fn considered<const N: usize>(search: &Search<N>, robot: &RobotFile) -> Vec<ConsideredCause> {
+    let mut all = Vec::new();
+    for (round, ranking) in search.rounds.iter().enumerate() {
+        let effects = ranking.screened.iter().map(|s| effect(s, ranking));
+        let parameters = ranking.released.iter().map(|r| parameter(r, ranking, robot));
+        for (cause, mut considered) in effects.chain(parameters) {
+            considered.round = round;
+            considered.taken_up = search.found.iter().any(|f| f.round == round && same(&f.cause, &cause));
+            all.push(considered);
+        }
+    }
+    all
+}
+
+/// True for the same cause at the same place.
+fn same(a: &Cause, b: &Cause) -> bool {
+    a.same_id(b) && a.wheel() == b.wheel() && a.axis() == b.axis()
+}
+
+fn effect<const N: usize>(screened: &Screened, ranking: &Ranking<N>) -> (Cause, ConsideredCause) {
+    let card = screened.candidate.card;
+    let cause = Cause::Effect(card, screened.candidate.wheel);
+    let fitted = ranking.ranked.iter().find(|r| same(&r.cause, &cause));
+    let numbers = match fitted {
+        Some(ranked) => fitted_effect(card, ranked),
+        None => screened.numbers.clone(),
+    };
+    (cause, entry(&cause, screened.gain, fitted, ranking, numbers))
+}
+
+fn fitted_effect<const N: usize>(card: &Card, ranked: &Ranked<N>) -> Vec<EstimatedNumber> {
+    let fit = &ranked.scored.fit;
+    let (id, wheel) = (ranked.cause.id(), ranked.cause.wheel());
+    let Some(at) = fit.model.effects.iter().position(|e| e.id == id && e.wheel == wheel) else { return Vec::new() };
+    let free = card.params.iter().enumerate().filter(|(_, p)| p.role != Role::Fixed);
+    free.map(|(k, p)| EstimatedNumber {
+        key: p.key.to_owned(),
+        unit: p.unit.to_owned(),
+        absent: p.absent,
+        value: Some(fit.model.effects[at].params[k]),
+        std: fit.std(Slot::Param(at, k)).filter(|std| std.is_finite()),
+    })
+    .collect()
+}
+
+fn parameter<const N: usize>(
+    screened: &ScreenedRelease,
+    ranking: &Ranking<N>,
+    robot: &RobotFile,
+) -> (Cause, ConsideredCause) {
+    let cause = Cause::Parameter(screened.release);
+    let fitted = ranking.ranked.iter().find(|r| same(&r.cause, &cause));
+    let numbers = own_keys(screened.release).map(|key| {
+        let (factor, std) = match fitted {
+            Some(Ranked { scored, .. }) => (Some(key.factor(&scored.fit.model.factor)), scored.fit.relative_std(key)),
+            None => {
+                let step = screened.step.as_ref();
+                let std = step.and_then(|s| relative_std(key, &s.factors, |a, b| s.covariance_of(a, b)));
+                (step.map(|s| key.factor(&s.factors)), std)
+            }
+        };
+        let absent = key.value(robot);
+        EstimatedNumber {
+            key: key.key.to_owned(),
+            unit: key.unit.to_owned(),
+            absent,
+            value: factor.map(|f| f * absent),
+            std: factor.zip(std).map(|(f, std)| (std * f * absent).abs()).filter(|std| std.is_finite()),
+        }
+    });
+    (cause, entry(&cause, screened.gain, fitted, ranking, numbers.collect()))
+}
+
+fn entry<const N: usize>(
+    cause: &Cause,
+    promise: f64,
+    fitted: Option<&Ranked<N>>,
+    ranking: &Ranking<N>,
+    numbers: Vec<EstimatedNumber>,
+) -> ConsideredCause {
+    let score = fitted.map(|r| r.scored.score(ranking.scale));
+    ConsideredCause {
+        id: cause.id().to_owned(),
+        kind: match cause {
+            Cause::Effect(..) => Kind::Effect,
+            Cause::Parameter(_) => Kind::Parameter,
+        },
+        wheel: cause.wheel(),
+        axis: cause.axis().map(|a| Axis::ALL[a]),
+        round: 0,
+        taken_up: false,
+        estimated_by: if fitted.is_some() { EstimatedBy::Fit } else { EstimatedBy::Screen },
+        numbers,
+        promise,
+        score,
+        gain: score.map(|score| ranking.base.score(ranking.scale) - score),
+    }
+}
