@@ -17,29 +17,30 @@ const STILL_RAD: f64 = 0.05;
 const NOISES: f64 = 6.0;
 const NEARLY_ALL: f64 = 0.99;
 
-/// Faults of a session as a whole; each is told at its first run.
-pub(super) fn check(runs: &[&Run], robot: &RobotFile) -> Vec<Fault> {
-    let Some(first) = runs.first() else { return Vec::new() };
+/// What a session as a whole lacks, told at its first run: the first thing that is missing.
+pub(super) fn check(runs: &[&Run], robot: &RobotFile) -> Option<Fault> {
+    let first = runs.first()?;
     let all = |what: &dyn Fn(&Run) -> bool| runs.iter().all(|run| what(run));
     let driven = |run: &Run| [&run.u, &run.i, &run.w, &run.wset].iter().filter(|group| group.is_some()).count();
     if all(&|run| driven(run) == 0) {
         let sentence = "Only the pose was logged, expected what drives the robot beside it.";
         let mend = "Log at least one of u, i, w or wset for every wheel.";
-        return vec![Fault::of(first, "nothing_drives_the_model", "", true).says(sentence, mend)];
+        return Some(Fault::of(first, "nothing_drives_the_model", "", true).says(sentence, mend));
     }
     if all(&|run| driven(run) == 1 && run.pose.is_none()) {
         let sentence = "What drives the model is all that was measured, so nothing is left to compare it with.";
         let mend = "Log the pose, or voltages beside the wheel speeds.";
-        return vec![Fault::of(first, "nothing_to_compare", "", true).says(sentence, mend)];
+        return Some(Fault::of(first, "nothing_to_compare", "", true).says(sentence, mend));
     }
-    let mut faults = Vec::new();
-    faults.extend(too_little(runs));
+    if let Some(fault) = too_little(runs) {
+        return Some(fault);
+    }
     if all(&|run| stands_still(run, robot)) {
         let sentence = "The robot never moves in this session: neither its wheels nor its pose leave their noise.";
         let mend = "Check that the motors were enabled, and record runs in which the robot drives on all three axes.";
-        faults.push(Fault::of(first, "never_moves", "w, x_m, y_m, theta_rad", true).says(sentence, mend));
+        return Some(Fault::of(first, "never_moves", "w, x_m, y_m, theta_rad", true).says(sentence, mend));
     }
-    faults
+    None
 }
 
 fn too_little(runs: &[&Run]) -> Option<Fault> {

@@ -12,8 +12,9 @@ const BEYOND: f64 = 8.0;
 /// Off the line: this many times the middle departure, and the stated noise.
 const OFF_LINE: f64 = 60.0;
 const OFF_NOISE: f64 = 15.0;
-/// And this share of the range.
-const OFF_RANGE: f64 = 0.5;
+/// And this many times the range: a wheel speed that drops to zero for a row is a lost telegram, and no reason to refuse.
+const OFF_RANGE_SPEED: f64 = 3.0;
+const OFF_RANGE_POSE: f64 = 0.5;
 const FEWEST: usize = 30;
 /// Glitches on more rows than this share are something else.
 const RARE: f64 = 0.05;
@@ -22,16 +23,19 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
     let sensors = &robot.sensors;
     let mut faults = Vec::new();
     for (name, channel) in run.signals() {
-        let noise = match name.as_str() {
+        let inert = match name.as_str() {
             "enable" => continue,
-            "x_m" | "y_m" => Some(sensors.position_noise_m),
-            "theta_rad" => Some(sensors.heading_noise_rad),
-            name if name.starts_with('w') && !name.starts_with("wset") => Some(sensors.wheel_speed_noise_rad_s),
+            "x_m" | "y_m" => Some((sensors.position_noise_m, OFF_RANGE_POSE)),
+            "theta_rad" => Some((sensors.heading_noise_rad, OFF_RANGE_POSE)),
+            name if name.starts_with('w') && !name.starts_with("wset") => {
+                Some((sensors.wheel_speed_noise_rad_s, OFF_RANGE_SPEED))
+            }
             _ => None,
         };
-        let Some((rows, value)) = found(run, channel, noise) else { continue };
+        let Some((rows, value)) = found(run, channel, inert) else { continue };
+        let value = (1e3 * value).round() / 1e3;
         let sentence = format!(
-            "`{name}` jumps away and back within one row in {} place(s), the farthest to {value:.6}; no robot moves so.",
+            "`{name}` jumps away and back within one row in {} place(s), the farthest to {value}; no robot moves so.",
             rows.len()
         );
         let mend = "Leave these fields empty, and look for a counter that overflows or a telegram without a checksum.";
@@ -40,8 +44,9 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
     faults
 }
 
-/// The rows of glitches, and the value of the farthest.
-fn found(run: &Run, channel: &Channel, noise: Option<f64>) -> Option<(Vec<usize>, f64)> {
+/// The rows of glitches, and the value of the farthest. `inert` is the noise of a channel that cannot jump, and how many
+/// of its ranges a jump must go.
+fn found(run: &Run, channel: &Channel, inert: Option<(f64, f64)>) -> Option<(Vec<usize>, f64)> {
     let seen: Vec<(usize, f64)> = channel.present().collect();
     if seen.len() < FEWEST {
         return None;
@@ -57,11 +62,11 @@ fn found(run: &Run, channel: &Channel, noise: Option<f64>) -> Option<(Vec<usize>
     for k in 1..seen.len() - 1 {
         let [before, now, after] = [k - 1, k, k + 1].map(|k| seen[k].1 - middle);
         let beyond = range > 0.0 && now.abs() > BEYOND * range && before.abs().max(after.abs()) < 0.2 * now.abs();
-        let jumps = noise.is_some_and(|noise| {
+        let jumps = inert.is_some_and(|(noise, ranges)| {
             let off = off_line(k).abs();
             off > OFF_LINE * usual
                 && off > OFF_NOISE * noise
-                && off > OFF_RANGE * range
+                && off > ranges * range
                 && (after - before).abs() < 0.2 * off
                 && run.t_s[seen[k + 1].0] - run.t_s[seen[k - 1].0] < (10.0 * step).max(0.1)
         });

@@ -102,8 +102,7 @@ impl Motors {
         self.gram.rest(u, w, i, within(self.a, tight), within(self.b, tight))
     }
 
-    fn duty(&self, run: &Run, robot: &RobotFile) -> Option<f64> {
-        let largest = run.u.iter().flat_map(|u| &u.channels).map(largest).fold(0.0, f64::max);
+    fn duty(&self, largest: f64, robot: &RobotFile) -> Option<f64> {
         let nominal = (robot.volts_per_wheel_speed(), robot.motor.resistance_ohm);
         let supply = robot.supply.map(|supply| supply.voltage_v);
         let known = duty::Known { nominal, largest, supply, currents: self.currents };
@@ -255,10 +254,11 @@ pub(super) fn check<'a>(runs: &[&'a Run], robot: &RobotFile) -> Vec<Fault> {
     let mut faults = Vec::new();
     for kind in [("u", true), ("u", false), ("wset", false)] {
         let of = |&run: &&'a Run| Some((run, Motors::new(run, robot).filter(|m| (m.drive, m.currents) == kind)?));
-        let (by_duty, rest): (Vec<_>, Vec<_>) =
-            runs.iter().filter_map(of).partition(|(run, motors)| motors.duty(run, robot).is_some());
-        faults.extend(by_duty.iter().filter_map(|(run, motors)| Some(duty_told(run, motors.duty(run, robot)?))));
-        let (runs, motors): (Vec<&Run>, Vec<Motors>) = rest.into_iter().unzip();
+        let all: Vec<(&Run, Motors)> = runs.iter().filter_map(of).collect();
+        let by_duty = duties(&all, robot);
+        faults.extend(all.iter().zip(&by_duty).filter_map(|((run, _), factor)| Some(duty_told(run, (*factor)?))));
+        let rest = all.into_iter().zip(by_duty).filter(|(_, factor)| factor.is_none()).map(|(one, _)| one);
+        let (runs, motors): (Vec<&Run>, Vec<Motors>) = rest.unzip();
         let found = agree::guesses(&motors);
         faults.extend(found.into_iter().map(|(guess, which)| {
             let fault = told(runs[which[0]], &motors[which[0]], &guess);
@@ -301,6 +301,20 @@ fn told(run: &Run, motors: &Motors, guess: &Guess) -> Fault {
         What::Wheels(order) => ("wrong_sign", order.words(name), "Turn the sign, or set sign = -1 in columns.toml."),
     };
     Fault::of(run, code, signal, true).says(format!("{what}: {better}{or}"), mend)
+}
+
+/// By what factor the drive of each run is a duty cycle. A log writes one or the other, so that what half of the runs
+/// say holds for those too that say nothing, where their drive is no larger.
+fn duties(runs: &[(&Run, Motors)], robot: &RobotFile) -> Vec<Option<f64>> {
+    let top = |run: &Run| run.u.iter().flat_map(|u| &u.channels).map(largest).fold(0.0, f64::max);
+    let own: Vec<Option<f64>> = runs.iter().map(|(run, motors)| motors.duty(top(run), robot)).collect();
+    let said: Vec<usize> = (0..runs.len()).filter(|k| own[*k].is_some()).collect();
+    if said.is_empty() || 2 * said.len() < runs.len() {
+        return own;
+    }
+    let most = said.iter().map(|k| top(runs[*k].0)).fold(0.0, f64::max);
+    let usual = own[said[0]];
+    runs.iter().zip(&own).map(|((run, _), own)| own.or(usual.filter(|_| top(run) <= most))).collect()
 }
 
 fn duty_told(run: &Run, factor: f64) -> Fault {

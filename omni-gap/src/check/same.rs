@@ -32,10 +32,9 @@ pub(super) fn check(runs: &[&Run]) -> Vec<Fault> {
 
 fn told(run: &Run, other: &Run, rows: usize, (first, other_first): (usize, usize)) -> Fault {
     let fatal = rows as f64 > SHARE * run.rows().min(other.rows()) as f64;
-    let what = if rows == run.rows() && rows == other.rows() { "All" } else { "Of the" };
-    let count = if what == "All" { format!("{rows}") } else { format!("{} rows {rows}", run.rows()) };
+    let count = if rows == run.rows() { format!("All {rows}") } else { format!("{rows} of {}", run.rows()) };
     let sentence = format!(
-        "{what} {count} measured rows are, to the last bit, those of {} from its line {} on: it is the same recording, and what a fit has seen would be held out to judge it.",
+        "{count} rows are, to the last bit, those of {} from its line {} on: it is one recording, and what was fitted would be judged by itself.",
         other.place().display(),
         other.line_of(other_first)
     );

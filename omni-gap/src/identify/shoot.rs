@@ -147,6 +147,7 @@ pub(super) fn run_some_windows<const N: usize, T: Real>(
         (state.wheel_angle, state.current, state.bus) = (before.wheel_angle, before.current, before.bus);
         enter(&mut memory);
         plant.restart(&state, &mut memory);
+        run.note_effort(rows.clone());
         for row in rows {
             let input = run.input::<T>(row);
             let reading = run.take_row(plant, &mut state, &mut memory, &input, row);

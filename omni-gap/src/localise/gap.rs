@@ -101,6 +101,7 @@ fn replay<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, seed: u64) -
     let rest = plant.start(0.0, Pose::default(), BodyTwist::default());
     let mut state = start_at(run, 0).state(plant, &rest);
     plant.restart(&state, &mut memory);
+    run.note_effort(0..run.rows());
     for row in 0..run.rows() {
         let input = run.input::<f64>(row);
         let reading = run.take_row(plant, &mut state, &mut memory, &input, row);

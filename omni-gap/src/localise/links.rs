@@ -157,6 +157,7 @@ fn free_run<const N: usize>(
     horizon: f64,
     input: impl Fn(usize) -> Input<N, f64>,
 ) -> Vec<Row> {
+    run.note_effort(0..run.rows());
     let mut memory = vec![0.0; plant.memory_len()];
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
     let mut restarts = restart_rows(&run.t, horizon).into_iter().peekable();

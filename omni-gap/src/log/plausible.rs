@@ -121,8 +121,8 @@ pub(super) fn together<'a>(
     if !fits(GYRATION, apart) {
         let problem = format!(
             "a mass of {} kg and an inertia of {} kg·m² do not belong to one robot: its mass would lie {:.2} times as far from its axis as its wheels do, expected {} to {} times",
-            shown(body.mass_kg),
-            shown(body.inertia_kg_m2),
+            shown(rounded(body.mass_kg)),
+            shown(rounded(body.inertia_kg_m2)),
             apart,
             GYRATION.0,
             GYRATION.1

@@ -7,6 +7,7 @@
 //! on.
 
 mod drivable;
+mod effort;
 mod excite;
 mod floor;
 mod halls;
@@ -23,6 +24,7 @@ mod start;
 mod terms;
 
 pub use drivable::drivable;
+pub use effort::steps_taken;
 pub use excite::{Excitation, excite};
 pub use floor::{Floor, floor_of};
 pub use keys::{NOMINAL_KEYS, NominalKey};

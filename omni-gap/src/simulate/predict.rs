@@ -40,6 +40,7 @@ pub fn restart_rows(t: &[f64], horizon: f64) -> Vec<usize> {
 
 /// Lets the plant run freely along a recording, restarted every `horizon` [s].
 pub fn predict<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon: f64) -> Prediction {
+    run.note_effort(0..run.rows());
     let restarts = restart_rows(&run.t, horizon);
     let mut memory = vec![0.0; plant.memory_len()];
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());

@@ -3,6 +3,7 @@
 use model_core::number::scalar::Real;
 use model_core::plant::{Input, Plant, Reading, State};
 
+use super::effort;
 use crate::log::{Group, RobotFile, Run, Sampled};
 
 /// The most channels that are compared: four currents, four wheel speeds, and the pose.
@@ -10,6 +11,9 @@ pub const MAX_CHANNELS: usize = 11;
 
 /// The longest step that the plant takes [s]; longer rows are cut into equal ones.
 const LONGEST_STEP_S: f64 = 0.0026;
+
+/// The most steps through one row: beyond half a minute without a row there is nothing to be told, and work must end.
+const MOST_STEPS: usize = 10_000;
 
 /// A quantum above this share of a signal's RMS is too coarse to drive a model with.
 const COARSE: f64 = 0.05;
@@ -270,7 +274,12 @@ impl<const N: usize> Recorded<N> {
     /// In how many equal steps the plant takes a row.
     #[inline]
     pub fn steps(&self, row: usize) -> usize {
-        ((self.dt[row] / LONGEST_STEP_S).ceil() as usize).max(1)
+        ((self.dt[row] / LONGEST_STEP_S).ceil() as usize).clamp(1, MOST_STEPS)
+    }
+
+    /// Counts the plant's steps through these rows into [`steps_taken`](super::steps_taken).
+    pub fn note_effort(&self, rows: std::ops::Range<usize>) {
+        effort::note(rows.map(|row| self.steps(row) as u64).sum());
     }
 
     /// Takes the plant through a row with the input held, and returns the reading at the row's beginning.
