@@ -1,11 +1,11 @@
 //! # Exchange: what the emulated board and its host tell each other, once a period
 //!
-//! In place of timers, converters and pins the emulated board has two files. It writes an [`UpFrame`] and then waits for a
-//! [`DownFrame`]; the host, which has the motors and the robot, does the opposite. So the host is the clock: nothing here
-//! depends on how fast either side runs.
+//! In place of timers, converters and pins the emulated board has two files. It writes an [`UpFrame`] and then waits
+//! for a [`DownFrame`]; the host, which has the motors and the robot, does the opposite. So the host is the clock:
+//! nothing here depends on how fast either side runs.
 //!
-//! What an [`UpFrame`] asks for holds over the period that follows, as compare registers that are loaded at the update do; the
-//! codes of a [`DownFrame`] are those of that period's PWM centre.
+//! What an [`UpFrame`] asks for holds over the period that follows, as compare registers that are loaded at the update
+//! do; the codes of a [`DownFrame`] are those of that period's PWM centre.
 
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;

@@ -1,8 +1,8 @@
 //! # Transmit queue: records, hellos and replies on their way to the link
 //!
 //! The motion turn puts messages into a queue and never waits; where the queue is full, a record is dropped and
-//! counted, and the next one says how many. A task of low priority makes frames of them and hands the link as many bytes
-//! as it takes.
+//! counted, and the next one says how many. A task of low priority makes frames of them and hands the link as many
+//! bytes as it takes.
 
 use heapless::spsc::{Consumer, Producer, Queue};
 use model_core::link::command::Reply;

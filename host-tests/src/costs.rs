@@ -51,7 +51,7 @@ impl Cost {
 }
 
 /// Limits that do not hold, and parts that were not counted.
-pub fn above(costs: &[Cost]) -> Vec<String> {
+pub fn exceeded(costs: &[Cost]) -> Vec<String> {
     let broken = |limit: &Limit| {
         let Some(cost) = costs.iter().find(|cost| cost.part == limit.part) else {
             return Some(format!("{} was not counted", limit.part));
@@ -109,9 +109,9 @@ mod tests {
 
     #[test]
     fn a_limit_holds_up_to_itself() {
-        assert!(above(&costs(260)).is_empty());
-        assert_eq!(above(&costs(261)), ["motion tick, 4 wheels: 261 instructions, limit 260"]);
-        assert_eq!(above(&costs(260)[1..]), ["motion tick, 4 wheels was not counted"]);
+        assert!(exceeded(&costs(260)).is_empty());
+        assert_eq!(exceeded(&costs(261)), ["motion tick, 4 wheels: 261 instructions, limit 260"]);
+        assert_eq!(exceeded(&costs(260)[1..]), ["motion tick, 4 wheels was not counted"]);
     }
 
     #[test]

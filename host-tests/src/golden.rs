@@ -21,7 +21,7 @@ pub fn path(name: &str) -> PathBuf {
 ///
 /// # Errors
 /// Where the page cannot be written.
-pub fn keeps(name: &str, page: &str, differences: impl FnOnce(&str) -> Vec<String>) -> Result<bool> {
+pub fn check_page(name: &str, page: &str, differences: impl FnOnce(&str) -> Vec<String>) -> Result<bool> {
     if std::env::var_os("BLESS").is_some_and(|bless| bless == "1") {
         write_whole(&path(name), page.as_bytes())?;
         println!("written: host-tests/golden/{name}; read the difference before you commit it: git diff");
@@ -67,7 +67,7 @@ pub fn lines(golden: &str, now: &str, same: impl Fn(&str, &str) -> bool) -> Vec<
 }
 
 /// Tells every promise that was not kept; true if there is none.
-pub fn all_kept(not_kept: &[String]) -> bool {
+pub fn report_broken(not_kept: &[String]) -> bool {
     not_kept.iter().for_each(|what| println!("not kept: {what}"));
     not_kept.is_empty()
 }

@@ -15,11 +15,11 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-use crate::paper::Robot;
+use crate::paper::PaperRobot;
 
 /// Motor, gear and wheel of one corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drive {
+pub struct Drivetrain {
     /// r, wheel radius [m]
     pub radius: f64,
     /// l, gear ratio, motor turns per wheel turn [1]
@@ -40,12 +40,12 @@ pub struct Wheel {
     /// d, lever arm of its rolling direction about the centre [m]
     pub distance: f64,
     /// What drives it.
-    pub drive: Drive,
+    pub drivetrain: Drivetrain,
 }
 
 /// Any robot of N wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rig<const N: usize> {
+pub struct GenericRobot<const N: usize> {
     /// The wheels, in order.
     pub wheels: [Wheel; N],
     /// M [kg]
@@ -72,17 +72,17 @@ pub struct Matrices<const N: usize> {
     /// Diagonal of m: M, M, J [kg, kg, kg·m²]
     pub inertia: Vector3<f64>,
     /// Motor, gear and wheel of every corner.
-    pub drives: [Drive; N],
+    pub drivetrains: [Drivetrain; N],
 }
 
 /// K = diag(−Cv/M, −Cvn/M, −Cω/J) (eq. 34 and 37), its diagonal [m/s², m/s², rad/s²].
-fn coulomb_diagonal(p: &Robot) -> Vector3<f64> {
+fn coulomb_diagonal(p: &PaperRobot) -> Vector3<f64> {
     let [cv, cvn, cw] = p.coulomb;
     Vector3::new(-cv / p.mass, -cvn / p.mass, -cw / p.inertia)
 }
 
 /// Eq. 33 as the paper prints it [(m/s²)/V, (m/s²)/V, (rad/s²)/V], its sign error included.
-pub fn eq33_as_printed(p: &Robot) -> Matrix3<f64> {
+pub fn eq33_as_printed(p: &PaperRobot) -> Matrix3<f64> {
     let (m, j) = (p.mass, p.inertia);
     let (sin60, cos60) = (3.0_f64.sqrt() / 2.0, 0.5);
     // B = l·Kt/(r·R) · ⎡−sin(π/3)/M   0    sin(π/3)/M⎤
@@ -94,8 +94,8 @@ pub fn eq33_as_printed(p: &Robot) -> Matrix3<f64> {
 
 impl Matrices<3> {
     /// Three wheels, from the printed forms: eq. 2 and 32–34.
-    pub fn printed(p: &Robot) -> Self {
-        let Robot { d, r, l, kt, resistance, mass: m, inertia: j, .. } = *p;
+    pub fn printed(p: &PaperRobot) -> Self {
+        let PaperRobot { d, r, l, kt, resistance, mass: m, inertia: j, .. } = *p;
         let [bv, bvn, bw] = p.viscous;
         // The closed forms are printed with Kt², for Kt = Kv.
         let kt2_l2 = kt.powi(2) * l.powi(2);
@@ -114,14 +114,14 @@ impl Matrices<3> {
         let (sin60, cos60) = (3.0_f64.sqrt() / 2.0, 0.5);
         // v0 = −sin(π/3)·v + cos(π/3)·vn + d·ω,  v1 = −vn + d·ω,  v2 = sin(π/3)·v + cos(π/3)·vn + d·ω     (eq. 2)
         let rim = Matrix3::new(-sin60, cos60, d, 0.0, -1.0, d, sin60, cos60, d);
-        Self { a, b, k: coulomb_diagonal(p), rim, inertia: Vector3::new(m, m, j), drives: [p.drive(); 3] }
+        Self { a, b, k: coulomb_diagonal(p), rim, inertia: Vector3::new(m, m, j), drivetrains: [p.drivetrain(); 3] }
     }
 }
 
 impl Matrices<4> {
     /// Four wheels, from the printed forms: eq. 6 and 35–37.
-    pub fn printed(p: &Robot) -> Self {
-        let Robot { d, r, l, kt, resistance, mass: m, inertia: j, .. } = *p;
+    pub fn printed(p: &PaperRobot) -> Self {
+        let PaperRobot { d, r, l, kt, resistance, mass: m, inertia: j, .. } = *p;
         let [bv, bvn, bw] = p.viscous;
         let kt2_l2 = kt.powi(2) * l.powi(2);
         let a = Matrix3::from_diagonal(&Vector3::new(
@@ -140,19 +140,19 @@ impl Matrices<4> {
         ) * (l * kt / (r * resistance));
         // v0 = vn + d·ω,  v1 = −v + d·ω,  v2 = −vn + d·ω,  v3 = v + d·ω                 (eq. 6)
         let rim = SMatrix::<f64, 4, 3>::from_row_slice(&[0.0, 1.0, d, -1.0, 0.0, d, 0.0, -1.0, d, 1.0, 0.0, d]);
-        Self { a, b, k: coulomb_diagonal(p), rim, inertia: Vector3::new(m, m, j), drives: [p.drive(); 4] }
+        Self { a, b, k: coulomb_diagonal(p), rim, inertia: Vector3::new(m, m, j), drivetrains: [p.drivetrain(); 4] }
     }
 }
 
 impl<const N: usize> Matrices<N> {
     /// Any geometry, any mix of drives, from virtual work (the page above).
-    pub fn derived(rig: &Rig<N>) -> Self {
+    pub fn derived(rig: &GenericRobot<N>) -> Self {
         // vⱼ = cos αⱼ·v + sin αⱼ·vn + dⱼ·ω
         let g = SMatrix::<f64, N, 3>::from_fn(|j, axis| {
             let Wheel { heading, distance, .. } = rig.wheels[j];
             [heading.cos(), heading.sin(), distance][axis]
         });
-        let drives = rig.wheels.map(|wheel| wheel.drive);
+        let drives = rig.wheels.map(|wheel| wheel.drivetrain);
         let inertia = Vector3::new(rig.mass, rig.mass, rig.inertia);
         let m_inv = Matrix3::from_diagonal(&inertia.map(f64::recip));
         // fⱼ = l·Kt·iⱼ/r, iⱼ = (uⱼ − Kv·l·vⱼ/r)/R: volts push with l·Kt/(r·R), speed brakes with l²·Kt·Kv/(r²·R)
@@ -165,7 +165,7 @@ impl<const N: usize> Matrices<N> {
             k: -m_inv * Vector3::from(rig.coulomb),
             rim: g,
             inertia,
-            drives,
+            drivetrains: drives,
         }
     }
 }

@@ -3,11 +3,11 @@
 //! One prototype that carries three or four wheels. Wheels, gears and motors are the same in both; mass, inertia and
 //! friction are not. The paper takes Kt = Kv (SI units).
 
-use crate::matrices::{Drive, Rig, Wheel};
+use crate::matrices::{Drivetrain, GenericRobot, Wheel};
 
 /// One robot in the paper's own symbols.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Robot {
+pub struct PaperRobot {
     /// d, centre to wheel [m]
     pub d: f64,
     /// r, wheel radius [m]
@@ -31,7 +31,7 @@ pub struct Robot {
 }
 
 /// The robot on three wheels, Table 3.
-pub const THREE_WHEELS: Robot = Robot {
+pub const THREE_WHEELS: PaperRobot = PaperRobot {
     d: 0.089,
     r: 0.0325,
     l: 5.0,
@@ -45,7 +45,7 @@ pub const THREE_WHEELS: Robot = Robot {
 };
 
 /// The robot on four wheels, Table 3.
-pub const FOUR_WHEELS: Robot = Robot {
+pub const FOUR_WHEELS: PaperRobot = PaperRobot {
     mass: 2.34,
     inertia: 0.0228,
     viscous: [0.4978, 0.6763, 0.0141],
@@ -59,7 +59,7 @@ pub const THREE_HEADINGS_DEG: [f64; 3] = [150.0, 270.0, 30.0];
 /// Drive angles of the four wheels [°], as eq. 6 implies them.
 pub const FOUR_HEADINGS_DEG: [f64; 4] = [90.0, 180.0, 270.0, 0.0];
 
-impl Robot {
+impl PaperRobot {
     /// The same robot with the bridges open: no current flows, whatever the voltage (R → ∞), as in experiment 2.
     pub fn open_bridge(self) -> Self {
         Self { resistance: f64::INFINITY, ..self }
@@ -71,14 +71,14 @@ impl Robot {
     }
 
     /// Motor, gear and wheel, as every wheel of this robot has them.
-    pub fn drive(&self) -> Drive {
-        Drive { radius: self.r, gear: self.l, kv: self.kv, kt: self.kt, resistance: self.resistance }
+    pub fn drivetrain(&self) -> Drivetrain {
+        Drivetrain { radius: self.r, gear: self.l, kv: self.kv, kt: self.kt, resistance: self.resistance }
     }
 
     /// The robot as a list of wheels, for the derived matrices; one wheel for each drive angle [°].
-    pub fn rig<const N: usize>(&self, headings_deg: [f64; N]) -> Rig<N> {
-        let wheel = |deg: f64| Wheel { heading: deg.to_radians(), distance: self.d, drive: self.drive() };
-        Rig {
+    pub fn generic<const N: usize>(&self, headings_deg: [f64; N]) -> GenericRobot<N> {
+        let wheel = |deg: f64| Wheel { heading: deg.to_radians(), distance: self.d, drivetrain: self.drivetrain() };
+        GenericRobot {
             wheels: headings_deg.map(wheel),
             mass: self.mass,
             inertia: self.inertia,

@@ -19,8 +19,8 @@
 use nalgebra::{Matrix3, Rotation2, SVector, Vector2, Vector3};
 
 use crate::flow::Flow;
-use crate::matrices::{Matrices, Rig};
-use crate::paper::Robot;
+use crate::matrices::{GenericRobot, Matrices};
+use crate::paper::PaperRobot;
 
 /// A speed past zero by less than this is rounding [m/s or rad/s].
 const SPEED_ROUNDING: f64 = 1e-14;
@@ -60,14 +60,14 @@ enum Event {
 
 impl Reference<3> {
     /// Three wheels, at rest, from the printed matrices (eq. 32–34).
-    pub fn printed(robot: &Robot) -> Self {
+    pub fn printed(robot: &PaperRobot) -> Self {
         Self::new(Matrices::<3>::printed(robot))
     }
 }
 
 impl Reference<4> {
     /// Four wheels, at rest, from the printed matrices (eq. 35–37).
-    pub fn printed(robot: &Robot) -> Self {
+    pub fn printed(robot: &PaperRobot) -> Self {
         Self::new(Matrices::<4>::printed(robot))
     }
 }
@@ -79,7 +79,7 @@ impl<const N: usize> Reference<N> {
     }
 
     /// Any geometry, at rest, from virtual work.
-    pub fn derived(rig: &Rig<N>) -> Self {
+    pub fn derived(rig: &GenericRobot<N>) -> Self {
         Self::new(Matrices::derived(rig))
     }
 
@@ -97,14 +97,14 @@ impl<const N: usize> Reference<N> {
     pub fn wheel_speeds(&self) -> [f64; N] {
         let rim = self.rim_speeds();
         // wⱼ = vⱼ/r
-        std::array::from_fn(|j| rim[j] / self.matrices.drives[j].radius)
+        std::array::from_fn(|j| rim[j] / self.matrices.drivetrains[j].radius)
     }
 
     /// Motor currents [A] under the voltages u [V], without inductance (eq. 21 with L = 0).
     pub fn currents(&self, u: [f64; N]) -> [f64; N] {
         let w = self.wheel_speeds();
         std::array::from_fn(|j| {
-            let p = self.matrices.drives[j];
+            let p = self.matrices.drivetrains[j];
             // iⱼ = (uⱼ − Kv·l·wⱼ)/R
             (u[j] - p.kv * p.gear * w[j]) / p.resistance
         })
@@ -114,7 +114,7 @@ impl<const N: usize> Reference<N> {
     pub fn tractions(&self, u: [f64; N]) -> [f64; N] {
         let i = self.currents(u);
         std::array::from_fn(|j| {
-            let p = self.matrices.drives[j];
+            let p = self.matrices.drivetrains[j];
             // fⱼ = l·Kt·iⱼ/r
             p.gear * p.kt * i[j] / p.radius
         })

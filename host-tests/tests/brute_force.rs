@@ -1,7 +1,7 @@
 //! The reference against brute force: explicit Euler, a microsecond a step.
 
-use host_tests::excite::voltages;
-use host_tests::matrices::Rig;
+use host_tests::excitation::voltages;
+use host_tests::matrices::GenericRobot;
 use host_tests::paper::{FOUR_WHEELS, THREE_WHEELS};
 use host_tests::reference::Reference;
 use nalgebra::{SVector, Vector3};
@@ -15,11 +15,11 @@ fn gap(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 const H: f64 = 1e-6;
 
 /// Three unlike wheels at odd angles: A joins all three axes.
-fn skew() -> Rig<3> {
-    let mut rig = THREE_WHEELS.rig([140.0, 280.0, 20.0]);
+fn skew() -> GenericRobot<3> {
+    let mut rig = THREE_WHEELS.generic([140.0, 280.0, 20.0]);
     rig.wheels[0].distance = 0.11;
-    rig.wheels[1].drive.radius = 0.028;
-    rig.wheels[2].drive.resistance *= 1.3;
+    rig.wheels[1].drivetrain.radius = 0.028;
+    rig.wheels[2].drivetrain.resistance *= 1.3;
     rig
 }
 

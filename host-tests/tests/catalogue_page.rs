@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use host_tests::catalogue::page::{Promise, read_promises};
-use host_tests::catalogue::sessions::{Hidden, WHEELS, cases, truth};
+use host_tests::catalogue::sessions::{HiddenCause, WHEELS, cases, truth};
 use model_core::effects;
 use omni_gap::report::{Report, Verdict, terminal};
 use omni_gap::simulate::Carried;
@@ -54,12 +54,12 @@ fn the_page_keeps_every_promise() {
 fn the_counts_of_the_page_are_those_of_its_rows() {
     let page = golden();
     let (rows, promises) = (answers(&page), read_promises(&page));
-    let of = |kind: fn(&Hidden) -> bool, keeps: &dyn Fn(&[&str]) -> bool| {
+    let of = |kind: fn(&HiddenCause) -> bool, keeps: &dyn Fn(&[&str]) -> bool| {
         cases().iter().zip(&rows).filter(|(case, cells)| kind(&case.hidden) && keeps(cells)).count()
     };
-    assert_eq!(promises[0].kept, of(|h| matches!(h, Hidden::Effect(_)), &|cells| cells[7] != "**wrong**"));
-    assert_eq!(promises[2].kept, of(|h| *h == Hidden::Nothing, &|cells| cells[3] == "`no_gap`"));
-    assert_eq!(promises[3].kept, of(|h| matches!(h, Hidden::Parameter(_)), &|cells| cells[3] == "`parameter`"));
+    assert_eq!(promises[0].kept, of(|h| matches!(h, HiddenCause::Effect(_)), &|cells| cells[7] != "**wrong**"));
+    assert_eq!(promises[2].kept, of(|h| *h == HiddenCause::Nothing, &|cells| cells[3] == "`no_gap`"));
+    assert_eq!(promises[3].kept, of(|h| matches!(h, HiddenCause::Parameter(_)), &|cells| cells[3] == "`parameter`"));
 }
 
 /// A session of eight short runs, of which two are held out: one alone has too few windows to be sure of an effect.

@@ -3,16 +3,16 @@
 
 use std::path::Path;
 
-use host_tests::in_loop::Software;
+use host_tests::in_loop::HostProgram;
 use host_tests::in_loop::faults::case::{CASES, is_timed};
-use host_tests::in_loop::faults::dog::Bitten;
-use host_tests::in_loop::faults::three::{LOSSES, go_on};
-use host_tests::in_loop::faults::{Results, broken, page, play::play};
+use host_tests::in_loop::faults::watchdog::WatchdogOutcome;
+use host_tests::in_loop::faults::wheel_loss::{LOSSES, run_with_three_wheels};
+use host_tests::in_loop::faults::{Results, broken_promises, page, run_case::run_case};
 use model_core::link::faults::Fault;
 use rayon::prelude::*;
 
-/// Nobody bites here.
-const NO_DOG: Bitten = Bitten { overrun: Some(0), bite: Some(0), closed_after: 0 };
+/// The watchdog is not looked at here.
+const NOT_STARVED: WatchdogOutcome = WatchdogOutcome { overrun: Some(0), fired: Some(0), closed_after: 0 };
 
 #[test]
 fn every_fault_is_injected_but_the_one_that_a_restart_tells_of() {
@@ -25,14 +25,14 @@ fn every_fault_is_injected_but_the_one_that_a_restart_tells_of() {
 #[test]
 fn the_library_keeps_the_promises_of_the_page_and_says_what_the_page_says() {
     let cases: Vec<_> = CASES.into_iter().filter(|case| !is_timed(&case.cause)).collect();
-    let play = |case| (case, play(&case, Software::default()).expect("software does not fail"));
-    let go_on = |loss| (loss, go_on(&loss, Software::default()).expect("software does not fail"));
+    let play = |case| (case, run_case(&case, HostProgram::default()).expect("software does not fail"));
+    let go_on = |loss| (loss, run_with_three_wheels(&loss, HostProgram::default()).expect("software does not fail"));
     let results = Results {
-        played: cases.into_par_iter().map(play).collect(),
-        three: LOSSES.into_par_iter().map(go_on).collect(),
-        dog: NO_DOG,
+        cases: cases.into_par_iter().map(play).collect(),
+        wheel_losses: LOSSES.into_par_iter().map(go_on).collect(),
+        watchdog: NOT_STARVED,
     };
-    let broken = broken(&results);
+    let broken = broken_promises(&results);
     assert!(broken.is_empty(), "{broken:#?}");
 
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/faults.md");

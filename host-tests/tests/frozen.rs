@@ -3,8 +3,8 @@
 
 use std::sync::LazyLock;
 
-use host_tests::catalogue::outcome::{Judged, judge};
-use host_tests::catalogue::sessions::{Case, Hidden, short_cases};
+use host_tests::catalogue::outcome::{Judgement, judge};
+use host_tests::catalogue::sessions::{BenchmarkCase, HiddenCause, short_cases};
 use host_tests::frozen::{FILE, answers, compare, recordings::recordings};
 use host_tests::golden;
 use omni_gap::Report;
@@ -17,8 +17,8 @@ fn report(answer: &Value) -> Report {
 }
 
 /// The reduced benchmark's sessions, each with how good its answer is.
-fn judged() -> Vec<(Case, Judged)> {
-    let judged = |(case, answer): (Case, &Value)| {
+fn judged() -> Vec<(BenchmarkCase, Judgement)> {
+    let judged = |(case, answer): (BenchmarkCase, &Value)| {
         let how = judge(&case.hidden, &report(answer));
         (case, how)
     };
@@ -29,7 +29,7 @@ fn judged() -> Vec<(Case, Judged)> {
 fn every_field_of_every_frozen_report_is_what_it_was() {
     let written = compare::written(&ANSWERS);
     let same =
-        golden::keeps(FILE, &written, |frozen| compare::differences(frozen, &ANSWERS)).expect("it can be written");
+        golden::check_page(FILE, &written, |frozen| compare::differences(frozen, &ANSWERS)).expect("it can be written");
     assert!(same, "differences are listed above");
 }
 
@@ -45,20 +45,20 @@ fn one_thread_gives_the_answers_that_two_give() {
 #[test]
 fn the_reduced_benchmark_is_answered_as_well_as_ever() {
     let judged = judged();
-    let right = |kind: fn(&Hidden) -> bool| {
+    let right = |kind: fn(&HiddenCause) -> bool| {
         let of: Vec<_> = judged.iter().filter(|(case, _)| kind(&case.hidden)).collect();
         let wrong: Vec<String> = of
             .iter()
-            .filter(|(_, how)| *how == Judged::Wrong)
+            .filter(|(_, how)| *how == Judgement::Wrong)
             .map(|(case, _)| format!("{} on {} wheels", case.hidden, case.wheels))
             .collect();
         println!("{} of {} right; wrong: {wrong:?}", of.len() - wrong.len(), of.len());
         of.len() - wrong.len()
     };
     // what the engine reached when these recordings were frozen: of 26, 6 and 6
-    let effects = right(|hidden| matches!(hidden, Hidden::Effect(_)));
-    let nothing = right(|hidden| *hidden == Hidden::Nothing);
-    let parameters = right(|hidden| matches!(hidden, Hidden::Parameter(_)));
+    let effects = right(|hidden| matches!(hidden, HiddenCause::Effect(_)));
+    let nothing = right(|hidden| *hidden == HiddenCause::Nothing);
+    let parameters = right(|hidden| matches!(hidden, HiddenCause::Parameter(_)));
     assert!(effects >= 21 && nothing >= 6 && parameters >= 3, "{effects}, {nothing}, {parameters}");
 }
 

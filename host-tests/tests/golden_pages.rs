@@ -30,7 +30,7 @@ fn every_page_is_compared_or_names_the_command_and_the_commit_that_made_it() {
             continue;
         };
         let page = std::fs::read_to_string(&path).expect("pages are text");
-        let compared = ["holds", "keeps"].iter().any(|how| code.contains(&format!("golden::{how}(\"{name}\"")));
+        let compared = ["holds", "check_page"].iter().any(|how| code.contains(&format!("golden::{how}(\"{name}\"")));
         let record = page.lines().last().and_then(|line| line.strip_prefix(RECORD));
         let names_both = record.is_some_and(|rest| {
             rest.starts_with("cargo xtask ") && rest.split_once("` at commit ").is_some_and(|(_, hash)| hash.len() >= 8)

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use host_tests::identification::case::{CASES, Case};
-use host_tests::identification::idle::{Lack, idle};
-use host_tests::identification::missing::{Group, missing};
-use host_tests::identification::promises::{Bar, Promise, read_promises};
-use host_tests::identification::study::studied;
+use host_tests::identification::case::{CASES, StudyCase};
+use host_tests::identification::missing_group::{SensorGroup, without_group};
+use host_tests::identification::no_excitation::{MissingExcitation, without_excitation};
+use host_tests::identification::promises::{Promise, Threshold, read_promises};
+use host_tests::identification::study::study;
 use model_core::plant::robot::Nominal;
 use omni_gap::identify::{IDENTIFIED, Refused, Word};
 use omni_gap::simulate::Sensing;
@@ -28,7 +28,7 @@ fn rows<'a>(page: &'a str, heading: &str, columns: usize) -> Vec<Vec<&'a str>> {
 }
 
 /// The rows of the table of a case.
-fn table<'a>(page: &'a str, case: &Case) -> Vec<Vec<&'a str>> {
+fn table<'a>(page: &'a str, case: &StudyCase) -> Vec<Vec<&'a str>> {
     let rows = rows(page, &case.title(), 10);
     assert_eq!(rows.len(), IDENTIFIED.len(), "{}", case.title());
     rows
@@ -40,7 +40,7 @@ fn number(cell: &str) -> f64 {
     first.parse().unwrap_or_else(|_| panic!("{cell} is no number"))
 }
 
-fn papers() -> impl Iterator<Item = &'static Case> {
+fn papers() -> impl Iterator<Item = &'static StudyCase> {
     CASES.iter().filter(|case| case.sensing == Sensing::Paper)
 }
 
@@ -73,21 +73,21 @@ fn the_page_keeps_every_promise() {
     // robots; error over the bound; ratio, its median and the largest; coverage, twice; modern sensors; bias, twice;
     // a group missing; a robot that stands
     let bars = [
-        Bar::AtLeast(400.0),
-        Bar::AtMost(1.3),
-        Bar::AtMost(0.5),
-        Bar::AtMost(1.0),
-        Bar::AtLeast(85.0),
-        Bar::AtMost(95.0),
-        Bar::AtLeast(85.0),
-        Bar::AtMost(95.0),
-        Bar::AtMost(3.0),
-        Bar::AtMost(1.0),
-        Bar::AtMost(0.0),
-        Bar::AtMost(5.0),
-        Bar::AtMost(0.0),
+        Threshold::AtLeast(400.0),
+        Threshold::AtMost(1.3),
+        Threshold::AtMost(0.5),
+        Threshold::AtMost(1.0),
+        Threshold::AtLeast(85.0),
+        Threshold::AtMost(95.0),
+        Threshold::AtLeast(85.0),
+        Threshold::AtMost(95.0),
+        Threshold::AtMost(3.0),
+        Threshold::AtMost(1.0),
+        Threshold::AtMost(0.0),
+        Threshold::AtMost(5.0),
+        Threshold::AtMost(0.0),
     ];
-    assert_eq!(promises.iter().map(|p| p.bar).collect::<Vec<_>>(), bars, "the bars are not the page's to choose");
+    assert_eq!(promises.iter().map(|p| p.threshold).collect::<Vec<_>>(), bars, "the bars are not the page's to choose");
     let broken: Vec<&Promise> = promises.iter().filter(|p| !p.kept()).collect();
     assert!(broken.is_empty(), "{broken:#?}");
 }
@@ -120,15 +120,15 @@ fn the_promises_of_the_page_are_those_of_its_rows() {
 
 /// A few robots, each identified from fewer runs than the page's.
 fn few(wheels: usize, seeds: u64) {
-    let case = Case { wheels, sensing: Sensing::Paper, camera_correlation: 0.0, repeats: 1, seeds };
-    let studied = studied(case);
+    let case = StudyCase { wheels, sensing: Sensing::Paper, camera_correlation: 0.0, repeats: 1, seeds };
+    let result = study(case);
     let (mut square, mut count) = (0.0, 0.0);
-    for morning in &studied.mornings {
-        assert!(morning.follows);
-        for (k, (p, estimate)) in IDENTIFIED.iter().zip(&morning.joint).enumerate() {
+    for trial in &result.trials {
+        assert!(trial.follows);
+        for (k, (p, estimate)) in IDENTIFIED.iter().zip(&trial.joint).enumerate() {
             let (factor, std) = estimate.expect("all runs together tell every number");
             assert!((factor - 1.0).abs() < 5.0 * std, "{p:?} on {wheels} wheels: {factor} ± {std} of the truth");
-            square += ((factor - 1.0) / studied.bound[k]).powi(2);
+            square += ((factor - 1.0) / result.bound[k]).powi(2);
             count += 1.0;
         }
     }
@@ -150,27 +150,27 @@ fn all_runs_together_are_right_to_their_own_uncertainty_and_near_the_bound_on_fo
 #[test]
 fn without_a_camera_every_number_is_identified_and_right() {
     // wheels that do not slip tell the way; 5 of its own sigmas, as on the page
-    let missing = missing(4, Group::Pose, 1);
+    let missing = without_group(4, SensorGroup::Pose, 1);
     let answer = missing.answers[0].as_ref().expect("wheel speeds and currents are measured");
     assert_eq!(answer.identified().count(), IDENTIFIED.len());
-    assert!(answer.identified().all(|told| told.off() < 5.0), "{answer:?}");
+    assert!(answer.identified().all(|number| number.off() < 5.0), "{answer:?}");
 }
 
 #[test]
 fn without_voltages_the_resistance_leaves_no_trace() {
-    let missing = missing(3, Group::Voltages, 1);
+    let missing = without_group(3, SensorGroup::Voltages, 1);
     let answer = missing.answers[0].as_ref().expect("currents drive the model");
     let resistance = IDENTIFIED.iter().position(|p| *p == Nominal::Resistance).expect("it is one of them");
     let others = answer.numbers.iter().enumerate().filter(|(k, _)| *k != resistance);
     assert_eq!(answer.numbers[resistance].word, Word::NotSeen);
-    assert!(others.clone().all(|(_, told)| told.word == Word::Identified), "{answer:?}");
+    assert!(others.clone().all(|(_, number)| number.word == Word::Identified), "{answer:?}");
 }
 
 #[test]
 fn a_robot_that_stands_is_refused_however_it_is_measured() {
     for sensing in Sensing::ALL {
         for wheels in [3, 4] {
-            let answers = idle(wheels, Lack::Motion, sensing, 1).answers;
+            let answers = without_excitation(wheels, MissingExcitation::Motion, sensing, 1).answers;
             assert_eq!(answers[0].as_ref().err(), Some(&Refused::NothingMoves), "{sensing:?}, {wheels} wheels");
         }
     }

@@ -26,13 +26,13 @@ fn assert_same<const N: usize>(printed: &Matrices<N>, derived: &Matrices<N>) {
 
 #[test]
 fn the_printed_matrices_follow_from_virtual_work() {
-    assert_same(&Matrices::<3>::printed(&THREE_WHEELS), &Matrices::derived(&THREE_WHEELS.rig(THREE_HEADINGS_DEG)));
-    assert_same(&Matrices::<4>::printed(&FOUR_WHEELS), &Matrices::derived(&FOUR_WHEELS.rig(FOUR_HEADINGS_DEG)));
+    assert_same(&Matrices::<3>::printed(&THREE_WHEELS), &Matrices::derived(&THREE_WHEELS.generic(THREE_HEADINGS_DEG)));
+    assert_same(&Matrices::<4>::printed(&FOUR_WHEELS), &Matrices::derived(&FOUR_WHEELS.generic(FOUR_HEADINGS_DEG)));
 }
 
 #[test]
 fn equation_33_as_printed_has_one_wrong_sign() {
-    let derived = Matrices::derived(&THREE_WHEELS.rig(THREE_HEADINGS_DEG)).b;
+    let derived = Matrices::derived(&THREE_WHEELS.generic(THREE_HEADINGS_DEG)).b;
     let printed = eq33_as_printed(&THREE_WHEELS);
     let wrong: Vec<_> =
         (0..9).map(|n| (n / 3, n % 3)).filter(|&at| (printed[at] - derived[at]).abs() > 1e-14).collect();
@@ -49,7 +49,7 @@ fn equation_33_as_printed_has_one_wrong_sign() {
 
 #[test]
 fn the_flow_is_the_matrix_exponential() {
-    let mut rig = THREE_WHEELS.rig([140.0, 280.0, 20.0]);
+    let mut rig = THREE_WHEELS.generic([140.0, 280.0, 20.0]);
     rig.wheels[0].distance = 0.11;
     let p = Matrices::derived(&rig);
     let (x0, c) = (Vector3::new(0.4, -0.7, 5.0), Vector3::new(1.0, 2.0, -30.0));

@@ -1,7 +1,7 @@
 //! The reference itself is right: against algebra, closed forms, symmetry, energy and brute force.
 
-use host_tests::excite::{Dice, random_rig, voltages};
-use host_tests::matrices::Rig;
+use host_tests::excitation::{SeededRng, random_robot, voltages};
+use host_tests::matrices::GenericRobot;
 use host_tests::paper::{FOUR_WHEELS, THREE_WHEELS};
 use host_tests::reference::Reference;
 use nalgebra::{Rotation2, Rotation3, SVector, Vector2, Vector3};
@@ -13,12 +13,12 @@ fn gap(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Three unlike wheels at odd angles: A joins all three axes.
-fn skew() -> Rig<3> {
-    let mut rig = THREE_WHEELS.rig([140.0, 280.0, 20.0]);
+fn skew() -> GenericRobot<3> {
+    let mut rig = THREE_WHEELS.generic([140.0, 280.0, 20.0]);
     rig.wheels[0].distance = 0.11;
-    rig.wheels[1].drive.radius = 0.028;
-    rig.wheels[2].drive.kt *= 0.8;
-    rig.wheels[2].drive.resistance *= 1.3;
+    rig.wheels[1].drivetrain.radius = 0.028;
+    rig.wheels[2].drivetrain.kt *= 0.8;
+    rig.wheels[2].drivetrain.resistance *= 1.3;
     rig
 }
 
@@ -149,13 +149,13 @@ fn currents_and_tractions_make_the_acceleration() {
 fn every_joule_is_accounted_for() {
     let mut rig = skew();
     // Where Kt ≠ Kv the motor itself makes or loses energy; here it must not.
-    rig.wheels[2].drive.kt = rig.wheels[2].drive.kv;
+    rig.wheels[2].drivetrain.kt = rig.wheels[2].drivetrain.kv;
     let mut robot = Reference::derived(&rig);
     let powers = |robot: &Reference<3>, u: [f64; 3]| {
         let i = robot.currents(u);
         let fed: f64 = (0..3).map(|j| u[j] * i[j]).sum();
         // R·i² + B·x² + C·|x|
-        let heat: f64 = (0..3).map(|j| rig.wheels[j].drive.resistance * i[j] * i[j]).sum();
+        let heat: f64 = (0..3).map(|j| rig.wheels[j].drivetrain.resistance * i[j] * i[j]).sum();
         let rubbed: f64 =
             (0..3).map(|k| rig.viscous[k] * robot.twist[k].powi(2) + rig.coulomb[k] * robot.twist[k].abs()).sum();
         fed - heat - rubbed
@@ -183,10 +183,10 @@ fn every_joule_is_accounted_for() {
 
 #[test]
 fn any_robot_left_alone_comes_to_rest() {
-    let mut dice = Dice::new(1);
+    let mut rng = SeededRng::new(1);
     for case in 0..300 {
-        let rig = random_rig::<4>(&mut dice);
-        let twist = [dice.between(-2.0, 2.0), dice.between(-2.0, 2.0), dice.between(-15.0, 15.0)];
+        let rig = random_robot::<4>(&mut rng);
+        let twist = [rng.between(-2.0, 2.0), rng.between(-2.0, 2.0), rng.between(-15.0, 15.0)];
         let mut robot = Reference::derived(&rig).moving(twist);
         let mut before = f64::INFINITY;
         for _ in 0..400 {

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use host_tests::generated::tree;
-use host_tests::matrices::Rig;
-use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, Robot, THREE_HEADINGS_DEG, THREE_WHEELS};
+use host_tests::matrices::GenericRobot;
+use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, PaperRobot, THREE_HEADINGS_DEG, THREE_WHEELS};
+use host_tests::paper_source::tree;
 use host_tests::reference::Reference;
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
@@ -66,7 +66,7 @@ fn the_terms_are_the_papers_closed_forms() {
 }
 
 /// Speed after a second, distance by then and final speed of the exact robot, on an axis.
-fn exact<const N: usize>(rig: &Rig<N>, motors: &[f64], axis: usize) -> [f64; 3] {
+fn exact<const N: usize>(rig: &GenericRobot<N>, motors: &[f64], axis: usize) -> [f64; 3] {
     let u: [f64; N] = motors.try_into().expect("a voltage a wheel");
     let mut robot = Reference::derived(rig);
     robot.advance(u, 1.0);
@@ -75,9 +75,9 @@ fn exact<const N: usize>(rig: &Rig<N>, motors: &[f64], axis: usize) -> [f64; 3] 
     [speed, distance, robot.twist[axis]]
 }
 
-fn agrees_with_differences<const N: usize>(name: &str, table: Robot, headings: [f64; N]) {
+fn agrees_with_differences<const N: usize>(name: &str, table: PaperRobot, headings: [f64; N]) {
     /// A number of the reference by the key of the robot file.
-    fn number<'a>(p: &'a mut Robot, key: &str) -> &'a mut f64 {
+    fn number<'a>(p: &'a mut PaperRobot, key: &str) -> &'a mut f64 {
         match key {
             "distance_m" => &mut p.d,
             "radius_m" => &mut p.r,
@@ -98,7 +98,7 @@ fn agrees_with_differences<const N: usize>(name: &str, table: Robot, headings: [
     let said = usual(&parsed(&text(name)));
     for (axis, of) in said.axes.iter().enumerate() {
         assert_eq!(of.influences.len(), 13, "every number of the file");
-        let whole = exact(&table.rig(headings), &of.motors, axis);
+        let whole = exact(&table.generic(headings), &of.motors, axis);
         // the plant's step: (λ·Δt)²/12·λt with λ of 6/s and Δt of 1 ms
         for (got, want) in [of.speed, of.distance, of.final_speed.unwrap()].into_iter().zip(whole) {
             assert!((got / want - 1.0).abs() < 2e-5, "{name}, axis {axis}: {got} against {want}");
@@ -108,7 +108,7 @@ fn agrees_with_differences<const N: usize>(name: &str, table: Robot, headings: [
             let [up, down] = [h, -h].map(|h| {
                 let mut p = table;
                 *number(&mut p, i.key) *= 1.0 + h;
-                exact(&p.rig(headings), &of.motors, axis)
+                exact(&p.generic(headings), &of.motors, axis)
             });
             let got = slopes(of, i.key);
             for k in 0..3 {

@@ -134,7 +134,7 @@ fn everything_that_is_spoiled_is_told_at_the_door_and_work_follows_from_the_rows
         }
     }
     let page = format!("{HEAD}{}{FOOT}", outcomes.iter().map(|(s, found)| line(s, found)).collect::<String>());
-    let kept = golden::keeps("spoiled.md", &page, |golden| golden::lines(golden, &page, |a, b| a == b));
+    let kept = golden::check_page("spoiled.md", &page, |golden| golden::lines(golden, &page, |a, b| a == b));
     assert!(failed.is_empty(), "{}", failed.join("\n"));
     assert!(kept.expect("the page can be written"));
 }

@@ -4,8 +4,8 @@
 //! oscillator characteristics). At the fast end it must not fire before 10 ms, ten motion turns; at the slow end it
 //! then fires after 30 ms.
 //!
-//! Erasing a flash sector stalls the core for seconds, so the watchdog is given a long timeout before ([`PR_LONG`]). Source:
-//! RM0090, independent watchdog.
+//! Erasing a flash sector stalls the core for seconds, so the watchdog is given a long timeout before ([`PR_LONG`]).
+//! Source: RM0090, independent watchdog.
 
 /// KR: feed.
 pub const FEED: u16 = 0xAAAA;

@@ -4,7 +4,7 @@
 
 use std::process::ExitCode;
 
-use host_tests::catalogue::outcome::{Judged, Outcome, diagnosed};
+use host_tests::catalogue::outcome::{BenchmarkOutcome, Judgement, diagnose_case};
 use host_tests::catalogue::page::{page, plain, promises, word};
 use host_tests::catalogue::sessions::cases;
 use host_tests::golden::record;
@@ -28,7 +28,7 @@ fn benchmark(only: Option<&str>) -> Result<(), Error> {
     }
     let mut outcomes = Vec::with_capacity(all.len());
     for (k, case) in all.iter().enumerate() {
-        let outcome = diagnosed(case)?;
+        let outcome = diagnose_case(case)?;
         println!("[{}/{}] {}", k + 1, all.len(), told(&outcome));
         if only.is_some() {
             println!("{}", terminal(&outcome.report, None));
@@ -52,11 +52,11 @@ fn benchmark(only: Option<&str>) -> Result<(), Error> {
 }
 
 /// A session in a line.
-fn told(o: &Outcome) -> String {
+fn told(o: &BenchmarkOutcome) -> String {
     let right = match o.judged() {
-        Judged::First => "right",
-        Judged::Named => "named",
-        Judged::Wrong => "WRONG",
+        Judgement::First => "right",
+        Judgement::Named => "named",
+        Judgement::Wrong => "WRONG",
     };
     let s = &o.report.shrink;
     let sigmas = |x: Option<f64>| x.map_or("–".to_owned(), num);
@@ -77,7 +77,7 @@ fn told(o: &Outcome) -> String {
 }
 
 /// The causes that came closest, with their numbers.
-fn closest(o: &Outcome) {
+fn closest(o: &BenchmarkOutcome) {
     for which in o.report.which.iter().take(5) {
         let numbers: Vec<String> = which
             .parameters

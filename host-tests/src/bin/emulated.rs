@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use host_tests::costs::{Cost, above, differences, page};
-use host_tests::emulator::{Qemu, Trouble};
+use host_tests::costs::{Cost, differences, exceeded, page};
+use host_tests::emulator::{Qemu, RunError};
 use host_tests::golden;
 
 /// How long an image may run: each takes a few seconds.
@@ -33,15 +33,15 @@ fn checked(folder: &Path) -> Result<bool, Box<dyn Error>> {
     );
 
     let costs = Cost::read(&said(&folder.join("cycles"))?);
-    let kept = golden::all_kept(&above(&costs));
-    let page_kept = golden::keeps("cycles.md", &page(&costs), |golden| differences(golden, &costs))?;
+    let kept = golden::report_broken(&exceeded(&costs));
+    let page_kept = golden::check_page("cycles.md", &page(&costs), |golden| differences(golden, &costs))?;
     Ok(same && kept && page_kept)
 }
 
 /// What an image says before it ends.
-fn said(image: &Path) -> Result<String, Trouble> {
+fn said(image: &Path) -> Result<String, RunError> {
     let mut qemu = Qemu::start(image, PATIENCE)?;
     let status = qemu.wait()?;
-    let said = qemu.said();
-    if status.success() { Ok(said) } else { Err(Trouble::Ended { how: status.to_string(), exchanges: 0, said }) }
+    let said = qemu.console();
+    if status.success() { Ok(said) } else { Err(RunError::Ended { how: status.to_string(), exchanges: 0, said }) }
 }

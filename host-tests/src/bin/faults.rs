@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use host_tests::emulator::Qemu;
 use host_tests::golden;
-use host_tests::in_loop::faults::{broken, page, results};
+use host_tests::in_loop::faults::{broken_promises, page, results};
 
 /// How long the image may think about one period: it thinks microseconds, but others use the machine too.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -27,13 +27,13 @@ fn main() -> ExitCode {
 fn checked(image: &Path, word: &str) -> Result<bool, Box<dyn Error>> {
     let begun = Instant::now();
     let results = results(word, || Qemu::start(image, PATIENCE))?;
-    eprintln!("{} cases: {:.0} s", results.played.len() + results.three.len() + 1, begun.elapsed().as_secs_f64());
-    let kept = golden::all_kept(&broken(&results));
+    eprintln!("{} cases: {:.0} s", results.cases.len() + results.wheel_losses.len() + 1, begun.elapsed().as_secs_f64());
+    let kept = golden::report_broken(&broken_promises(&results));
     let text = page(&results);
     if !word.is_empty() {
         println!("{text}");
         return Ok(kept);
     }
-    let page_kept = golden::keeps("faults.md", &text, |golden| golden::lines(golden, &text, |a, b| a == b))?;
+    let page_kept = golden::check_page("faults.md", &text, |golden| golden::lines(golden, &text, |a, b| a == b))?;
     Ok(kept && page_kept)
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use host_tests::frozen::{FILE, REAL_FILE, answers, compare, real_answers, recordings::recordings};
-use host_tests::golden::{exit, keeps};
+use host_tests::golden::{check_page, exit};
 use omni_gap::Error;
 
 fn main() -> ExitCode {
@@ -15,12 +15,12 @@ fn main() -> ExitCode {
 
 fn compared(real: Option<PathBuf>) -> Result<bool, Error> {
     let now = answers(&recordings())?;
-    let mut same = keeps(FILE, &compare::written(&now), |frozen| compare::differences(frozen, &now))?;
+    let mut same = check_page(FILE, &compare::written(&now), |frozen| compare::differences(frozen, &now))?;
     println!("{} reports made here compared", now.len());
     match real {
         Some(folder) => {
             let now = real_answers(&folder)?;
-            same &= keeps(REAL_FILE, &compare::written(&now), |frozen| compare::differences(frozen, &now))?;
+            same &= check_page(REAL_FILE, &compare::written(&now), |frozen| compare::differences(frozen, &now))?;
             println!("{} reports of real recordings compared", now.len());
         }
         None => println!("reports of real recordings: not compared, no folder of recordings was named"),

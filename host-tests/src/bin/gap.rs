@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use host_tests::emulator::{Qemu, Trouble};
+use host_tests::emulator::{Qemu, RunError};
 use host_tests::golden;
-use host_tests::in_loop::Software;
-use host_tests::in_loop::gap::{Closed, HIDDEN, close, robot_file};
-use host_tests::in_loop::gap_page::{broken, differences, page};
+use host_tests::in_loop::HostProgram;
+use host_tests::in_loop::gap::{ClosedGap, HIDDEN, close_gap, robot_file};
+use host_tests::in_loop::gap_page::{broken_promises, differences, page};
 use model_core::plant::paper::four_wheels;
 
 /// The robot that is believed in.
@@ -29,21 +29,21 @@ fn main() -> ExitCode {
 
 fn checked(image: &Path) -> Result<bool, Box<dyn Error>> {
     let on_host = |hidden| {
-        let folder = tempfile::tempdir().map_err(Trouble::Exchange)?;
+        let folder = tempfile::tempdir().map_err(RunError::Exchange)?;
         let file = robot_file(NOMINAL, hidden);
-        let closed = close(four_wheels(), &file, hidden, folder.path(), || Ok(Software::default()))?;
+        let closed = close_gap(four_wheels(), &file, hidden, folder.path(), || Ok(HostProgram::default()))?;
         println!("{:24} {:.1} -> {:.1} mm/s", hidden.id, 1e3 * closed.error[0], 1e3 * closed.error[1]);
         Ok(closed)
     };
-    let closed = HIDDEN.into_iter().map(on_host).collect::<Result<Vec<Closed>, Trouble>>()?;
+    let closed = HIDDEN.into_iter().map(on_host).collect::<Result<Vec<ClosedGap>, RunError>>()?;
 
-    let folder = tempfile::tempdir().map_err(Trouble::Exchange)?;
+    let folder = tempfile::tempdir().map_err(RunError::Exchange)?;
     let file = robot_file(NOMINAL, HIDDEN[0]);
-    let emulated = close(four_wheels(), &file, HIDDEN[0], folder.path(), || Qemu::start(image, PATIENCE))?;
+    let emulated = close_gap(four_wheels(), &file, HIDDEN[0], folder.path(), || Qemu::start(image, PATIENCE))?;
     let same = emulated.error == closed[0].error && emulated.causes == closed[0].causes;
     println!("{} in the image: {}", HIDDEN[0].id, if same { "the same, to the last bit" } else { "NOT the same" });
 
-    let kept = golden::all_kept(&broken(&closed));
-    let page_kept = golden::keeps("gap.md", &page(&closed), |golden| differences(golden, &closed))?;
+    let kept = golden::report_broken(&broken_promises(&closed));
+    let page_kept = golden::check_page("gap.md", &page(&closed), |golden| differences(golden, &closed))?;
     Ok(same && kept && page_kept)
 }

@@ -9,9 +9,9 @@ use std::time::Instant;
 use host_tests::catalogue::sessions::WHEELS;
 use host_tests::golden::record;
 use host_tests::identification::Results;
-use host_tests::identification::case::{CASES, Case};
-use host_tests::identification::idle::{ASKED, idle};
-use host_tests::identification::missing::{Group, SEEDS, missing};
+use host_tests::identification::case::{CASES, StudyCase};
+use host_tests::identification::missing_group::{SEEDS, SensorGroup, without_group};
+use host_tests::identification::no_excitation::{NO_EXCITATION_CASES, without_excitation};
 use host_tests::identification::page::page;
 use host_tests::identification::promises::promises;
 use host_tests::identification::study::studied;
@@ -39,7 +39,7 @@ fn main() -> ExitCode {
         return ExitCode::FAILURE;
     }
     for promise in promises(&results).iter().filter(|p| !p.kept()) {
-        println!("not kept: {}: {} ({}), {:?}", promise.what, promise.found, promise.at, promise.bar);
+        println!("not kept: {}: {} ({}), {:?}", promise.what, promise.found, promise.at, promise.threshold);
     }
     ExitCode::SUCCESS
 }
@@ -47,18 +47,20 @@ fn main() -> ExitCode {
 fn measured(seeds: u64, only: &str) -> Results {
     let chosen = CASES.iter().filter(|case| case.title().contains(only));
     let cases = chosen.map(|case| {
-        let case = Case { seeds: case.seeds.min(seeds), ..*case };
-        timed(&format!("{}, {} seeds", case.title(), case.seeds), || studied(case))
+        let case = StudyCase { seeds: case.seeds.min(seeds), ..*case };
+        timed(&format!("{}, {} seeds", case.title(), case.seeds), || study(case))
     });
     let cases = cases.collect();
     let few = SEEDS.min(seeds);
     let missing = || {
-        let groups = Group::ALL.into_iter().flat_map(|group| WHEELS.map(|wheels| (wheels, group)));
-        groups.map(|(wheels, group)| missing(wheels, group, few)).collect()
+        let groups = SensorGroup::ALL.into_iter().flat_map(|group| WHEELS.map(|wheels| (wheels, group)));
+        groups.map(|(wheels, group)| without_group(wheels, group, few)).collect()
     };
     let idle = || {
-        let asked = ASKED.into_iter().flat_map(|asked| WHEELS.map(|wheels| (wheels, asked)));
-        asked.map(|(wheels, (lack, sensing))| idle(wheels, lack, sensing, lack.seeds().min(seeds))).collect()
+        let cases = NO_EXCITATION_CASES.into_iter().flat_map(|case| WHEELS.map(|wheels| (wheels, case)));
+        cases
+            .map(|(wheels, (lack, sensing))| without_excitation(wheels, lack, sensing, lack.seeds().min(seeds)))
+            .collect()
     };
     if !only.is_empty() {
         return Results { cases, missing: Vec::new(), idle: Vec::new() };

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use host_tests::golden;
 use host_tests::image::elf::Image;
-use host_tests::image::page::{Measured, Promise, differences, page};
+use host_tests::image::page::{ImageMeasurement, Promise, differences, page};
 
 /// How far a figure may have moved since the page was blessed: other compilers lay out code a little differently.
 const SHARE: f64 = 0.05;
@@ -21,12 +21,12 @@ fn main() -> ExitCode {
 }
 
 fn held(path: &Path) -> Result<bool, Box<dyn std::error::Error>> {
-    let measured = Measured::of(&Image::read(&std::fs::read(path)?)?);
+    let measured = ImageMeasurement::of(&Image::read(&std::fs::read(path)?)?);
     let text = page(&measured);
     println!("{text}");
     let broken = |promise: &Promise| format!("{}: {}", promise.what, promise.found);
     let not_kept: Vec<String> = measured.promises().iter().filter(|promise| !promise.kept).map(broken).collect();
-    let kept = golden::all_kept(&not_kept);
-    let page_kept = golden::keeps("image.md", &text, |golden| differences(golden, &text, SHARE))?;
+    let kept = golden::report_broken(&not_kept);
+    let page_kept = golden::check_page("image.md", &text, |golden| differences(golden, &text, SHARE))?;
     Ok(kept && page_kept)
 }

@@ -7,12 +7,12 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use host_tests::emulator::{Qemu, Trouble};
+use host_tests::emulator::{Qemu, RunError};
 use host_tests::golden;
 use host_tests::in_loop::page::{Emulated, Promise, Robot, differences, page};
-use host_tests::in_loop::robots::AnyBlock;
+use host_tests::in_loop::robots::ToParameters;
 use host_tests::in_loop::saturation;
-use host_tests::in_loop::study::{Believed, Came, Run, SEEDS, Scenario, difference, load};
+use host_tests::in_loop::study::{NominalRobot, Outcome, SEEDS, Scenario, ScenarioRun, difference, load};
 use model_core::link::block::Block;
 use model_core::plant::paper::{four_wheels, three_wheels};
 use rayon::prelude::*;
@@ -26,15 +26,15 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// What the image plays, the longest first: on how many wheels, and whether it is compared with itself. Three wheels
 /// take the axis on which they differ most from four.
 const IN_EMULATOR: [(usize, Scenario, bool); 11] = [
-    (4, Scenario::Eight, false),
-    (3, Scenario::Eight, false),
+    (4, Scenario::FigureEight, false),
+    (3, Scenario::FigureEight, false),
     (4, Scenario::Ramps(0), false),
     (4, Scenario::Ramps(1), false),
     (4, Scenario::Ramps(2), false),
     (3, Scenario::Ramps(2), false),
-    (3, Scenario::Silence, true),
-    (4, Scenario::Silence, false),
-    (3, Scenario::Silence, false),
+    (3, Scenario::CommandTimeout, true),
+    (4, Scenario::CommandTimeout, false),
+    (3, Scenario::CommandTimeout, false),
     (4, Scenario::Saturation, false),
     (3, Scenario::Saturation, false),
 ];
@@ -51,12 +51,12 @@ fn main() -> ExitCode {
 }
 
 fn held(image: &Path) -> Result<bool, Box<dyn std::error::Error>> {
-    let three = Believed { host: three_wheels(), robot: three_wheels() };
-    let four = Believed { host: four_wheels(), robot: four_wheels() };
+    let three = NominalRobot { host: three_wheels(), robot: three_wheels() };
+    let four = NominalRobot { host: four_wheels(), robot: four_wheels() };
     let begun = Instant::now();
     let robots = [all_seeds(THREE, &three), all_seeds(FOUR, &four)];
     eprintln!("on the host: {:.0} s", begun.elapsed().as_secs_f64());
-    let emulated: Result<Vec<Emulated>, Trouble> = IN_EMULATOR
+    let emulated: Result<Vec<Emulated>, RunError> = IN_EMULATOR
         .par_iter()
         .with_max_len(1)
         .map(|&(wheels, scenario, again)| match wheels {
@@ -75,20 +75,20 @@ fn held(image: &Path) -> Result<bool, Box<dyn std::error::Error>> {
     };
     let promises = robots.iter().flat_map(Robot::promises).chain(emulated.iter().map(same));
     let not_kept: Vec<String> = promises.filter(|promise| !promise.kept).map(|promise| promise.what).collect();
-    let kept = golden::all_kept(&not_kept);
-    let page_kept = golden::keeps("in_loop.md", &text, |golden| differences(golden, &text, SHARE))?;
+    let kept = golden::report_broken(&not_kept);
+    let page_kept = golden::check_page("in_loop.md", &text, |golden| differences(golden, &text, SHARE))?;
     Ok(kept && page_kept)
 }
 
 /// Every scenario with every seed, in software.
-fn all_seeds<const N: usize>(name: &'static str, believed: &Believed<N>) -> Robot
+fn all_seeds<const N: usize>(name: &'static str, believed: &NominalRobot<N>) -> Robot
 where
-    Block<N>: AnyBlock,
+    Block<N>: ToParameters,
 {
     let jobs: Vec<(Scenario, u64)> =
         Scenario::ALL.iter().flat_map(|scenario| SEEDS.map(|seed| (*scenario, seed))).collect();
-    let came: Vec<Came> =
-        jobs.par_iter().with_max_len(1).map(|&(scenario, seed)| believed.in_software(scenario, seed).came).collect();
+    let came: Vec<Outcome> =
+        jobs.par_iter().with_max_len(1).map(|&(scenario, seed)| believed.run_on_host(scenario, seed).outcome).collect();
     let of = |scenario: Scenario, seed: u64| {
         jobs.iter().position(|job| *job == (scenario, seed)).map(|k| came[k].clone()).expect("all were played")
     };
@@ -101,21 +101,21 @@ where
         robot.geometry.push([ratio(|w| w.radius), ratio(|w| w.distance)]);
         let mut ramps = Vec::new();
         for axis in 0..3 {
-            if let Came::Ramps(more) = of(Scenario::Ramps(axis), seed) {
+            if let Outcome::Ramps(more) = of(Scenario::Ramps(axis), seed) {
                 ramps.extend(more);
             }
         }
         robot.ramps.push(ramps);
-        if let (Came::Eight(with), Came::Eight(without)) =
-            (of(Scenario::Eight, seed), of(Scenario::EightByFeedback, seed))
+        if let (Outcome::FigureEight(with), Outcome::FigureEight(without)) =
+            (of(Scenario::FigureEight, seed), of(Scenario::FigureEightFeedbackOnly, seed))
         {
             robot.eights.push([with, without]);
         }
-        if let Came::Saturation(scaled) = of(Scenario::Saturation, seed) {
+        if let Outcome::Saturation(scaled) = of(Scenario::Saturation, seed) {
             let clipped = saturation::clipped(&believed.host, &truth, &believed.block());
             robot.saturations.push([scaled, clipped]);
         }
-        if let Came::Silence(silence) = of(Scenario::Silence, seed) {
+        if let Outcome::CommandTimeout(silence) = of(Scenario::CommandTimeout, seed) {
             robot.silences.push(silence);
         }
     }
@@ -126,24 +126,24 @@ where
 fn in_emulator<const N: usize>(
     image: &Path,
     name: &str,
-    believed: &Believed<N>,
+    believed: &NominalRobot<N>,
     scenario: Scenario,
     again: bool,
-) -> Result<Emulated, Trouble>
+) -> Result<Emulated, RunError>
 where
-    Block<N>: AnyBlock,
+    Block<N>: ToParameters,
 {
-    let once = || -> Result<Run, Trouble> {
-        let (run, ride) = believed.play(Qemu::start(image, PATIENCE)?, scenario, SEEDS[0])?;
-        ride.lockstep.end()?;
+    let once = || -> Result<ScenarioRun, RunError> {
+        let (run, closed_loop) = believed.run(Qemu::start(image, PATIENCE)?, scenario, SEEDS[0])?;
+        closed_loop.lockstep.end()?;
         Ok(run)
     };
     let run = once()?;
     let (other, title) = if again {
         (once()?, format!("{name}: {}, twice", scenario.name()))
     } else {
-        (believed.in_software(scenario, SEEDS[0]), format!("{name}: {}", scenario.name()))
+        (believed.run_on_host(scenario, SEEDS[0]), format!("{name}: {}", scenario.name()))
     };
-    let differs = difference(&run.taken, &other.taken, again);
-    Ok(Emulated { name: title, records: run.taken.records.len(), load: load(&run.taken), differs })
+    let differs = difference(&run.log, &other.log, again);
+    Ok(Emulated { name: title, records: run.log.records.len(), load: load(&run.log), differs })
 }

@@ -10,7 +10,7 @@ use omni_gap::report::{Estimate, Report, Verdict};
 use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded};
 use omni_gap::{Diagnosis, Options, known_effects};
 
-use super::sessions::{Case, Hidden, truth};
+use super::sessions::{BenchmarkCase, HiddenCause, truth};
 
 /// A gap smaller than this is not divided by [σ].
 pub const TOO_SMALL: f64 = 0.1;
@@ -20,7 +20,7 @@ const HOLD_OUT: usize = 3;
 
 /// How good the answer is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Judged {
+pub enum Judgement {
     /// The hidden cause comes first; where nothing is hidden, the answer is `no_gap`.
     First,
     /// The hidden cause is named as one that the data cannot tell from the first.
@@ -42,7 +42,7 @@ pub struct Oracle {
 
 /// A number of the hidden cause, against the truth.
 #[derive(Clone, Debug)]
-pub struct Number {
+pub struct EstimatedNumber {
     /// Its key.
     pub key: String,
     /// The true value, SI.
@@ -51,7 +51,7 @@ pub struct Number {
     pub estimate: Option<Estimate>,
 }
 
-impl Number {
+impl EstimatedNumber {
     /// How many of its own standard deviations the estimate is off.
     pub fn off(&self) -> Option<f64> {
         let estimate = self.estimate.as_ref()?;
@@ -61,15 +61,15 @@ impl Number {
 
 /// A diagnosed session.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct BenchmarkOutcome {
     /// What was diagnosed.
-    pub case: Case,
+    pub case: BenchmarkCase,
     /// The answer.
     pub report: Report,
     /// What the true model achieves.
     pub oracle: Oracle,
     /// The hidden cause's numbers.
-    pub numbers: Vec<Number>,
+    pub numbers: Vec<EstimatedNumber>,
     /// How far the session's robot file is off the truth, in the sigmas that it states, by key.
     pub drawn: Vec<(&'static str, f64)>,
     /// How long the diagnosis took [s]
@@ -80,7 +80,7 @@ pub struct Outcome {
 ///
 /// # Errors
 /// Where the true robot's file is not sound.
-pub fn diagnosed(case: &Case) -> Result<Outcome> {
+pub fn diagnose_case(case: &BenchmarkCase) -> Result<BenchmarkOutcome> {
     let session = case.session()?;
     let start = Instant::now();
     let report = Diagnosis::of(&session, &Options::default()).report;
@@ -92,7 +92,7 @@ pub fn diagnosed(case: &Case) -> Result<Outcome> {
     };
     let numbers = numbers(case, &report, &file);
     let drawn = drawn(&session.robot, &file);
-    Ok(Outcome { case: case.clone(), report, oracle, numbers, drawn, seconds })
+    Ok(BenchmarkOutcome { case: case.clone(), report, oracle, numbers, drawn, seconds })
 }
 
 fn drawn(nominal: &RobotFile, truth: &RobotFile) -> Vec<(&'static str, f64)> {
@@ -103,10 +103,10 @@ fn drawn(nominal: &RobotFile, truth: &RobotFile) -> Vec<(&'static str, f64)> {
     NOMINAL_KEYS.iter().filter_map(off).collect()
 }
 
-fn oracle<const N: usize>(case: &Case, session: &Session, file: &RobotFile) -> Oracle {
+fn oracle<const N: usize>(case: &BenchmarkCase, session: &Session, file: &RobotFile) -> Oracle {
     let voltage = case.plan().voltage;
     let mut model = Model::<N>::nominal(file, voltage);
-    if let Hidden::Effect(effect) = &case.hidden {
+    if let HiddenCause::Effect(effect) = &case.hidden {
         model.carry(effect.clone());
     }
     let held: Vec<Recorded<N>> = session
@@ -126,22 +126,22 @@ fn oracle<const N: usize>(case: &Case, session: &Session, file: &RobotFile) -> O
     }
 }
 
-fn numbers(case: &Case, report: &Report, file: &RobotFile) -> Vec<Number> {
+fn numbers(case: &BenchmarkCase, report: &Report, file: &RobotFile) -> Vec<EstimatedNumber> {
     let Some((cause, _)) = case.hidden.cause() else { return Vec::new() };
     let said = report.cause(cause);
-    let number = |key: &str, truth: f64| Number {
+    let number = |key: &str, truth: f64| EstimatedNumber {
         key: key.to_owned(),
         truth,
         estimate: said.and_then(|which| which.parameters.get(key)).cloned(),
     };
     match &case.hidden {
-        Hidden::Effect(effect) => {
+        HiddenCause::Effect(effect) => {
             effect.card().params.iter().zip(&effect.params).map(|(p, x)| number(p.key, *x)).collect()
         }
-        Hidden::Parameter(wrong) => {
+        HiddenCause::Parameter(wrong) => {
             NominalKey::of(wrong.key).map(|k| number(k.key, k.value(file))).into_iter().collect()
         }
-        Hidden::Nothing => Vec::new(),
+        HiddenCause::Nothing => Vec::new(),
     }
 }
 
@@ -158,19 +158,19 @@ fn alike(report: &Report) -> &[String] {
 }
 
 /// How good an answer is, where the truth is known.
-pub fn judge(hidden: &Hidden, report: &Report) -> Judged {
+pub fn judge(hidden: &HiddenCause, report: &Report) -> Judgement {
     let Some((cause, wheel)) = hidden.cause() else {
-        return if report.verdict == Verdict::NoGap { Judged::First } else { Judged::Wrong };
+        return if report.verdict == Verdict::NoGap { Judgement::First } else { Judgement::Wrong };
     };
     let in_place = report.cause(cause).is_some_and(|which| which.wheel == wheel);
     match first(report) {
-        Some((first, _)) if first == cause && in_place => Judged::First,
-        Some(_) if in_place && alike(report).iter().any(|id| id == cause) => Judged::Named,
-        _ => Judged::Wrong,
+        Some((first, _)) if first == cause && in_place => Judgement::First,
+        Some(_) if in_place && alike(report).iter().any(|id| id == cause) => Judgement::Named,
+        _ => Judgement::Wrong,
     }
 }
 
-impl Outcome {
+impl BenchmarkOutcome {
     /// The cause that the diagnosis puts first, with its wheel; none where it names none.
     pub fn first(&self) -> Option<(&str, Option<usize>)> {
         first(&self.report)
@@ -182,7 +182,7 @@ impl Outcome {
     }
 
     /// How good the answer is.
-    pub fn judged(&self) -> Judged {
+    pub fn judged(&self) -> Judgement {
         judge(&self.case.hidden, &self.report)
     }
 

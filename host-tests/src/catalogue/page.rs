@@ -6,8 +6,8 @@ use std::fmt::Write;
 
 use omni_gap::report::{Verdict, estimate, num, percent};
 
-use super::outcome::{Judged, Number, Outcome, TOO_SMALL};
-use super::sessions::{FIRST_SEED, Hidden, WRONG};
+use super::outcome::{BenchmarkOutcome, EstimatedNumber, Judgement, TOO_SMALL};
+use super::sessions::{FIRST_SEED, HiddenCause, WRONG_PARAMETERS};
 
 /// Share of what the true model closes that the diagnosis has to close.
 pub const ENOUGH_CLOSED: f64 = 0.8;
@@ -26,13 +26,13 @@ pub struct Promise {
 }
 
 /// What was promised of these sessions.
-pub fn promises(outcomes: &[Outcome]) -> Vec<Promise> {
-    let of = |kind: fn(&Hidden) -> bool| outcomes.iter().filter(move |o| kind(&o.case.hidden));
-    let effect = |h: &Hidden| matches!(h, Hidden::Effect(_));
-    let right = || of(effect).filter(|o| o.judged() != Judged::Wrong);
-    let closing = || right().filter_map(Outcome::closed_of_truth);
-    let nothing = |h: &Hidden| *h == Hidden::Nothing;
-    let wrong = |h: &Hidden| matches!(h, Hidden::Parameter(_));
+pub fn promises(outcomes: &[BenchmarkOutcome]) -> Vec<Promise> {
+    let of = |kind: fn(&HiddenCause) -> bool| outcomes.iter().filter(move |o| kind(&o.case.hidden));
+    let effect = |h: &HiddenCause| matches!(h, HiddenCause::Effect(_));
+    let right = || of(effect).filter(|o| o.judged() != Judgement::Wrong);
+    let closing = || right().filter_map(BenchmarkOutcome::closed_of_truth);
+    let nothing = |h: &HiddenCause| *h == HiddenCause::Nothing;
+    let wrong = |h: &HiddenCause| matches!(h, HiddenCause::Parameter(_));
     let promise = |what: &str, kept: usize, of: usize, least: usize| Promise { what: what.to_owned(), kept, of, least };
     vec![
         promise("the hidden effect first, or named in the set of the first", right().count(), of(effect).count(), 22),
@@ -73,7 +73,7 @@ pub fn read_promises(page: &str) -> Vec<Promise> {
 }
 
 /// The whole page.
-pub fn page(outcomes: &[Outcome]) -> String {
+pub fn page(outcomes: &[BenchmarkOutcome]) -> String {
     let mut text = opening();
     text += "## What was promised\n\n| | sessions that keep it | of | at least |\n|---|---|---|---|\n";
     for Promise { what, kept, of, least } in promises(outcomes) {
@@ -87,7 +87,7 @@ pub fn page(outcomes: &[Outcome]) -> String {
 }
 
 fn opening() -> String {
-    let wrong: Vec<String> = WRONG
+    let wrong: Vec<String> = WRONG_PARAMETERS
         .iter()
         .map(|w| format!("`{}` × {} (stated: {} at one sigma)", w.key, w.ratio, plain(&percent(w.stated))))
         .collect();
@@ -107,27 +107,27 @@ fn opening() -> String {
 }
 
 /// Counts that nobody promised.
-fn aside(outcomes: &[Outcome]) -> String {
-    let count = |kind: fn(&Hidden) -> bool, judged: Judged| {
+fn aside(outcomes: &[BenchmarkOutcome]) -> String {
+    let count = |kind: fn(&HiddenCause) -> bool, judged: Judgement| {
         outcomes.iter().filter(|o| kind(&o.case.hidden) && o.judged() == judged).count()
     };
-    let effect = |h: &Hidden| matches!(h, Hidden::Effect(_));
-    let wrong = |h: &Hidden| matches!(h, Hidden::Parameter(_));
-    let offs: Vec<f64> = outcomes.iter().flat_map(|o| &o.numbers).filter_map(Number::off).collect();
+    let effect = |h: &HiddenCause| matches!(h, HiddenCause::Effect(_));
+    let wrong = |h: &HiddenCause| matches!(h, HiddenCause::Parameter(_));
+    let offs: Vec<f64> = outcomes.iter().flat_map(|o| &o.numbers).filter_map(EstimatedNumber::off).collect();
     format!(
         "\nOf the effects {} stand first and {} are named in the set of the first; of the wrong numbers {} and {}. Of {}\n\
          fitted numbers of hidden causes {} lie within two of their own standard deviations of the truth (were they Gaussian:\n\
          95 %).\n",
-        count(effect, Judged::First),
-        count(effect, Judged::Named),
-        count(wrong, Judged::First),
-        count(wrong, Judged::Named),
+        count(effect, Judgement::First),
+        count(effect, Judgement::Named),
+        count(wrong, Judgement::First),
+        count(wrong, Judgement::Named),
         offs.len(),
         offs.iter().filter(|off| **off <= 2.0).count()
     )
 }
 
-fn answers(outcomes: &[Outcome]) -> String {
+fn answers(outcomes: &[BenchmarkOutcome]) -> String {
     let mut text = "\n## The answers\n\n\
         \"Right\" is `first` where the first cause is the hidden one (on its wheel), `named` where the hidden one is a member\n\
         of the set that the data cannot tell from the first, and **wrong** otherwise. The probability is the one that the\n\
@@ -138,9 +138,9 @@ fn answers(outcomes: &[Outcome]) -> String {
     for o in outcomes {
         let causes: Vec<String> = o.report.causes.iter().map(|id| o.named(id)).collect();
         let right = match o.judged() {
-            Judged::First => "first",
-            Judged::Named => "named",
-            Judged::Wrong => "**wrong**",
+            Judgement::First => "first",
+            Judgement::Named => "named",
+            Judgement::Wrong => "**wrong**",
         };
         let _ = writeln!(
             text,
@@ -157,7 +157,7 @@ fn answers(outcomes: &[Outcome]) -> String {
     text
 }
 
-fn gaps(outcomes: &[Outcome]) -> String {
+fn gaps(outcomes: &[BenchmarkOutcome]) -> String {
     let mut text = format!(
         "\n## The gaps\n\n\
         Errors of free runs of 0.5 s over the runs held out, in sigmas of the sensors: with the session's robot file, with the\n\
@@ -190,7 +190,7 @@ fn gaps(outcomes: &[Outcome]) -> String {
     text
 }
 
-fn numbers(outcomes: &[Outcome]) -> String {
+fn numbers(outcomes: &[BenchmarkOutcome]) -> String {
     let mut text = "\n## The numbers\n\n\
         What the report says of the hidden cause's own numbers, one standard deviation with each; a number without one was\n\
         not fitted. \"Off\" is the distance to the truth in these deviations.\n\n\
@@ -213,7 +213,7 @@ fn numbers(outcomes: &[Outcome]) -> String {
     text
 }
 
-impl Outcome {
+impl BenchmarkOutcome {
     fn named(&self, id: &str) -> String {
         match self.report.cause(id).and_then(|which| which.wheel) {
             Some(wheel) => format!("`{id}` on wheel {wheel}"),

@@ -17,20 +17,20 @@ pub const FIRST_SEED: u64 = 2000;
 pub const FIRST_SHORT_SEED: u64 = 4000;
 
 /// Sessions with nothing hidden, on each robot.
-pub const NOTHING_EACH: usize = 5;
+pub const NO_GAP_CASES: usize = 5;
 
 /// The same, of the reduced benchmark.
-pub const NOTHING_EACH_SHORT: usize = 3;
+pub const NO_GAP_CASES_SHORT: usize = 3;
 
 /// The wheel of an effect that sits on one wheel alone.
-pub const THE_WHEEL: usize = 1;
+pub const ODD_WHEEL: usize = 1;
 
 /// Wheels of the two robots.
 pub const WHEELS: [usize; 2] = [3, 4];
 
 /// A number of the robot file that is plainly wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wrong {
+pub struct WrongParameter {
     /// Its key.
     pub key: &'static str,
     /// The cause that names it.
@@ -42,43 +42,43 @@ pub struct Wrong {
 }
 
 /// The wrong numbers, each well beyond what is stated of it.
-pub const WRONG: [Wrong; 3] = [
-    Wrong { key: "mass_kg", cause: "mass", ratio: 1.25, stated: 0.01 },
-    Wrong { key: "resistance_ohm", cause: "resistance", ratio: 1.6, stated: 0.1 },
-    Wrong { key: "coulomb_v_N", cause: "coulomb_friction", ratio: 2.5, stated: 0.2 },
+pub const WRONG_PARAMETERS: [WrongParameter; 3] = [
+    WrongParameter { key: "mass_kg", cause: "mass", ratio: 1.25, stated: 0.01 },
+    WrongParameter { key: "resistance_ohm", cause: "resistance", ratio: 1.6, stated: 0.1 },
+    WrongParameter { key: "coulomb_v_N", cause: "coulomb_friction", ratio: 2.5, stated: 0.2 },
 ];
 
 /// What the simulator does not know.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Hidden {
+pub enum HiddenCause {
     /// An effect that it lacks.
     Effect(Carried),
     /// Nothing beyond the stated uncertainty.
     Nothing,
     /// A number that is wrong.
-    Parameter(Wrong),
+    Parameter(WrongParameter),
 }
 
-impl Hidden {
+impl HiddenCause {
     /// The cause that the diagnosis should name, and the wheel that it sits on alone.
     pub fn cause(&self) -> Option<(&'static str, Option<usize>)> {
         match self {
-            Hidden::Effect(effect) => Some((effect.id, effect.wheel)),
-            Hidden::Nothing => None,
-            Hidden::Parameter(wrong) => Some((wrong.cause, None)),
+            HiddenCause::Effect(effect) => Some((effect.id, effect.wheel)),
+            HiddenCause::Nothing => None,
+            HiddenCause::Parameter(wrong) => Some((wrong.cause, None)),
         }
     }
 }
 
-impl fmt::Display for Hidden {
+impl fmt::Display for HiddenCause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Hidden::Effect(effect) => match effect.wheel {
+            HiddenCause::Effect(effect) => match effect.wheel {
                 Some(wheel) => write!(f, "`{}` on wheel {wheel}", effect.id),
                 None => write!(f, "`{}`", effect.id),
             },
-            Hidden::Nothing => write!(f, "nothing"),
-            Hidden::Parameter(wrong) => write!(f, "`{}` × {}", wrong.key, wrong.ratio),
+            HiddenCause::Nothing => write!(f, "nothing"),
+            HiddenCause::Parameter(wrong) => write!(f, "`{}` × {}", wrong.key, wrong.ratio),
         }
     }
 }
@@ -95,37 +95,37 @@ pub enum Length {
 
 /// One session of the benchmark.
 #[derive(Clone, Debug)]
-pub struct Case {
+pub struct BenchmarkCase {
     /// Seed of everything random in it.
     pub seed: u64,
     /// Wheels of its robot.
     pub wheels: usize,
     /// What the simulator does not know.
-    pub hidden: Hidden,
+    pub hidden: HiddenCause,
     /// How much is recorded.
     pub length: Length,
 }
 
 /// All sessions, in the order of their seeds.
-pub fn cases() -> Vec<Case> {
-    numbered(FIRST_SEED, NOTHING_EACH, Length::Full)
+pub fn cases() -> Vec<BenchmarkCase> {
+    numbered(FIRST_SEED, NO_GAP_CASES, Length::Full)
 }
 
 /// The reduced benchmark: the same, short, with seeds of its own and fewer sessions with nothing hidden.
-pub fn short_cases() -> Vec<Case> {
-    numbered(FIRST_SHORT_SEED, NOTHING_EACH_SHORT, Length::Short)
+pub fn short_cases() -> Vec<BenchmarkCase> {
+    numbered(FIRST_SHORT_SEED, NO_GAP_CASES_SHORT, Length::Short)
 }
 
-fn numbered(first_seed: u64, nothing_each: usize, length: Length) -> Vec<Case> {
+fn numbered(first_seed: u64, nothing_each: usize, length: Length) -> Vec<BenchmarkCase> {
     let effects = effects::catalogue::<f64>().iter().map(|effect| {
         let card = effect.card();
-        Hidden::Effect(Carried::typical(card, (card.scope == Scope::OneWheel).then_some(THE_WHEEL)))
+        HiddenCause::Effect(Carried::typical(card, (card.scope == Scope::OneWheel).then_some(ODD_WHEEL)))
     });
-    let nothing = std::iter::repeat_n(Hidden::Nothing, nothing_each);
-    let all = effects.chain(nothing).chain(WRONG.map(Hidden::Parameter));
+    let nothing = std::iter::repeat_n(HiddenCause::Nothing, nothing_each);
+    let all = effects.chain(nothing).chain(WRONG_PARAMETERS.map(HiddenCause::Parameter));
     let on_both = all.flat_map(|hidden| WHEELS.map(|wheels| (wheels, hidden.clone())));
     let seeded = (first_seed..).zip(on_both);
-    seeded.map(|(seed, (wheels, hidden))| Case { seed, wheels, hidden, length }).collect()
+    seeded.map(|(seed, (wheels, hidden))| BenchmarkCase { seed, wheels, hidden, length }).collect()
 }
 
 /// The text of the true robot's file.
@@ -136,7 +136,7 @@ pub fn truth(wheels: usize) -> &'static str {
     }
 }
 
-impl Case {
+impl BenchmarkCase {
     /// How it is staged: as noisy and as uncertain as [`Stage`] is by default.
     pub fn plan(&self) -> Stage {
         let mut plan = match self.length {
@@ -145,9 +145,9 @@ impl Case {
         };
         plan.seed = self.seed;
         match &self.hidden {
-            Hidden::Effect(effect) => plan.hidden.push(effect.clone()),
-            Hidden::Nothing => {}
-            Hidden::Parameter(wrong) => plan.wrong.push((wrong.key, wrong.ratio)),
+            HiddenCause::Effect(effect) => plan.hidden.push(effect.clone()),
+            HiddenCause::Nothing => {}
+            HiddenCause::Parameter(wrong) => plan.wrong.push((wrong.key, wrong.ratio)),
         }
         plan
     }
@@ -180,24 +180,24 @@ mod tests {
     #[test]
     fn there_are_as_many_sessions_as_the_promise_speaks_of_each_with_its_own_seed() {
         let all = cases();
-        let count = |of: fn(&Hidden) -> bool| all.iter().filter(|case| of(&case.hidden)).count();
-        assert_eq!(count(|h| matches!(h, Hidden::Effect(_))), 2 * effects::catalogue::<f64>().len());
-        assert_eq!(count(|h| matches!(h, Hidden::Nothing)), 10);
-        assert_eq!(count(|h| matches!(h, Hidden::Parameter(_))), 6);
+        let count = |of: fn(&HiddenCause) -> bool| all.iter().filter(|case| of(&case.hidden)).count();
+        assert_eq!(count(|h| matches!(h, HiddenCause::Effect(_))), 2 * effects::catalogue::<f64>().len());
+        assert_eq!(count(|h| matches!(h, HiddenCause::Nothing)), 10);
+        assert_eq!(count(|h| matches!(h, HiddenCause::Parameter(_))), 6);
         assert!(all.windows(2).all(|pair| pair[1].seed == pair[0].seed + 1));
     }
 
     #[test]
     fn the_reduced_benchmark_hides_the_same_and_shares_no_seed() {
         let (all, short) = (cases(), short_cases());
-        let hidden = |cases: &[Case]| {
+        let hidden = |cases: &[BenchmarkCase]| {
             let mut named: Vec<String> = cases.iter().map(|c| format!("{} on {}", c.hidden, c.wheels)).collect();
             named.sort();
             named.dedup();
             named
         };
         assert_eq!(hidden(&all), hidden(&short));
-        assert_eq!(short.iter().filter(|case| case.hidden == Hidden::Nothing).count(), 6);
+        assert_eq!(short.iter().filter(|case| case.hidden == HiddenCause::Nothing).count(), 6);
         assert!(short.iter().all(|case| all.iter().all(|other| other.seed != case.seed)));
     }
 
@@ -206,7 +206,7 @@ mod tests {
         for wheels in WHEELS {
             let file = RobotFile::parse(truth(wheels), Path::new("robot.toml"), &known_effects()).unwrap();
             assert_eq!(file.wheel.len(), wheels);
-            for wrong in WRONG {
+            for wrong in WRONG_PARAMETERS {
                 assert_eq!(file.relative_uncertainty(wrong.key), Some(wrong.stated), "{}", wrong.key);
                 assert!(wrong.ratio.ln() > 4.0 * wrong.stated, "{}", wrong.key);
             }

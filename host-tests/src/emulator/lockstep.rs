@@ -1,4 +1,4 @@
-//! # Lockstep: a brain and a virtual board, period by period
+//! # Lockstep: a program and a virtual board, period by period
 //!
 //! ```text
 //! up(k): outputs of turn k − 1, bytes of the link       →  they hold over period k
@@ -7,19 +7,19 @@
 
 use firmware::exchange::{DownFrame, UpFrame};
 
-use super::brain::{Brain, Trouble};
-use super::link::Line;
+use super::host_link::HostLink;
+use super::program::{BoardProgram, RunError};
 use crate::virtual_board::{Outputs, VirtualBoard};
 
-/// A brain that drives a board.
+/// A program that drives a board.
 #[derive(Debug)]
 pub struct Lockstep<B, const N: usize> {
     /// The board with its robot
     pub board: VirtualBoard<N>,
     /// The host's end of the serial line
-    pub line: Line,
-    /// The brain
-    pub brain: B,
+    pub link: HostLink,
+    /// The program
+    pub program: B,
     /// Idle instructions to put into the next current turn, in units of 64
     pub burn_current: u16,
     /// The same for the next motion turn
@@ -28,33 +28,33 @@ pub struct Lockstep<B, const N: usize> {
     last: Option<DownFrame>,
 }
 
-impl<B: Brain, const N: usize> Lockstep<B, N> {
+impl<B: BoardProgram, const N: usize> Lockstep<B, N> {
     /// Connects the two.
-    pub fn new(brain: B, board: VirtualBoard<N>) -> Self {
-        Self { board, line: Line::default(), brain, burn_current: 0, burn_motion: 0, period: None, last: None }
+    pub fn new(program: B, board: VirtualBoard<N>) -> Self {
+        Self { board, link: HostLink::default(), program, burn_current: 0, burn_motion: 0, period: None, last: None }
     }
 
-    /// One period; what the brain asked of it.
+    /// One period; what the program asked of it.
     ///
     /// # Errors
-    /// [`Trouble`] says what became of the brain.
-    pub fn period(&mut self) -> Result<UpFrame, Trouble> {
-        let up = self.brain.up()?;
+    /// [`RunError`] says what became of the program.
+    pub fn period(&mut self) -> Result<UpFrame, RunError> {
+        let up = self.program.up()?;
         let due = self.period.map_or(up.period, |last| last.wrapping_add(1));
         if up.period != due {
-            return Err(Trouble::Period { due, came: up.period });
+            return Err(RunError::Period { due, came: up.period });
         }
         self.period = Some(up.period);
-        self.line.take(&up.link);
+        self.link.receive(&up.link);
         let codes = self.board.period(&Outputs { compare: up.compare, enabled: up.enabled });
         let down = DownFrame {
             codes,
             end: false,
             burn_current: std::mem::take(&mut self.burn_current),
             burn_motion: std::mem::take(&mut self.burn_motion),
-            link: self.line.leave(),
+            link: self.link.transmit(),
         };
-        self.brain.down(&down)?;
+        self.program.down(&down)?;
         self.last = Some(down);
         Ok(up)
     }
@@ -62,8 +62,8 @@ impl<B: Brain, const N: usize> Lockstep<B, N> {
     /// So many periods; `see` is shown each, with the board after it.
     ///
     /// # Errors
-    /// [`Trouble`] says what became of the brain.
-    pub fn run(&mut self, periods: u32, mut see: impl FnMut(&UpFrame, &mut VirtualBoard<N>)) -> Result<(), Trouble> {
+    /// [`RunError`] says what became of the program.
+    pub fn run(&mut self, periods: u32, mut see: impl FnMut(&UpFrame, &mut VirtualBoard<N>)) -> Result<(), RunError> {
         for _ in 0..periods {
             let up = self.period()?;
             see(&up, &mut self.board);
@@ -82,19 +82,19 @@ impl<const N: usize> Lockstep<super::Qemu, N> {
     /// Ends the image as it ends by itself, and says if it does not.
     ///
     /// # Errors
-    /// [`Trouble`] says how it ended, or that it did not.
-    pub fn end(mut self) -> Result<(), Trouble> {
-        let up = self.brain.up()?;
+    /// [`RunError`] says how it ended, or that it did not.
+    pub fn end(mut self) -> Result<(), RunError> {
+        let up = self.program.up()?;
         let codes = self.board.period(&Outputs { compare: up.compare, enabled: up.enabled });
-        let last = DownFrame { codes, end: true, burn_current: 0, burn_motion: 0, link: self.line.leave() };
-        self.brain.end(&last)
+        let last = DownFrame { codes, end: true, burn_current: 0, burn_motion: 0, link: self.link.transmit() };
+        self.program.end(&last)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::virtual_board::Setup;
+    use crate::virtual_board::BoardSetup;
     use firmware::exchange::{LinkBytes, TOPS};
     use model_core::control::halls::HallCode;
     use model_core::effects::active::Effects;
@@ -109,8 +109,8 @@ mod tests {
         skips: bool,
     }
 
-    impl Brain for Simple {
-        fn up(&mut self) -> Result<UpFrame, Trouble> {
+    impl BoardProgram for Simple {
+        fn up(&mut self) -> Result<UpFrame, RunError> {
             let middle = TOPS[0] / 2;
             let (high, low) = (middle + 700, middle - 700);
             // the phase that pulls the magnet on from each sector: forward torque is current into b, out of c, at θ = 0
@@ -128,7 +128,7 @@ mod tests {
             Ok(up)
         }
 
-        fn down(&mut self, down: &DownFrame) -> Result<(), Trouble> {
+        fn down(&mut self, down: &DownFrame) -> Result<(), RunError> {
             self.halls = down.codes.halls[0];
             self.back = down.link;
             Ok(())
@@ -136,19 +136,19 @@ mod tests {
     }
 
     fn lockstep(skips: bool) -> Lockstep<Simple, 4> {
-        let board = VirtualBoard::new(Setup::new(four_wheels(), Effects::default(), 4));
+        let board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), 4));
         Lockstep::new(Simple { skips, ..Simple::default() }, board)
     }
 
     #[test]
     fn six_steps_by_the_halls_turn_a_wheel_forward_and_bytes_go_round() {
         let mut run = lockstep(false);
-        run.line.send(&[1, 2, 3]);
+        run.link.send(&[1, 2, 3]);
         let mut periods = 0;
         run.run(10_000, |up, _| periods = up.period).expect("a brain without trouble");
         assert_eq!(periods, 9_999);
         assert!(run.board.wheel_speeds()[0] > 3.0, "{:?}", run.board.wheel_speeds());
-        assert_eq!(run.line.received(), [1, 2, 3]);
+        assert_eq!(run.link.received(), [1, 2, 3]);
         assert!(run.last().is_some_and(|down| down.codes == DownFrame { ..*down }.codes));
     }
 

@@ -15,7 +15,7 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{CWD, Mode, mkfifoat};
 use tempfile::TempDir;
 
-use super::brain::{Brain, Trouble};
+use super::program::{BoardProgram, RunError};
 
 /// The emulator.
 pub const PROGRAM: &str = "qemu-system-arm";
@@ -36,10 +36,10 @@ pub const OPTIONS: [&str; 11] = [
 ];
 
 /// How often a waiting host looks whether the emulator still lives [ms].
-const GLANCE: i64 = 20;
+const POLL_MS: i64 = 20;
 
 /// The file that what it says goes to.
-const SAID: &str = "said";
+const CONSOLE_FILE: &str = "said";
 
 /// An image that runs. It is ended when this is dropped.
 #[derive(Debug)]
@@ -48,23 +48,23 @@ pub struct Qemu {
     up: File,
     down: File,
     folder: TempDir,
-    patience: Duration,
+    timeout: Duration,
     exchanges: u64,
 }
 
 impl Qemu {
-    /// Starts an image. `patience` is how long it may think about one period.
+    /// Starts an image. `timeout` is how long it may think about one period.
     ///
     /// # Errors
-    /// [`Trouble::NotStarted`] if pipes or process cannot be made.
-    pub fn start(image: &Path, patience: Duration) -> Result<Self, Trouble> {
+    /// [`RunError::NotStarted`] if pipes or process cannot be made.
+    pub fn start(image: &Path, timeout: Duration) -> Result<Self, RunError> {
         let image = image.canonicalize().map_err(not_started(format!("the image {}", image.display())))?;
         let mut command = Command::new(PROGRAM);
         command.args(OPTIONS).arg("-kernel").arg(&image);
-        Self::launch(command, patience)
+        Self::launch(command, timeout)
     }
 
-    fn launch(mut command: Command, patience: Duration) -> Result<Self, Trouble> {
+    fn launch(mut command: Command, timeout: Duration) -> Result<Self, RunError> {
         let folder = tempfile::tempdir().map_err(not_started("a folder for the emulator".into()))?;
         let pipe = |name: &str| {
             let path = folder.path().join(name);
@@ -74,7 +74,8 @@ impl Qemu {
                 .map_err(not_started(format!("the pipe {}", path.display())))
         };
         let (up, down) = (pipe(UP_FILE)?, pipe(DOWN_FILE)?);
-        let said = File::create(folder.path().join(SAID)).map_err(not_started("a file for its words".into()))?;
+        let said =
+            File::create(folder.path().join(CONSOLE_FILE)).map_err(not_started("a file for its words".into()))?;
         let also = said.try_clone().map_err(not_started("a file for its words".into()))?;
         let name = command.get_program().to_string_lossy().into_owned();
         let child = command
@@ -84,97 +85,97 @@ impl Qemu {
             .stderr(also)
             .spawn()
             .map_err(not_started(format!("{name} (Debian: apt-get install qemu-system-arm)")))?;
-        Ok(Self { child, up, down, folder, patience, exchanges: 0 })
+        Ok(Self { child, up, down, folder, timeout, exchanges: 0 })
     }
 
     /// What the emulator and the image have said so far; bytes of defmt are shown as they can be.
-    pub fn said(&self) -> String {
-        String::from_utf8_lossy(&self.said_bytes()).into_owned()
+    pub fn console(&self) -> String {
+        String::from_utf8_lossy(&self.console_bytes()).into_owned()
     }
 
     /// The same as bytes, for a decoder of defmt.
-    pub fn said_bytes(&self) -> Vec<u8> {
-        std::fs::read(self.folder.path().join(SAID)).unwrap_or_default()
+    pub fn console_bytes(&self) -> Vec<u8> {
+        std::fs::read(self.folder.path().join(CONSOLE_FILE)).unwrap_or_default()
     }
 
     /// Waits for the end of an image that ends by itself or has been told to.
     ///
     /// # Errors
-    /// [`Trouble::Silent`] if it does not end in time.
-    pub fn wait(&mut self) -> Result<ExitStatus, Trouble> {
+    /// [`RunError::Silent`] if it does not end in time.
+    pub fn wait(&mut self) -> Result<ExitStatus, RunError> {
         let began = Instant::now();
         loop {
-            if let Some(status) = self.child.try_wait().map_err(Trouble::Exchange)? {
+            if let Some(status) = self.child.try_wait().map_err(RunError::Exchange)? {
                 return Ok(status);
             }
-            if began.elapsed() > self.patience {
+            if began.elapsed() > self.timeout {
                 return Err(self.silent(began.elapsed()));
             }
-            std::thread::sleep(Duration::from_millis(GLANCE as u64 / 4));
+            std::thread::sleep(Duration::from_millis(POLL_MS as u64 / 4));
         }
     }
 
     /// Tells the image to end, in the period that it has just asked for, and waits until it has.
     ///
     /// # Errors
-    /// [`Trouble::Silent`] if it does not end in time, [`Trouble::Ended`] if it ends with a failure.
-    pub fn end(&mut self, last: &DownFrame) -> Result<(), Trouble> {
+    /// [`RunError::Silent`] if it does not end in time, [`RunError::Ended`] if it ends with a failure.
+    pub fn end(&mut self, last: &DownFrame) -> Result<(), RunError> {
         self.down(&DownFrame { end: true, ..*last })?;
         let status = self.wait()?;
         if status.success() { Ok(()) } else { Err(self.ended(status)) }
     }
 
     /// Waits until there is something to read.
-    fn listen(&mut self) -> Result<(), Trouble> {
+    fn wait_readable(&mut self) -> Result<(), RunError> {
         let began = Instant::now();
-        let glance = Timespec { tv_sec: 0, tv_nsec: GLANCE * 1_000_000 };
+        let glance = Timespec { tv_sec: 0, tv_nsec: POLL_MS * 1_000_000 };
         loop {
             let ready = poll(&mut [PollFd::new(&self.up, PollFlags::IN)], Some(&glance));
             match ready {
                 Ok(0) => {}
                 Ok(_) => return Ok(()),
                 Err(rustix::io::Errno::INTR) => continue,
-                Err(why) => return Err(Trouble::Exchange(why.into())),
+                Err(why) => return Err(RunError::Exchange(why.into())),
             }
-            if let Some(status) = self.child.try_wait().map_err(Trouble::Exchange)? {
+            if let Some(status) = self.child.try_wait().map_err(RunError::Exchange)? {
                 // its last words may have come between the two looks
                 let left = poll(&mut [PollFd::new(&self.up, PollFlags::IN)], Some(&Timespec::default()));
                 return if left == Ok(1) { Ok(()) } else { Err(self.ended(status)) };
             }
-            if began.elapsed() > self.patience {
+            if began.elapsed() > self.timeout {
                 return Err(self.silent(began.elapsed()));
             }
         }
     }
 
-    fn ended(&self, status: ExitStatus) -> Trouble {
-        Trouble::Ended { how: status.to_string(), exchanges: self.exchanges, said: self.said() }
+    fn ended(&self, status: ExitStatus) -> RunError {
+        RunError::Ended { how: status.to_string(), exchanges: self.exchanges, said: self.console() }
     }
 
-    fn silent(&self, waited: Duration) -> Trouble {
-        Trouble::Silent { waited, exchanges: self.exchanges, said: self.said() }
+    fn silent(&self, waited: Duration) -> RunError {
+        RunError::Silent { waited, exchanges: self.exchanges, said: self.console() }
     }
 }
 
-fn not_started(what: String) -> impl FnOnce(std::io::Error) -> Trouble {
-    move |why| Trouble::NotStarted { what, why }
+fn not_started(what: String) -> impl FnOnce(std::io::Error) -> RunError {
+    move |why| RunError::NotStarted { what, why }
 }
 
-impl Brain for Qemu {
-    fn up(&mut self) -> Result<UpFrame, Trouble> {
+impl BoardProgram for Qemu {
+    fn up(&mut self) -> Result<UpFrame, RunError> {
         let mut bytes = [0; UpFrame::LEN];
         let mut have = 0;
         while have < bytes.len() {
-            self.listen()?;
-            have += self.up.read(&mut bytes[have..]).map_err(Trouble::Exchange)?;
+            self.wait_readable()?;
+            have += self.up.read(&mut bytes[have..]).map_err(RunError::Exchange)?;
         }
         self.exchanges += 1;
         Ok(UpFrame::from_bytes(&bytes))
     }
 
-    fn down(&mut self, down: &DownFrame) -> Result<(), Trouble> {
+    fn down(&mut self, down: &DownFrame) -> Result<(), RunError> {
         // far less than a pipe holds: this does not wait, and what a dead image does not take is found at the next `up`
-        self.down.write_all(&down.to_bytes()).map_err(Trouble::Exchange)
+        self.down.write_all(&down.to_bytes()).map_err(RunError::Exchange)
     }
 }
 
@@ -201,10 +202,10 @@ mod tests {
     }
 
     /// A shell in the emulator's place.
-    fn shell(script: &str, patience: Duration) -> Qemu {
+    fn shell(script: &str, timeout: Duration) -> Qemu {
         let mut command = Command::new("sh");
         command.args(["-c", script]);
-        Qemu::launch(command, patience).expect("a shell")
+        Qemu::launch(command, timeout).expect("a shell")
     }
 
     #[test]
@@ -217,7 +218,7 @@ mod tests {
         qemu.down(&down()).expect("taken");
         assert_eq!(qemu.up().expect("a frame"), UpFrame::default());
         qemu.end(&down()).expect("it ends well");
-        assert_eq!(qemu.said_bytes(), DownFrame { end: true, ..down() }.to_bytes());
+        assert_eq!(qemu.console_bytes(), DownFrame { end: true, ..down() }.to_bytes());
     }
 
     #[test]

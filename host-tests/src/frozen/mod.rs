@@ -44,7 +44,7 @@ pub fn answers(recordings: &[FrozenCase]) -> Result<Vec<Value>> {
 pub fn real_answers(folder: &std::path::Path) -> Result<Vec<Value>> {
     // where the recordings lie on this machine is nobody's business
     let place = format!("{}/", folder.display());
-    let answered = |real: &crate::real::sessions::Real| -> Result<Value> {
+    let answered = |real: &crate::real::sessions::RealSession| -> Result<Value> {
         let mut session = real.session(folder)?;
         session.notices.iter_mut().for_each(|notice| *notice = notice.replace(&place, ""));
         Ok(answer(real.title, &session))

@@ -6,7 +6,7 @@ use omni_gap::log::Run;
 use omni_gap::simulate::Carried;
 
 use super::layouts::Layout;
-use crate::catalogue::sessions::{Case, Hidden, Length, WHEELS, short_cases};
+use crate::catalogue::sessions::{BenchmarkCase, HiddenCause, Length, WHEELS, short_cases};
 
 /// The seed of the first recording that is not the reduced benchmark's; the others count up from it.
 const FIRST_SEED: u64 = 5000;
@@ -82,9 +82,9 @@ impl Kept {
 #[derive(Clone, Debug)]
 enum Made {
     /// A session of the benchmark, and what of it is kept.
-    Case(Case, Kept),
+    Case(BenchmarkCase, Kept),
     /// A session with one more effect than its case hides.
-    Pair(Case, Carried),
+    Pair(BenchmarkCase, Carried),
     /// Files in the layout of a real robot's makers.
     Layout(Layout, u64),
 }
@@ -118,15 +118,15 @@ pub fn recordings() -> Vec<FrozenCase> {
     let mut all: Vec<FrozenCase> = short_cases().into_iter().map(reduced).collect();
     for (kept, id) in Kept::WITH {
         for wheels in WHEELS {
-            let hidden = Hidden::Effect(Carried::typical(card(id), None));
-            let case = Case { seed: seed(), wheels, hidden, length: Length::Short };
+            let hidden = HiddenCause::Effect(Carried::typical(card(id), None));
+            let case = BenchmarkCase { seed: seed(), wheels, hidden, length: Length::Short };
             let name = format!("{:?}, `{id}` on {wheels} wheels", kept);
             all.push(FrozenCase { name, made: Made::Case(case, kept) });
         }
     }
     for wheels in WHEELS {
         let [first, second] = ["dead_time", "camera_latency"].map(|id| Carried::typical(card(id), None));
-        let case = Case { seed: seed(), wheels, hidden: Hidden::Effect(first), length: Length::Short };
+        let case = BenchmarkCase { seed: seed(), wheels, hidden: HiddenCause::Effect(first), length: Length::Short };
         let name = format!("`dead_time` and `camera_latency` on {wheels} wheels");
         all.push(FrozenCase { name, made: Made::Pair(case, second) });
     }
@@ -137,7 +137,7 @@ pub fn recordings() -> Vec<FrozenCase> {
     all
 }
 
-fn reduced(case: Case) -> FrozenCase {
+fn reduced(case: BenchmarkCase) -> FrozenCase {
     FrozenCase {
         name: format!("{} on {} wheels, {}", case.hidden, case.wheels, case.seed),
         made: Made::Case(case, Kept::Everything),

@@ -15,7 +15,7 @@ pub const FIELD: f64 = 3.0;
 
 /// What is measured with, and what on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Case {
+pub struct StudyCase {
     /// Wheels of the robot.
     pub wheels: usize,
     /// How it is measured.
@@ -24,21 +24,21 @@ pub struct Case {
     pub camera_correlation: f64,
     /// How often coast-downs and steps are repeated.
     pub repeats: usize,
-    /// Mornings.
+    /// Trials.
     pub seeds: u64,
 }
 
-const fn paper(wheels: usize, camera_correlation: f64) -> Case {
+const fn paper(wheels: usize, camera_correlation: f64) -> StudyCase {
     let seeds = if camera_correlation == 0.0 { 400 } else { 20 };
-    Case { wheels, sensing: Sensing::Paper, camera_correlation, repeats: 2, seeds }
+    StudyCase { wheels, sensing: Sensing::Paper, camera_correlation, repeats: 2, seeds }
 }
 
-const fn modern(wheels: usize, sensing: Sensing) -> Case {
-    Case { wheels, sensing, camera_correlation: 0.0, repeats: 1, seeds: 8 }
+const fn modern(wheels: usize, sensing: Sensing) -> StudyCase {
+    StudyCase { wheels, sensing, camera_correlation: 0.0, repeats: 1, seeds: 8 }
 }
 
 /// The cases of the study.
-pub const CASES: [Case; 8] = [
+pub const CASES: [StudyCase; 8] = [
     paper(3, 0.0),
     paper(4, 0.0),
     paper(3, 0.15),
@@ -49,7 +49,7 @@ pub const CASES: [Case; 8] = [
     modern(4, Sensing::Halls),
 ];
 
-impl Case {
+impl StudyCase {
     /// What is played.
     pub fn plan(&self) -> Plan {
         Plan { rate: self.sensing.rate(), voltage: VOLTAGE, field: FIELD, repeats: self.repeats, loads: 4 }

@@ -1,35 +1,35 @@
 //! # The identification of a robot, measured on many whose truth is known
 //!
-//! [`case`] says what is played and how it is measured, [`believed`] what is known beforehand, [`asked`] what the joint
-//! fit answers, and [`bound`] what no estimator can go below. [`study`] rehearses the experiments over many seeds and
-//! keeps every estimate; [`missing`] leaves out one group of sensors at a time, [`idle`] the excitation. [`quality`] sums
-//! up an estimator, [`compared`] sets them side by side, [`promises`] holds them to what was promised, and [`page`] writes
-//! it all down.
+//! [`case`] says what is played and how it is measured, [`prior`] what is known beforehand, [`joint_fit`] what the
+//! joint fit answers, and [`cramer_rao`] what no estimator can go below. [`study`] rehearses the experiments over many
+//! seeds and keeps every estimate; [`missing_group`] leaves out one group of sensors at a time, [`no_excitation`] the
+//! excitation. [`statistics`] sums up an estimator, [`comparison`] sets them side by side, [`promises`] holds them to
+//! what was promised, and [`page`] writes it all down.
 
-pub mod asked;
-pub mod believed;
-pub mod bound;
 pub mod case;
-pub mod compared;
-mod digits;
-pub mod idle;
-pub mod missing;
+pub mod comparison;
+pub mod cramer_rao;
+mod identifiability;
+pub mod joint_fit;
+pub mod missing_group;
+pub mod no_excitation;
 pub mod page;
+pub mod prior;
 pub mod promises;
-pub mod quality;
+mod significant_figures;
+pub mod statistics;
 pub mod study;
 mod tables;
-mod telling;
 
-pub use study::Studied;
+pub use study::StudyResult;
 
 /// All that is measured.
 #[derive(Clone, Debug)]
 pub struct Results {
     /// The cases, in the order of [`case::CASES`].
-    pub cases: Vec<Studied>,
+    pub cases: Vec<StudyResult>,
     /// Recordings with one group missing.
-    pub missing: Vec<missing::Missing>,
+    pub missing: Vec<missing_group::MissingGroup>,
     /// Recordings without excitation.
-    pub idle: Vec<idle::Idle>,
+    pub idle: Vec<no_excitation::NoExcitation>,
 }

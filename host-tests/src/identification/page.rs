@@ -6,14 +6,14 @@ use omni_gap::identify::IDENTIFIED;
 use omni_gap::simulate::{Recording, Sensing, SpeedSensor};
 
 use super::Results;
-use super::believed::{stated, symbol};
 use super::case::{CASES, FIELD, VOLTAGE};
-use super::digits::percent;
-use super::idle::STANDS;
-use super::missing::SEEDS;
+use super::identifiability;
+use super::missing_group::SEEDS;
+use super::no_excitation::STANDS;
+use super::prior::{stated, symbol};
 use super::promises::{promises, table};
+use super::significant_figures::percent;
 use super::tables;
-use super::telling;
 
 /// The whole page.
 pub fn page(results: &Results) -> String {
@@ -38,14 +38,14 @@ pub fn page(results: &Results) -> String {
          Modern sensors, {SEEDS} robots each. With \"identified\" stand the largest error and the largest distance to the truth\n\
          in the number's own σ. Without voltages the measured currents drive the model.\n\n"
     );
-    text += &telling::words(&results.missing);
+    text += &identifiability::words(&results.missing);
     text += "\nKnown only in combination:\n\n";
-    text += &telling::together(&results.missing);
+    text += &identifiability::together(&results.missing);
     text += &format!(
         "\n## Without excitation\n\n\
          A robot that stands does so for {STANDS} s. The others lack the runs along an axis.\n\n"
     );
-    text += &telling::idle(&results.idle);
+    text += &identifiability::idle(&results.idle);
     text
 }
 

@@ -1,4 +1,4 @@
-//! Many mornings of experiments with a robot whose truth is known.
+//! Many trials of experiments with a robot whose truth is known.
 //!
 //! Each seed draws what is believed beforehand and the noise, plays all experiments, and asks the paper's estimators and
 //! the joint one.
@@ -11,17 +11,17 @@ use omni_gap::rehearse::rehearse;
 use omni_gap::simulate::{Model, Recorded};
 use rayon::prelude::*;
 
-use super::asked::asked;
-use super::believed::{Believed, NUMBERS, nominal_value};
-use super::bound::bound;
-use super::case::Case;
+use super::case::StudyCase;
+use super::cramer_rao::cramer_rao_bound;
+use super::joint_fit::joint_fit;
+use super::prior::{NUMBERS, PriorRobot, nominal_value};
 
 /// An estimate of each number as a factor of the truth, with its one-sigma uncertainty; `None` where there is none.
 pub type Estimates = [Option<(f64, f64)>; NUMBERS];
 
-/// What one morning gave.
+/// What one trial gave.
 #[derive(Clone, Debug)]
-pub struct Morning {
+pub struct Trial {
     /// Experiments 1 and 2, R and K_v of the motor experiment.
     pub first: Estimates,
     /// Experiment 3 by least squares.
@@ -36,43 +36,43 @@ pub struct Morning {
     pub follows: bool,
 }
 
-/// All mornings of a case.
+/// All trials of a case.
 #[derive(Clone, Debug)]
-pub struct Studied {
+pub struct StudyResult {
     /// The case.
-    pub case: Case,
-    /// The mornings.
-    pub mornings: Vec<Morning>,
+    pub case: StudyCase,
+    /// The trials.
+    pub trials: Vec<Trial>,
     /// The Cramér–Rao bound of each number, relative.
     pub bound: [f64; NUMBERS],
-    /// Runs of a morning, how long they are together [s], and their rows.
+    /// Runs of a trial, how long they are together [s], and their rows.
     pub size: (usize, f64, usize),
 }
 
-/// Plays the mornings of a case.
-pub fn studied(case: Case) -> Studied {
+/// Plays the trials of a case.
+pub fn study(case: StudyCase) -> StudyResult {
     match case.wheels {
         3 => of_wheels::<3>(case),
         _ => of_wheels::<4>(case),
     }
 }
 
-fn of_wheels<const N: usize>(case: Case) -> Studied {
+fn of_wheels<const N: usize>(case: StudyCase) -> StudyResult {
     let truth = case.truth();
     let played = rehearse(&truth, &case.plan(), &case.recording(), 0);
     let size = (played.len(), played.iter().map(|r| r.duration_s()).sum(), played.iter().map(|r| r.rows()).sum());
     let recorded: Vec<Recorded<N>> = played.iter().filter_map(|run| Recorded::new(run, &truth)).collect();
-    let bound = bound(&Model::nominal(&truth, case.plan().voltage), &recorded, case.camera_correlation);
-    let mornings = (1..=case.seeds).into_par_iter().map(|seed| morning::<N>(&truth, case, seed)).collect();
-    Studied { case, mornings, bound, size }
+    let bound = cramer_rao_bound(&Model::nominal(&truth, case.plan().voltage), &recorded, case.camera_correlation);
+    let trials = (1..=case.seeds).into_par_iter().map(|seed| trial::<N>(&truth, case, seed)).collect();
+    StudyResult { case, trials, bound, size }
 }
 
-fn morning<const N: usize>(truth: &RobotFile, case: Case, seed: u64) -> Morning {
-    let believed = Believed::drawn(truth, seed);
+fn trial<const N: usize>(truth: &RobotFile, case: StudyCase, seed: u64) -> Trial {
+    let prior = PriorRobot::drawn(truth, seed);
     let runs = rehearse(truth, &case.plan(), &case.recording(), seed);
-    let recorded: Vec<Recorded<N>> = runs.iter().filter_map(|run| Recorded::new(run, &believed.file)).collect();
+    let recorded: Vec<Recorded<N>> = runs.iter().filter_map(|run| Recorded::new(run, &prior.file)).collect();
     let supply = case.plan().voltage;
-    let classic = classic(&Model::<N>::nominal(&believed.file, supply), &recorded);
+    let classic = classic(&Model::<N>::nominal(&prior.file, supply), &recorded);
     let of_truth = |k: usize, e: Estimate| {
         let true_value = nominal_value(truth, IDENTIFIED[k]);
         (e.value / true_value, e.std / true_value)
@@ -80,8 +80,8 @@ fn morning<const N: usize>(truth: &RobotFile, case: Case, seed: u64) -> Morning 
     let table = |pick: &dyn Fn(Nominal) -> Option<Estimate>| -> Estimates {
         std::array::from_fn(|k| pick(IDENTIFIED[k]).map(|e| of_truth(k, e)))
     };
-    let answer = asked(&believed, supply, &recorded).ok();
-    Morning {
+    let answer = joint_fit(&prior, supply, &recorded).ok();
+    Trial {
         first: table(&|p| classic.first(p)),
         least_squares: table(&|p| classic.least_squares.and_then(|s| s.of(p))),
         instrumental: table(&|p| classic.instrumental.and_then(|s| s.of(p))),

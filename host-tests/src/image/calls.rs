@@ -37,7 +37,7 @@ pub struct Reach {
 
 /// What is known of a function while the graph is walked.
 #[derive(Clone)]
-enum Known {
+enum Visit {
     /// It is on the way that is being walked
     OnTheWay,
     /// Its stack, and which of its calls goes there
@@ -110,26 +110,26 @@ impl Graph {
         while let Some(address) = at {
             reach.deepest.push(address);
             at = match known.get(&address) {
-                Some(Known::Stack(_, next)) => *next,
+                Some(Visit::Stack(_, next)) => *next,
                 _ => None,
             };
         }
         reach
     }
 
-    fn descend(&self, address: u32, known: &mut BTreeMap<u32, Known>, doubts: &mut Vec<String>) -> u32 {
+    fn descend(&self, address: u32, known: &mut BTreeMap<u32, Visit>, doubts: &mut Vec<String>) -> u32 {
         match known.get(&address) {
-            Some(Known::Stack(stack, _)) => return *stack,
-            Some(Known::OnTheWay) => {
+            Some(Visit::Stack(stack, _)) => return *stack,
+            Some(Visit::OnTheWay) => {
                 doubts.push(format!("{} calls itself, perhaps through others", self.name(address)));
                 return 0;
             }
             None => {}
         }
-        known.insert(address, Known::OnTheWay);
+        known.insert(address, Visit::OnTheWay);
         let Some(flow) = self.flows.get(&address) else {
             doubts.push(format!("there is no function at {address:#x}"));
-            known.insert(address, Known::Stack(0, None));
+            known.insert(address, Visit::Stack(0, None));
             return 0;
         };
         if let Some(why) = &flow.unbounded {
@@ -145,7 +145,7 @@ impl Graph {
                 (stack, next) = (through, Some(*to));
             }
         }
-        known.insert(address, Known::Stack(stack, next));
+        known.insert(address, Visit::Stack(stack, next));
         stack
     }
 }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::elf::Function;
-use super::thumb::{Does, Instruction, decode};
+use super::thumb::{Action, Instruction, decode};
 
 /// Deeper than this nothing on this chip can be [bytes].
 const BOTTOMLESS: i64 = 1 << 20;
@@ -53,17 +53,17 @@ pub fn flow(function: &Function) -> Flow {
             }
         };
         match instruction.does {
-            Does::GoesOn | Does::Conditions(_) => goes_on(&mut waiting),
-            Does::Stack(by) => {
+            Action::GoesOn | Action::Conditions(_) => goes_on(&mut waiting),
+            Action::Stack(by) => {
                 let after = taken - i64::from(by);
                 waiting.push((next, if *conditional { after.max(taken) } else { after }));
                 flow.deepest = flow.deepest.max(u32::try_from(after).unwrap_or(0));
             }
-            Does::StackUnknown => {
+            Action::StackUnknown => {
                 flow.unbounded = Some(format!("its stack pointer comes from a register at {at:#x}"));
                 goes_on(&mut waiting);
             }
-            Does::Jump { to, conditional: branches } => {
+            Action::Jump { to, conditional: branches } => {
                 if steps.contains_key(&to) {
                     waiting.push((to, taken));
                 } else {
@@ -73,14 +73,14 @@ pub fn flow(function: &Function) -> Flow {
                     goes_on(&mut waiting);
                 }
             }
-            Does::Table { wide } => {
+            Action::Table { wide } => {
                 let targets = table(function, next, wide);
                 if targets.is_empty() {
                     flow.unbounded = Some(format!("the table behind {at:#x} cannot be told from code"));
                 }
                 waiting.extend(targets.into_iter().map(|to| (to, taken)));
             }
-            Does::JumpVia(place) => {
+            Action::JumpVia(place) => {
                 match word(function, place) {
                     Some(to) => note(&mut flow.calls, to & !1, here),
                     None => note(&mut flow.unknown, at, here),
@@ -89,21 +89,21 @@ pub fn flow(function: &Function) -> Flow {
                     goes_on(&mut waiting);
                 }
             }
-            Does::JumpUnknown => {
+            Action::JumpUnknown => {
                 note(&mut flow.unknown, at, here);
                 if *conditional {
                     goes_on(&mut waiting);
                 }
             }
-            Does::Call(to) => {
+            Action::Call(to) => {
                 note(&mut flow.calls, to, here);
                 goes_on(&mut waiting);
             }
-            Does::CallUnknown => {
+            Action::CallUnknown => {
                 note(&mut flow.unknown, at, here);
                 goes_on(&mut waiting);
             }
-            Does::Return(by) => {
+            Action::Return(by) => {
                 if taken != i64::from(by) {
                     // where this is seen, an instruction has been misread
                     flow.unbounded = Some(format!("it returns at {at:#x} with {} bytes taken", taken - i64::from(by)));
@@ -112,7 +112,7 @@ pub fn flow(function: &Function) -> Flow {
                     goes_on(&mut waiting);
                 }
             }
-            Does::Trap => {}
+            Action::Trap => {}
         }
     }
     flow
@@ -135,7 +135,7 @@ fn steps(function: &Function) -> BTreeMap<u32, Step> {
         let Some(instruction) = decode(function.address + at, &function.bytes[at as usize..]) else { break };
         steps.insert(function.address + at, (instruction, conditions > 0));
         conditions = match instruction.does {
-            Does::Conditions(count) => count,
+            Action::Conditions(count) => count,
             _ => conditions.saturating_sub(1),
         };
         at += instruction.len;

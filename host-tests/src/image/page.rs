@@ -1,6 +1,7 @@
 //! # Page: what the image is held to, and what was measured
 //!
-//! [`Measured`] is all figures of one image, [`Measured::promises`] what they must keep, [`page`] both for a person.
+//! [`ImageMeasurement`] is all figures of one image, [`ImageMeasurement::promises`] what they must keep, [`page`] both
+//! for a person.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -51,7 +52,7 @@ pub struct Handler {
 
 /// All figures of an image.
 #[derive(Clone, Debug)]
-pub struct Measured {
+pub struct ImageMeasurement {
     /// Bytes of flash
     pub flash: u64,
     /// Bytes of RAM that are taken before the program runs
@@ -83,7 +84,7 @@ pub struct Promise {
     pub kept: bool,
 }
 
-impl Measured {
+impl ImageMeasurement {
     /// The figures of an image.
     pub fn of(image: &Image) -> Self {
         let graph = Graph::new(image);
@@ -170,7 +171,7 @@ impl Measured {
 }
 
 /// The page.
-pub fn page(measured: &Measured) -> String {
+pub fn page(measured: &ImageMeasurement) -> String {
     let mut page = String::from(
         "# The image of the firmware\n\n\
          Measured from the ELF alone by `cargo run --release -p host-tests --bin image -- ELF`: sizes from its sections,\n\

@@ -8,7 +8,7 @@
 
 /// What an instruction does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Does {
+pub enum Action {
     /// Nothing that matters here
     GoesOn,
     /// Moves the stack pointer by so many bytes; negative takes room
@@ -49,7 +49,7 @@ pub struct Instruction {
     /// Its bytes: 2 or 4
     pub len: u32,
     /// What it does
-    pub does: Does,
+    pub does: Action,
 }
 
 const SP: u16 = 13;
@@ -77,160 +77,160 @@ fn target(address: u32, offset: i32) -> u32 {
     address.wrapping_add(4).wrapping_add_signed(offset)
 }
 
-fn short(address: u32, h: u16) -> Does {
+fn short(address: u32, h: u16) -> Action {
     let registers = (h & 0xFF).count_ones() as i32;
     let seven = i32::from(h & 0x7F) * 4;
     match h {
         // PUSH 1011 010M; POP 1011 110P
-        _ if h & 0xFE00 == 0xB400 => Does::Stack(-4 * (registers + i32::from(h >> 8 & 1))),
-        _ if h & 0xFF00 == 0xBC00 => Does::Stack(4 * registers),
-        _ if h & 0xFF00 == 0xBD00 => Does::Return(4 * (registers + 1)),
+        _ if h & 0xFE00 == 0xB400 => Action::Stack(-4 * (registers + i32::from(h >> 8 & 1))),
+        _ if h & 0xFF00 == 0xBC00 => Action::Stack(4 * registers),
+        _ if h & 0xFF00 == 0xBD00 => Action::Return(4 * (registers + 1)),
         // ADD SP, #imm7 1011 0000 0; SUB SP, #imm7 1011 0000 1
-        _ if h & 0xFF80 == 0xB000 => Does::Stack(seven),
-        _ if h & 0xFF80 == 0xB080 => Does::Stack(-seven),
+        _ if h & 0xFF80 == 0xB000 => Action::Stack(seven),
+        _ if h & 0xFF80 == 0xB080 => Action::Stack(-seven),
         // ADD Rd, Rm 0100 0100; MOV Rd, Rm 0100 0110; d is split: bit 7 and bits 2 to 0
         _ if h & 0xFD00 == 0x4400 => match (h >> 4 & 8) | (h & 7) {
-            SP => Does::StackUnknown,
-            PC if h == 0x46F7 => Does::Return(0),
-            PC => Does::JumpUnknown,
-            _ => Does::GoesOn,
+            SP => Action::StackUnknown,
+            PC if h == 0x46F7 => Action::Return(0),
+            PC => Action::JumpUnknown,
+            _ => Action::GoesOn,
         },
         // BX LR; BX Rm 0100 0111 0; BLX Rm 0100 0111 1
-        0x4770 => Does::Return(0),
-        _ if h & 0xFF80 == 0x4700 => Does::JumpUnknown,
-        _ if h & 0xFF80 == 0x4780 => Does::CallUnknown,
+        0x4770 => Action::Return(0),
+        _ if h & 0xFF80 == 0x4700 => Action::JumpUnknown,
+        _ if h & 0xFF80 == 0x4780 => Action::CallUnknown,
         // CBZ, CBNZ 1011 x0i1 imm5
         _ if h & 0xF500 == 0xB100 => {
             let offset = (h >> 3 & 0x40) | (h >> 2 & 0x3E);
-            Does::Jump { to: target(address, i32::from(offset)), conditional: true }
+            Action::Jump { to: target(address, i32::from(offset)), conditional: true }
         }
         // IT 1011 1111, a mask that is not zero: its lowest one says how many follow
-        _ if h & 0xFF00 == 0xBF00 && h & 0xF != 0 => Does::Conditions(4 - (h & 0xF).trailing_zeros() as u8),
+        _ if h & 0xFF00 == 0xBF00 && h & 0xF != 0 => Action::Conditions(4 - (h & 0xF).trailing_zeros() as u8),
         // UDF 1101 1110, SVC 1101 1111, B<c> 1101 cccc imm8
-        _ if h & 0xFF00 == 0xDE00 => Does::Trap,
-        _ if h & 0xFF00 == 0xDF00 => Does::GoesOn,
+        _ if h & 0xFF00 == 0xDE00 => Action::Trap,
+        _ if h & 0xFF00 == 0xDF00 => Action::GoesOn,
         _ if h & 0xF000 == 0xD000 => {
-            Does::Jump { to: target(address, signed(u32::from(h & 0xFF) << 1, 9)), conditional: true }
+            Action::Jump { to: target(address, signed(u32::from(h & 0xFF) << 1, 9)), conditional: true }
         }
         // B 11100 imm11
         _ if h & 0xF800 == 0xE000 => {
-            Does::Jump { to: target(address, signed(u32::from(h & 0x7FF) << 1, 12)), conditional: false }
+            Action::Jump { to: target(address, signed(u32::from(h & 0x7FF) << 1, 12)), conditional: false }
         }
-        _ => Does::GoesOn,
+        _ => Action::GoesOn,
     }
 }
 
-fn long(address: u32, h: u16, g: u16) -> Does {
+fn long(address: u32, h: u16, g: u16) -> Action {
     let base = h & 0xF;
     match h >> 9 {
         // 1110 100: load and store, multiple, dual, exclusive, table branch
         0b111_0100 if h & 0x40 == 0 => multiple(h, g, base),
         0b111_0100 => dual(h, g, base),
         // 1110 101: data processing with a shifted register; d is g<11:8>
-        0b111_0101 if g >> 8 & 0xF == SP => Does::StackUnknown,
+        0b111_0101 if g >> 8 & 0xF == SP => Action::StackUnknown,
         // 1110 110: coprocessor load and store, among them VPUSH and VPOP
         0b111_0110 if base == SP && h & 0x20 != 0 && g & 0x0E00 == 0x0A00 => {
             let bytes = 4 * i32::from(g & 0xFF);
-            Does::Stack(if h & 0x80 != 0 { bytes } else { -bytes })
+            Action::Stack(if h & 0x80 != 0 { bytes } else { -bytes })
         }
         // 1111 0: branches and control with g<15>, otherwise data processing with a constant
         0b111_1000..=0b111_1011 if g & 0x8000 != 0 => branch(address, h, g),
         0b111_1000..=0b111_1011 if g >> 8 & 0xF == SP => constant(h, g, base),
         // 1111 100: load and store of one register
         0b111_1100 => single(address, h, g, base),
-        _ => Does::GoesOn,
+        _ => Action::GoesOn,
     }
 }
 
 /// LDM, STM: 1110 100o o0WL nnnn, o = 01 upwards, 10 downwards.
-fn multiple(h: u16, g: u16, base: u16) -> Does {
+fn multiple(h: u16, g: u16, base: u16) -> Action {
     let (load, write_back) = (h & 0x10 != 0, h & 0x20 != 0);
     let loads_pc = load && g & 0x8000 != 0;
     match (base == SP, loads_pc) {
-        (true, true) => Does::Return(4 * g.count_ones() as i32),
-        (false, true) => Does::JumpUnknown,
+        (true, true) => Action::Return(4 * g.count_ones() as i32),
+        (false, true) => Action::JumpUnknown,
         (true, false) if write_back => {
             let bytes = 4 * g.count_ones() as i32;
-            Does::Stack(if h & 0x80 != 0 { bytes } else { -bytes })
+            Action::Stack(if h & 0x80 != 0 { bytes } else { -bytes })
         }
-        _ => Does::GoesOn,
+        _ => Action::GoesOn,
     }
 }
 
 /// LDRD, STRD: 1110 100P U1WL nnnn, P or W; TBB, TBH: 1110 1000 1101 nnnn 1111 0000 000H.
-fn dual(h: u16, g: u16, base: u16) -> Does {
+fn dual(h: u16, g: u16, base: u16) -> Action {
     if h & 0xFFF0 == 0xE8D0 && g & 0xFFE0 == 0xF000 {
-        return if base == PC { Does::Table { wide: g & 0x10 != 0 } } else { Does::JumpUnknown };
+        return if base == PC { Action::Table { wide: g & 0x10 != 0 } } else { Action::JumpUnknown };
     }
     if base == SP && h & 0x20 != 0 {
         let bytes = 4 * i32::from(g & 0xFF);
-        return Does::Stack(if h & 0x80 != 0 { bytes } else { -bytes });
+        return Action::Stack(if h & 0x80 != 0 { bytes } else { -bytes });
     }
-    Does::GoesOn
+    Action::GoesOn
 }
 
 /// LDR, STR and their kin: 1111 100S Uss L nnnn; with an 8-bit offset g = tttt 1PUW imm8.
-fn single(address: u32, h: u16, g: u16, base: u16) -> Does {
+fn single(address: u32, h: u16, g: u16, base: u16) -> Action {
     // 1111 1010 and 1011 are data processing
     if h & 0xFE00 != 0xF800 {
-        return Does::GoesOn;
+        return Action::GoesOn;
     }
     let wide_offset = h & 0x80 != 0;
     let load_word = h & 0x0170 == 0x0050;
     if load_word && g >> 12 == PC {
         return match base {
             // LDR PC, [SP], #imm8
-            SP => Does::Return(i32::from(g & 0xFF)),
+            SP => Action::Return(i32::from(g & 0xFF)),
             PC => {
                 let offset = i32::from(g & 0xFFF) * if wide_offset { 1 } else { -1 };
-                Does::JumpVia((address.wrapping_add(4) & !3).wrapping_add_signed(offset))
+                Action::JumpVia((address.wrapping_add(4) & !3).wrapping_add_signed(offset))
             }
-            _ => Does::JumpUnknown,
+            _ => Action::JumpUnknown,
         };
     }
     // 1PUW with W: the base is written back
     if base == SP && !wide_offset && g & 0x0900 == 0x0900 {
         let bytes = i32::from(g & 0xFF);
-        return Does::Stack(if g & 0x0200 != 0 { bytes } else { -bytes });
+        return Action::Stack(if g & 0x0200 != 0 { bytes } else { -bytes });
     }
-    if load_word && g >> 12 == SP { Does::StackUnknown } else { Does::GoesOn }
+    if load_word && g >> 12 == SP { Action::StackUnknown } else { Action::GoesOn }
 }
 
 /// B, BL, B<c> and what lies between them: 1111 0S…, g = 1xJxJ….
-fn branch(address: u32, h: u16, g: u16) -> Does {
+fn branch(address: u32, h: u16, g: u16) -> Action {
     let (h, g) = (u32::from(h), u32::from(g));
     let (s, j1, j2) = (h >> 10 & 1, g >> 13 & 1, g >> 11 & 1);
     // I1 = NOT(J1 EOR S), I2 = NOT(J2 EOR S); offset S:I1:I2:imm10:imm11:0
     let far = s << 24 | (j1 ^ s ^ 1) << 23 | (j2 ^ s ^ 1) << 22 | (h & 0x3FF) << 12 | (g & 0x7FF) << 1;
     match g & 0xD000 {
-        0xD000 => Does::Call(target(address, signed(far, 25))),
-        0x9000 => Does::Jump { to: target(address, signed(far, 25)), conditional: false },
+        0xD000 => Action::Call(target(address, signed(far, 25))),
+        0x9000 => Action::Jump { to: target(address, signed(far, 25)), conditional: false },
         // B<c> has a condition below 1110: offset S:J2:J1:imm6:imm11:0
         0x8000 if h >> 7 & 7 != 7 => {
             let near = s << 20 | j2 << 19 | j1 << 18 | (h & 0x3F) << 12 | (g & 0x7FF) << 1;
-            Does::Jump { to: target(address, signed(near, 21)), conditional: true }
+            Action::Jump { to: target(address, signed(near, 21)), conditional: true }
         }
         // UDF 1111 0111 1111 nnnn 1010
-        0x8000 if h & 0xFFF0 == 0xF7F0 && g & 0xF000 == 0xA000 => Does::Trap,
-        _ => Does::GoesOn,
+        0x8000 if h & 0xFFF0 == 0xF7F0 && g & 0xF000 == 0xA000 => Action::Trap,
+        _ => Action::GoesOn,
     }
 }
 
 /// Data processing with a constant whose result is the stack pointer.
-fn constant(h: u16, g: u16, base: u16) -> Does {
+fn constant(h: u16, g: u16, base: u16) -> Action {
     let (i, imm3, imm8) = (u32::from(h >> 10 & 1), u32::from(g >> 12 & 7), u32::from(g & 0xFF));
     let twelve = i << 11 | imm3 << 8 | imm8;
     if base != SP {
-        return Does::StackUnknown;
+        return Action::StackUnknown;
     }
     match h & 0xFBE0 {
         // ADD.W 11110i 0 1000S, SUB.W 11110i 0 1101S: a modified constant; ADDW 11110i 1 00000, SUBW 11110i 1 01010:
         // plain
-        0xF100 => Does::Stack(expanded(twelve)),
-        0xF1A0 => Does::Stack(-expanded(twelve)),
-        0xF200 => Does::Stack(twelve as i32),
-        0xF2A0 => Does::Stack(-(twelve as i32)),
-        _ => Does::StackUnknown,
+        0xF100 => Action::Stack(expanded(twelve)),
+        0xF1A0 => Action::Stack(-expanded(twelve)),
+        0xF200 => Action::Stack(twelve as i32),
+        0xF2A0 => Action::Stack(-(twelve as i32)),
+        _ => Action::StackUnknown,
     }
 }
 

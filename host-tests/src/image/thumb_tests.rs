@@ -35,7 +35,7 @@ fn what_moves_the_stack_pointer_moves_it_by_so_much() {
         ("ldrsb r0, [sp, #-4]!", &[0xF91D, 0x0D04], -4),
         ("ldrb r1, [sp], #1", &[0xF81D, 0x1B01], 1),
     ] {
-        assert_eq!(at(AT, halves), Instruction { len: 2 * halves.len() as u32, does: Does::Stack(bytes) }, "{text}");
+        assert_eq!(at(AT, halves), Instruction { len: 2 * halves.len() as u32, does: Action::Stack(bytes) }, "{text}");
     }
     for (text, halves) in [
         ("mov sp, r4", &[0x46A5][..]),
@@ -43,20 +43,20 @@ fn what_moves_the_stack_pointer_moves_it_by_so_much() {
         ("sub.w sp, sp, r0", &[0xEBAD, 0x0D00]),
         ("sub.w sp, r7, #8, by hand", &[0xF1A7, 0x0D08]),
     ] {
-        assert_eq!(at(AT, halves).does, Does::StackUnknown, "{text}");
+        assert_eq!(at(AT, halves).does, Action::StackUnknown, "{text}");
     }
 }
 
 #[test]
 fn what_returns_or_ends_does() {
     for (text, halves, does) in [
-        ("pop {r4, r5, r7, pc}", &[0xBDB0][..], Does::Return(16)),
-        ("pop.w {r4-r11, pc}", &[0xE8BD, 0x8FF0], Does::Return(36)),
-        ("ldr pc, [sp], #4", &[0xF85D, 0xFB04], Does::Return(4)),
-        ("bx lr", &[0x4770], Does::Return(0)),
-        ("mov pc, lr", &[0x46F7], Does::Return(0)),
-        ("udf #0xfe", &[0xDEFE], Does::Trap),
-        ("udf.w #1", &[0xF7F0, 0xA001], Does::Trap),
+        ("pop {r4, r5, r7, pc}", &[0xBDB0][..], Action::Return(16)),
+        ("pop.w {r4-r11, pc}", &[0xE8BD, 0x8FF0], Action::Return(36)),
+        ("ldr pc, [sp], #4", &[0xF85D, 0xFB04], Action::Return(4)),
+        ("bx lr", &[0x4770], Action::Return(0)),
+        ("mov pc, lr", &[0x46F7], Action::Return(0)),
+        ("udf #0xfe", &[0xDEFE], Action::Trap),
+        ("udf.w #1", &[0xF7F0, 0xA001], Action::Trap),
     ] {
         assert_eq!(at(AT, halves).does, does, "{text}");
     }
@@ -64,7 +64,7 @@ fn what_returns_or_ends_does() {
 
 #[test]
 fn jumps_and_calls_go_where_they_say() {
-    let jump = |to: u32, conditional| Does::Jump { to, conditional };
+    let jump = |to: u32, conditional| Action::Jump { to, conditional };
     // the address at which each stood when it was assembled, with its target then
     for (text, address, halves, does) in [
         ("cbz r0, 0x3a", 0x2A, &[0xB130][..], jump(0x3A, true)),
@@ -73,26 +73,26 @@ fn jumps_and_calls_go_where_they_say() {
         ("bne.w 0", 0x48, &[0xF47F, 0xAFDA], jump(0, true)),
         ("b 0x3a", 0x4C, &[0xE7F5], jump(0x3A, false)),
         ("b.w 0", 0x4E, &[0xF7FF, 0xBFD7], jump(0, false)),
-        ("bl 0", 0x52, &[0xF7FF, 0xFFD5], Does::Call(0)),
-        ("ldr.w pc, [pc, #8]", 0x7E, &[0xF8DF, 0xF008], Does::JumpVia(0x88)),
-        ("ldr.w pc, [pc, #-4]", 0x82, &[0xF85F, 0xF004], Does::JumpVia(0x80)),
+        ("bl 0", 0x52, &[0xF7FF, 0xFFD5], Action::Call(0)),
+        ("ldr.w pc, [pc, #8]", 0x7E, &[0xF8DF, 0xF008], Action::JumpVia(0x88)),
+        ("ldr.w pc, [pc, #-4]", 0x82, &[0xF85F, 0xF004], Action::JumpVia(0x80)),
     ] {
         assert_eq!(at(address, halves).does, does, "{text}");
     }
     // far: bl +0x400000 and −0x1000000, the ends of its range halved and whole
-    assert_eq!(at(AT, &[0xF000, 0xF800]).does, Does::Call(AT + 4));
-    assert_eq!(at(0x0100_0000, &[0xF400, 0xD000]).does, Does::Call(4));
+    assert_eq!(at(AT, &[0xF000, 0xF800]).does, Action::Call(AT + 4));
+    assert_eq!(at(0x0100_0000, &[0xF400, 0xD000]).does, Action::Call(4));
     for (text, halves, does) in [
-        ("mov pc, r3", &[0x469F][..], Does::JumpUnknown),
-        ("bx r3", &[0x4718], Does::JumpUnknown),
-        ("ldm.w r0, {r1, pc}", &[0xE890, 0x8002], Does::JumpUnknown),
-        ("ldr.w pc, [r1, r2, lsl #2]", &[0xF851, 0xF022], Does::JumpUnknown),
-        ("ldr.w pc, [r1]", &[0xF8D1, 0xF000], Does::JumpUnknown),
-        ("blx r3", &[0x4798], Does::CallUnknown),
-        ("tbb [pc, r0]", &[0xE8DF, 0xF000], Does::Table { wide: false }),
-        ("tbh [pc, r0, lsl #1]", &[0xE8DF, 0xF010], Does::Table { wide: true }),
-        ("it eq", &[0xBF08], Does::Conditions(1)),
-        ("itte ne", &[0xBF1A], Does::Conditions(3)),
+        ("mov pc, r3", &[0x469F][..], Action::JumpUnknown),
+        ("bx r3", &[0x4718], Action::JumpUnknown),
+        ("ldm.w r0, {r1, pc}", &[0xE890, 0x8002], Action::JumpUnknown),
+        ("ldr.w pc, [r1, r2, lsl #2]", &[0xF851, 0xF022], Action::JumpUnknown),
+        ("ldr.w pc, [r1]", &[0xF8D1, 0xF000], Action::JumpUnknown),
+        ("blx r3", &[0x4798], Action::CallUnknown),
+        ("tbb [pc, r0]", &[0xE8DF, 0xF000], Action::Table { wide: false }),
+        ("tbh [pc, r0, lsl #1]", &[0xE8DF, 0xF010], Action::Table { wide: true }),
+        ("it eq", &[0xBF08], Action::Conditions(1)),
+        ("itte ne", &[0xBF1A], Action::Conditions(3)),
     ] {
         assert_eq!(at(AT, halves).does, does, "{text}");
     }
@@ -125,7 +125,7 @@ fn what_only_looks_like_it_goes_on() {
         ("clz r0, r1", &[0xFAB1, 0xF081]),
         ("umull r0, r1, r2, r3", &[0xFBA2, 0x0103]),
     ] {
-        assert_eq!(at(AT, halves), Instruction { len: 2 * halves.len() as u32, does: Does::GoesOn }, "{text}");
+        assert_eq!(at(AT, halves), Instruction { len: 2 * halves.len() as u32, does: Action::GoesOn }, "{text}");
     }
     assert_eq!(decode(AT, &[0xFF]), None);
     assert_eq!(decode(AT, &[0x2D, 0xE9, 0xF0]), None);

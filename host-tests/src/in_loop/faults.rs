@@ -5,55 +5,58 @@
 //! ```
 //!
 //! - [`case`]: what is done, and what it is to be called;
-//! - [`bench`]: the robots that it is done to;
-//! - [`play`]: one case, from the start to the robot driving again;
-//! - [`three`]: a robot of four wheels that goes on with three;
-//! - [`dog`]: the tasks starved;
+//! - [`test_robot`]: the robots that it is done to;
+//! - [`run_case`]: one case, from the start to the robot driving again;
+//! - [`wheel_loss`]: a robot of four wheels that goes on with three;
+//! - [`watchdog`]: the tasks starved;
 //! - [`mod@page`]: the table that a person judges, and the promises that it must keep.
 //!
 //! Times are counted in periods as the board sees them, so they are exact and the same in every run: an event belongs to
 //! the period in whose codes or bytes it is whole for the first time.
 
-pub mod bench;
 pub mod case;
-pub mod dog;
 pub mod page;
-pub mod play;
-pub mod three;
+pub mod run_case;
+pub mod test_robot;
+pub mod watchdog;
+pub mod wheel_loss;
 
-pub use page::{broken, page};
+pub use page::{broken_promises, page};
 
 use rayon::prelude::*;
 
-use crate::emulator::{Brain, Trouble};
+use crate::emulator::{BoardProgram, RunError};
 
 /// All that was found.
 #[derive(Clone, Debug)]
 pub struct Results {
     /// The cases, in order
-    pub played: Vec<(case::Case, play::Played)>,
+    pub cases: Vec<(case::FaultCase, run_case::FaultOutcome)>,
     /// Four wheels that go on with three
-    pub three: Vec<(three::Loss, three::Gone)>,
+    pub wheel_losses: Vec<(wheel_loss::WheelLoss, wheel_loss::WheelLossOutcome)>,
     /// The tasks starved
-    pub dog: dog::Bitten,
+    pub watchdog: watchdog::WatchdogOutcome,
 }
 
 /// Plays everything with this word in its title; `start` starts the program anew.
 ///
 /// # Errors
-/// [`Trouble`] says what became of it.
-pub fn results<B: Brain>(word: &str, start: impl Fn() -> Result<B, Trouble> + Sync) -> Result<Results, Trouble> {
-    let played = case::CASES
+/// [`RunError`] says what became of it.
+pub fn results<B: BoardProgram>(
+    word: &str,
+    start: impl Fn() -> Result<B, RunError> + Sync,
+) -> Result<Results, RunError> {
+    let cases = case::CASES
         .into_par_iter()
         .filter(|case| case.title.contains(word))
-        .map(|case| Ok((case, play::play(&case, start()?)?)));
-    let three = three::LOSSES
+        .map(|case| Ok((case, run_case::run_case(&case, start()?)?)));
+    let wheel_losses = wheel_loss::LOSSES
         .into_par_iter()
         .filter(|loss| loss.title.contains(word))
-        .map(|loss| Ok((loss, three::go_on(&loss, start()?)?)));
+        .map(|loss| Ok((loss, wheel_loss::run_with_three_wheels(&loss, start()?)?)));
     Ok(Results {
-        played: played.collect::<Result<_, Trouble>>()?,
-        three: three.collect::<Result<_, Trouble>>()?,
-        dog: dog::starve(start()?)?,
+        cases: cases.collect::<Result<_, RunError>>()?,
+        wheel_losses: wheel_losses.collect::<Result<_, RunError>>()?,
+        watchdog: watchdog::starve_tasks(start()?)?,
     })
 }

@@ -19,13 +19,13 @@ use omni_gap::wire::run::{columns, run};
 use omni_gap::wire::source::Source;
 use omni_gap::{Diagnosis, Options, known_effects};
 
-use super::{Ride, Taken};
-use crate::emulator::{Brain, Trouble};
-use crate::virtual_board::{Setup, VirtualBoard};
+use super::{ClosedLoopRun, RunLog};
+use crate::emulator::{BoardProgram, RunError};
+use crate::virtual_board::{BoardSetup, VirtualBoard};
 
 /// An effect that the robot has and its file does not know.
 #[derive(Clone, Copy, Debug)]
-pub struct Hidden {
+pub struct HiddenEffect {
     /// Its id in the catalogue
     pub id: &'static str,
     /// On which wheel alone, if on one
@@ -38,9 +38,9 @@ pub struct Hidden {
 
 /// What closing the loop came to.
 #[derive(Clone, Debug)]
-pub struct Closed {
+pub struct ClosedGap {
     /// What was hidden
-    pub hidden: Hidden,
+    pub hidden: HiddenEffect,
     /// What the diagnosis says
     pub verdict: Verdict,
     /// The causes that it names
@@ -51,31 +51,31 @@ pub struct Closed {
     pub error: [f64; 2],
 }
 
-impl Closed {
+impl ClosedGap {
     /// What is left of the error [1].
-    pub fn left(&self) -> f64 {
+    pub fn remaining(&self) -> f64 {
         self.error[1] / self.error[0]
     }
 }
 
 /// What is hidden, effect by effect, at sizes that a robot shows plainly.
-pub const HIDDEN: [Hidden; 9] = [
-    Hidden { id: "coriolis", wheel: None, params: &[1.0], by_voltage: false },
-    Hidden { id: "stribeck", wheel: None, params: &[0.8, 0.08, 1.0], by_voltage: false },
-    Hidden { id: "gear_efficiency", wheel: None, params: &[0.8], by_voltage: false },
-    Hidden { id: "motor_mismatch", wheel: Some(2), params: &[0.8, 1.0], by_voltage: true },
-    Hidden { id: "dead_time", wheel: None, params: &[0.5, 0.05], by_voltage: true },
-    Hidden { id: "creep", wheel: None, params: &[0.03], by_voltage: false },
-    Hidden { id: "rotor_inertia", wheel: None, params: &[4.0e-4], by_voltage: false },
-    Hidden { id: "floor_tilt", wheel: None, params: &[0.03, 0.6], by_voltage: false },
-    Hidden { id: "current_sensor_offset", wheel: None, params: &[0.15], by_voltage: false },
+pub const HIDDEN: [HiddenEffect; 9] = [
+    HiddenEffect { id: "coriolis", wheel: None, params: &[1.0], by_voltage: false },
+    HiddenEffect { id: "stribeck", wheel: None, params: &[0.8, 0.08, 1.0], by_voltage: false },
+    HiddenEffect { id: "gear_efficiency", wheel: None, params: &[0.8], by_voltage: false },
+    HiddenEffect { id: "motor_mismatch", wheel: Some(2), params: &[0.8, 1.0], by_voltage: true },
+    HiddenEffect { id: "dead_time", wheel: None, params: &[0.5, 0.05], by_voltage: true },
+    HiddenEffect { id: "creep", wheel: None, params: &[0.03], by_voltage: false },
+    HiddenEffect { id: "rotor_inertia", wheel: None, params: &[4.0e-4], by_voltage: false },
+    HiddenEffect { id: "floor_tilt", wheel: None, params: &[0.03, 0.6], by_voltage: false },
+    HiddenEffect { id: "current_sensor_offset", wheel: None, params: &[0.15], by_voltage: false },
 ];
 
 /// How many effects must be left with at most [`LEFT`] of their error.
 pub const EFFECTS: usize = 6;
 
 /// The most that may be left of the error of each [1].
-pub const LEFT: f64 = 0.40;
+pub const MAX_REMAINING: f64 = 0.40;
 
 /// Seconds that the robot is awake before it is commanded: its offsets are learned in 51 ms.
 const WAKES: f64 = 0.15;
@@ -98,7 +98,7 @@ pub fn script(phase: f64, t: f64) -> BodyTwist<f64> {
 }
 
 /// A robot file in the form that the loop drives it: with the supply, the limits and the controller that it needs.
-pub fn robot_file(text: &str, hidden: Hidden) -> String {
+pub fn robot_file(text: &str, hidden: HiddenEffect) -> String {
     let mode = if hidden.by_voltage { "voltage" } else { "current" };
     format!(
         "{text}\n[limits]\ncurrent_A = 4.0\nspeed_m_s = 2.0\n\n[controller]\nacceleration_v_m_s2 = 6.0\nacceleration_vn_m_s2 = 6.0\nmode = \"{mode}\"\ninductance_H = 0.6e-3\n\
@@ -106,17 +106,17 @@ pub fn robot_file(text: &str, hidden: Hidden) -> String {
     )
 }
 
-/// Closes the loop on one hidden effect, in `folder`. `brain` starts a program for a drive.
+/// Closes the loop on one hidden effect, in `folder`. `program` starts a program for a drive.
 ///
 /// # Errors
-/// [`Trouble`] says what became of the program.
-pub fn close<B: Brain, const N: usize>(
+/// [`RunError`] says what became of the program.
+pub fn close_gap<B: BoardProgram, const N: usize>(
     robot: Robot<N, f64>,
     nominal: &str,
-    hidden: Hidden,
+    hidden: HiddenEffect,
     folder: &Path,
-    mut brain: impl FnMut() -> Result<B, Trouble>,
-) -> Result<Closed, Trouble> {
+    mut program: impl FnMut() -> Result<B, RunError>,
+) -> Result<ClosedGap, RunError> {
     let nominal_path = folder.join("robot.toml");
     write(&nominal_path, nominal);
     write(&folder.join("columns.toml"), &columns(N));
@@ -124,9 +124,9 @@ pub fn close<B: Brain, const N: usize>(
     let mut before = Vec::new();
     for (k, phase) in SCRIPTS.into_iter().enumerate() {
         let name = format!("drive-{k}");
-        let (taken, bytes) = drive(robot, hidden, &nominal_path, phase, k as u64, brain()?)?;
+        let (log, bytes) = drive(robot, hidden, &nominal_path, phase, k as u64, program()?)?;
         record(&bytes, &name, N, &folder.join("runs"));
-        before.push(taken);
+        before.push(log);
     }
 
     let session = Session::load(folder, None, &known_effects()).expect("a session that was just recorded");
@@ -135,38 +135,38 @@ pub fn close<B: Brain, const N: usize>(
     write(&corrected_path, &diagnosis.corrected_robot);
     let corrected = RobotFile::load(&corrected_path, &known_effects()).expect("a corrected robot file is a robot file");
     let undone = export(&corrected, &corrected_path).expect("a corrected robot file can be exported").undone;
-    let (after, _) = drive(robot, hidden, &corrected_path, SCRIPTS[0], 0, brain()?)?;
+    let (after, _) = drive(robot, hidden, &corrected_path, SCRIPTS[0], 0, program()?)?;
     let distance = robot.wheels.wheels()[0].distance;
-    Ok(Closed {
+    Ok(ClosedGap {
         hidden,
         verdict: diagnosis.report.verdict,
         causes: diagnosis.report.causes.clone(),
         undone,
-        error: [&before[0], &after].map(|taken| tracking(taken, distance)),
+        error: [&before[0], &after].map(|log| tracking(log, distance)),
     })
 }
 
 /// One drive of a script by the parameters of a robot file: what is true and said, and every byte that came.
-fn drive<B: Brain, const N: usize>(
+fn drive<B: BoardProgram, const N: usize>(
     robot: Robot<N, f64>,
-    hidden: Hidden,
+    hidden: HiddenEffect,
     file: &Path,
     phase: f64,
     seed: u64,
-    brain: B,
-) -> Result<(Taken, Vec<u8>), Trouble> {
+    program: B,
+) -> Result<(RunLog, Vec<u8>), RunError> {
     let file_read = RobotFile::load(file, &known_effects()).expect("a robot file");
     let block = export(&file_read, file).expect("a robot file that can be exported");
     let mut effects = Effects::default();
     let effect = catalogue::<f64>().iter().find(|effect| effect.card().id == hidden.id).expect("an effect's id");
     effects.add(*effect, hidden.wheel, hidden.params).expect("parameters of its card");
-    let board = VirtualBoard::new(Setup::new(robot, effects, seed));
-    let mut ride = Ride::new(brain, board);
-    ride.send_bytes_of_block(&block.bytes);
-    ride.wait(WAKES)?;
-    ride.follow_closely(SECONDS, |t| script(phase, t))?;
-    let bytes = ride.lockstep.line.received().to_vec();
-    Ok((ride.taken, bytes))
+    let board = VirtualBoard::new(BoardSetup::new(robot, effects, seed));
+    let mut run = ClosedLoopRun::new(program, board);
+    run.send_bytes_of_block(&block.bytes);
+    run.wait(WAKES)?;
+    run.follow_every_tick(SECONDS, |t| script(phase, t))?;
+    let bytes = run.lockstep.link.received().to_vec();
+    Ok((run.log, bytes))
 }
 
 /// Makes a run of what came over the link.
@@ -179,8 +179,8 @@ fn record(bytes: &[u8], name: &str, wheels: usize, folder: &Path) {
 }
 
 /// RMS of what the body does less what is wanted, while the robot is commanded [m/s]; ω counts at a distance [m].
-fn tracking(taken: &Taken, distance: f64) -> f64 {
-    let commanded = taken.moments.iter().zip(&taken.records).filter(|(moment, _)| moment.time > WAKES);
+fn tracking(log: &RunLog, distance: f64) -> f64 {
+    let commanded = log.truth.iter().zip(&log.records).filter(|(moment, _)| moment.time > WAKES);
     let squares: Vec<f64> = commanded
         .map(|(moment, record)| {
             let [v, vn, w] = record.wanted.map(f64::from);

@@ -1,21 +1,24 @@
 //! # Gap, the page: what closing the loop came to, effect by effect
 
-use super::gap::{Closed, EFFECTS, LEFT};
+use super::gap::{ClosedGap, EFFECTS, MAX_REMAINING};
 
 /// How far what is left may depart from the page [1].
 const ROOM: f64 = 0.05;
 
 /// What is promised and does not hold.
-pub fn broken(closed: &[Closed]) -> Vec<String> {
+pub fn broken_promises(closed: &[ClosedGap]) -> Vec<String> {
     // what a refit of the numbers mends is no effect undone
-    let kept = closed.iter().filter(|closed| !closed.undone.is_empty() && closed.left() <= LEFT).count();
+    let kept = closed.iter().filter(|closed| !closed.undone.is_empty() && closed.remaining() <= MAX_REMAINING).count();
     if kept >= EFFECTS {
         return Vec::new();
     }
-    vec![format!("{kept} effects are left with {:.0} % of their error or less, {EFFECTS} were promised", 100.0 * LEFT)]
+    vec![format!(
+        "{kept} effects are left with {:.0} % of their error or less, {EFFECTS} were promised",
+        100.0 * MAX_REMAINING
+    )]
 }
 
-fn row(closed: &Closed) -> String {
+fn row(closed: &ClosedGap) -> String {
     let hidden = closed.hidden;
     let wheel = hidden.wheel.map_or(String::new(), |wheel| format!(", wheel {wheel}"));
     let params = hidden.params.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
@@ -28,18 +31,18 @@ fn row(closed: &Closed) -> String {
         named(&closed.undone),
         1e3 * closed.error[0],
         1e3 * closed.error[1],
-        closed.left()
+        closed.remaining()
     )
 }
 
 /// The page.
-pub fn page(closed: &[Closed]) -> String {
+pub fn page(closed: &[ClosedGap]) -> String {
     let mut text = format!(
         "# The loop closed on the gap\n\n\
          Made by `cargo xtask pil`. The paper's four-wheel robot has an effect that its file does not know. It drives by the\n\
          file's feedforward, with little feedback (0.01 A·s/rad) so that the model is what counts; what it sends over the link is\n\
          recorded (no camera), diagnosed, and the corrected file, exported, drives it again. Error: RMS of the true motion less the\n\
-         wanted one, ω at the wheels' distance. Promised: at least {EFFECTS} effects with at most {LEFT:.2} of it left.\n\n\
+         wanted one, ω at the wheels' distance. Promised: at least {EFFECTS} effects with at most {MAX_REMAINING:.2} of it left.\n\n\
          | hidden | parameters | drive | named | undone by the robot | before [mm/s] | after [mm/s] | left |\n\
          |---|---|---|---|---|---|---|---|\n"
     );
@@ -51,8 +54,8 @@ pub fn page(closed: &[Closed]) -> String {
 }
 
 /// What departs from a golden page: another cause, or more or less left.
-pub fn differences(golden: &str, closed: &[Closed]) -> Vec<String> {
-    let departs = |closed: &Closed| {
+pub fn differences(golden: &str, closed: &[ClosedGap]) -> Vec<String> {
+    let departs = |closed: &ClosedGap| {
         let now = row(closed);
         let cells = |line: &str| line.split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
         let new = cells(&now);
@@ -72,8 +75,8 @@ mod tests {
     use crate::in_loop::gap::HIDDEN;
     use omni_gap::report::Verdict;
 
-    fn closed(left: f64) -> Vec<Closed> {
-        let one = |hidden| Closed {
+    fn closed(left: f64) -> Vec<ClosedGap> {
+        let one = |hidden| ClosedGap {
             hidden,
             verdict: Verdict::Effect,
             causes: vec!["coriolis".into()],
@@ -85,13 +88,13 @@ mod tests {
 
     #[test]
     fn six_effects_must_be_left_with_two_fifths() {
-        assert!(broken(&closed(0.39)).is_empty());
-        assert_eq!(broken(&closed(0.41)).len(), 1);
+        assert!(broken_promises(&closed(0.39)).is_empty());
+        assert_eq!(broken_promises(&closed(0.41)).len(), 1);
         let mut some = closed(0.39);
         some.iter_mut().skip(EFFECTS).for_each(|closed| closed.error[1] = 0.1);
-        assert!(broken(&some).is_empty());
+        assert!(broken_promises(&some).is_empty());
         some[0].error[1] = 0.1;
-        assert_eq!(broken(&some).len(), 1);
+        assert_eq!(broken_promises(&some).len(), 1);
     }
 
     #[test]

@@ -1,32 +1,33 @@
 //! # In the loop: the robot's program, a robot that is not what it believes, and somebody who commands it
 //!
-//! [`Ride`] is one run: a brain (the image in QEMU, or the same library called here) in lockstep with a virtual board, and
-//! a host that sends the parameter block, commands a hundred times a second, and keeps what comes back.
+//! [`ClosedLoopRun`] is one run: a program (the image in QEMU, or the same library called here) in lockstep with a
+//! virtual board, and a host that sends the parameter block, commands a hundred times a second, and keeps what comes
+//! back.
 //!
 //! - [`robots`]: what is believed of the paper's robots, and what is true;
 //! - [`ramps`]: a speed on one axis, with the acceleration measured;
-//! - [`eight`]: a path with curves to both sides;
+//! - [`figure_eight`]: a path with curves to both sides;
 //! - [`saturation`]: a diagonal acceleration for which the bus has not enough;
-//! - [`silence`]: commands that end;
+//! - [`command_timeout`]: commands that end;
 //! - [`study`]: all of these, on many seeds, and one of them in the emulator too;
 //! - [`page`]: what came of it, and what is promised;
 //! - [`faults`]: every fault, injected while the robot drives;
 //! - [`gap`] and [`gap_page`]: drive, record, diagnose, correct, drive again.
 
-pub mod eight;
+mod closed_loop_run;
+pub mod command_timeout;
 pub mod faults;
+pub mod figure_eight;
 pub mod gap;
 pub mod gap_page;
+mod host_program;
 pub mod page;
 pub mod ramps;
-mod ride;
 pub mod robots;
 pub mod saturation;
-pub mod silence;
-mod software;
+mod shadow;
 pub mod study;
-mod twin;
 
-pub use ride::{Moment, Ride, Taken};
-pub use software::Software;
-pub use twin::Twin;
+pub use closed_loop_run::{ClosedLoopRun, RunLog, TruthSample};
+pub use host_program::HostProgram;
+pub use shadow::ShadowedProgram;

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::eight::Tracked;
+use super::command_timeout::CommandTimeout;
+use super::figure_eight::TrackingError;
 use super::ramps::{LEVELS, Ramp};
 use super::robots;
-use super::saturation::Aside;
-use super::silence::Silence;
+use super::saturation::DirectionError;
 use crate::golden;
 
 /// Largest error of an acceleration [1]
@@ -31,11 +31,11 @@ pub struct Robot {
     /// Ramps of every axis, seed by seed
     pub ramps: Vec<Vec<Ramp>>,
     /// Figure-eights with the model and by feedback alone, seed by seed
-    pub eights: Vec<[Tracked; 2]>,
+    pub eights: Vec<[TrackingError; 2]>,
     /// Saturations with headroom, and with each wheel clipped by itself, seed by seed
-    pub saturations: Vec<[Aside; 2]>,
+    pub saturations: Vec<[DirectionError; 2]>,
     /// Silences, seed by seed
-    pub silences: Vec<Silence>,
+    pub silences: Vec<CommandTimeout>,
 }
 
 /// A run of the image.
@@ -101,7 +101,7 @@ impl Robot {
         let [scaled, clipped] = [0, 1].map(|k| rms(self.saturations.iter().map(|pair| pair[k].rms)));
         promise(scaled < 0.5 * clipped, format!("saturation: {scaled:.4} rad against {clipped:.4} of wheels clipped"));
         for (k, s) in self.silences.iter().enumerate() {
-            let kept = s.opens <= OPENS && s.rests.is_finite() && s.told && s.stays && s.drives_again;
+            let kept = s.opens <= OPENS && s.rests.is_finite() && s.reported && s.stays && s.drives_again;
             promise(kept, format!("silence, seed {}: {s:?}", k + 1));
         }
         all

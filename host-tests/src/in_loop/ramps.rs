@@ -8,9 +8,9 @@
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::Block;
 
-use super::robots::AnyBlock;
-use super::{Moment, Ride};
-use crate::emulator::{Brain, Trouble};
+use super::robots::ToParameters;
+use super::{ClosedLoopRun, TruthSample};
+use crate::emulator::{BoardProgram, RunError};
 
 /// The accelerations asked for [m/s²] and the speeds up to which [m/s].
 pub const LEVELS: [[f64; 2]; 5] = [[0.5, 0.4], [0.75, 0.5], [1.0, 0.6], [2.0, 0.9], [3.0, 1.2]];
@@ -27,13 +27,13 @@ pub struct Ramp {
     /// As asked for [m/s² or rad/s²]
     pub wanted: f64,
     /// As it truly was
-    pub was: f64,
+    pub measured: f64,
 }
 
 impl Ramp {
     /// How much too large [1].
     pub fn error(&self) -> f64 {
-        self.was / self.wanted - 1.0
+        self.measured / self.wanted - 1.0
     }
 }
 
@@ -43,14 +43,14 @@ const HELD: f64 = 0.1;
 /// All levels along one axis, each in the other direction than the one before.
 ///
 /// # Errors
-/// [`Trouble`] says what became of the program.
-pub fn play<B: Brain, const N: usize>(
-    ride: &mut Ride<B, N>,
+/// [`RunError`] says what became of the program.
+pub fn measure<B: BoardProgram, const N: usize>(
+    run: &mut ClosedLoopRun<B, N>,
     block: &Block<N>,
     axis: usize,
-) -> Result<Vec<Ramp>, Trouble>
+) -> Result<Vec<Ramp>, RunError>
 where
-    Block<N>: AnyBlock,
+    Block<N>: ToParameters,
 {
     let distance = f64::from(block.robot.wheels.wheels()[0].distance);
     let per_rim = if axis == 2 { 1.0 / distance } else { 1.0 };
@@ -59,31 +59,31 @@ where
         let (acceleration, speed) = (acceleration * per_rim, speed * per_rim);
         let mut block = *block;
         block.limits.acceleration[axis] = acceleration as f32;
-        ride.send_block(&block.parameters());
+        run.send_block(&block.parameters());
         let sign = if level % 2 == 0 { 1.0 } else { -1.0 };
         let mut want = [0.0; 3];
         // while the block is on its way
         if level == 0 {
-            ride.wait(0.15)?
+            run.wait(0.15)?
         } else {
-            ride.follow(0.1, |_| BodyTwist::default())?
+            run.follow(0.1, |_| BodyTwist::default())?
         };
         for braking in [false, true] {
-            let began = ride.time();
+            let began = run.time();
             want[axis] = if braking { 0.0 } else { sign * speed };
             let takes = speed / acceleration;
-            ride.follow(takes + HELD, |_| BodyTwist::from_array(want))?;
-            let was = slope(&ride.taken.moments, axis, [began + 0.25 * takes, began + 0.75 * takes]);
+            run.follow(takes + HELD, |_| BodyTwist::from_array(want))?;
+            let was = slope(&run.log.truth, axis, [began + 0.25 * takes, began + 0.75 * takes]);
             let wanted = if braking { -sign * acceleration } else { sign * acceleration };
-            ramps.push(Ramp { axis, level, braking, wanted, was });
+            ramps.push(Ramp { axis, level, braking, wanted, measured: was });
         }
     }
     Ok(ramps)
 }
 
 /// Slope of the straight line through the true speed between two times [s].
-fn slope(moments: &[Moment], axis: usize, [from, to]: [f64; 2]) -> f64 {
-    let seen = || moments.iter().filter(|m| (from..to).contains(&m.time)).map(|m| (m.time, m.twist.to_array()[axis]));
+fn slope(truth: &[TruthSample], axis: usize, [from, to]: [f64; 2]) -> f64 {
+    let seen = || truth.iter().filter(|m| (from..to).contains(&m.time)).map(|m| (m.time, m.twist.to_array()[axis]));
     let n = seen().count() as f64;
     let (time, speed) = seen().fold((0.0, 0.0), |sum, (t, x)| (sum.0 + t / n, sum.1 + x / n));
     // Σ (t − t̄)·(x − x̄)/Σ (t − t̄)²

@@ -23,7 +23,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::virtual_board::Setup;
+use crate::virtual_board::BoardSetup;
 
 /// k_p, current for an error of a wheel's speed [A·s/rad]
 pub const FEEDBACK: f32 = 0.3;
@@ -44,18 +44,18 @@ pub const SAG: f64 = 0.15;
 pub const HALL_SPREAD: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
 /// A parameter block of any number of wheels.
-pub trait AnyBlock {
+pub trait ToParameters {
     /// The parameters of this robot.
     fn parameters(&self) -> Parameters;
 }
 
-impl AnyBlock for Block<3> {
+impl ToParameters for Block<3> {
     fn parameters(&self) -> Parameters {
         Parameters::Three(*self)
     }
 }
 
-impl AnyBlock for Block<4> {
+impl ToParameters for Block<4> {
     fn parameters(&self) -> Parameters {
         Parameters::Four(*self)
     }
@@ -87,10 +87,10 @@ pub fn block<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
 }
 
 /// A robot that is off by a draw from what is believed of it.
-pub fn drawn<const N: usize>(believed: &Robot<N, f64>, seed: u64) -> Robot<N, f64> {
-    let mut dice = ChaCha8Rng::seed_from_u64(seed ^ 0x0ff_0ff);
+pub fn perturbed<const N: usize>(believed: &Robot<N, f64>, seed: u64) -> Robot<N, f64> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed ^ 0x0ff_0ff);
     let mut off = |x: &mut f64, sigma: f64| {
-        let n: f64 = StandardNormal.sample(&mut dice);
+        let n: f64 = StandardNormal.sample(&mut rng);
         *x *= (sigma * n).exp();
     };
     let mut robot = *believed;
@@ -114,9 +114,9 @@ pub fn drawn<const N: usize>(believed: &Robot<N, f64>, seed: u64) -> Robot<N, f6
 }
 
 /// A board with a robot that is off, on a battery that sags.
-pub fn board<const N: usize>(believed: &Robot<N, f64>, seed: u64) -> Setup<N> {
+pub fn board<const N: usize>(believed: &Robot<N, f64>, seed: u64) -> BoardSetup<N> {
     let mut besides = Effects::default();
     let sag = effects::find("supply_sag").expect("an effect of the catalogue");
     besides.add(sag, None, &[SAG, 0.0]).expect("room for one");
-    Setup { hall_spread: HALL_SPREAD, ..Setup::new(drawn(believed, seed), besides, seed) }
+    BoardSetup { hall_spread: HALL_SPREAD, ..BoardSetup::new(perturbed(believed, seed), besides, seed) }
 }

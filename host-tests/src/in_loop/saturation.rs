@@ -15,15 +15,15 @@ use model_core::link::block::Block;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
 
-use super::robots::AnyBlock;
-use super::{Moment, Ride};
-use crate::emulator::{Brain, Trouble};
+use super::robots::ToParameters;
+use super::{ClosedLoopRun, TruthSample};
+use crate::emulator::{BoardProgram, RunError};
 
 /// Direction from v to vn [rad]
 const DIRECTION: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
 /// Acceleration and speed asked for [m/s², m/s]
-const ASKED: [f64; 2] = [6.0, 1.6];
+const REQUESTED: [f64; 2] = [6.0, 1.6];
 
 /// How long that is watched [s]
 const WATCHED: f64 = 0.4;
@@ -40,7 +40,7 @@ const OVER: usize = 20;
 
 /// How far the true acceleration pointed aside.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Aside {
+pub struct DirectionError {
     /// Root mean square [rad]
     pub rms: f64,
     /// The most [rad]
@@ -52,37 +52,40 @@ pub struct Aside {
 /// The wanted motion.
 fn want() -> BodyTwist<f64> {
     let (sin, cos) = DIRECTION.sin_cos();
-    BodyTwist { v: ASKED[1] * cos, vn: ASKED[1] * sin, w: 0.0 }
+    BodyTwist { v: REQUESTED[1] * cos, vn: REQUESTED[1] * sin, w: 0.0 }
 }
 
 /// The largest accelerations of the robot for this [m/s², m/s², rad/s²].
-pub const ACCELERATION: [f32; 3] = [ASKED[0] as f32, ASKED[0] as f32, 30.0];
+pub const ACCELERATION: [f32; 3] = [REQUESTED[0] as f32, REQUESTED[0] as f32, 30.0];
 
 /// The robot's own program.
 ///
 /// # Errors
-/// [`Trouble`] says what became of it.
-pub fn play<B: Brain, const N: usize>(ride: &mut Ride<B, N>, block: &Block<N>) -> Result<Aside, Trouble>
+/// [`RunError`] says what became of it.
+pub fn measure<B: BoardProgram, const N: usize>(
+    run: &mut ClosedLoopRun<B, N>,
+    block: &Block<N>,
+) -> Result<DirectionError, RunError>
 where
-    Block<N>: AnyBlock,
+    Block<N>: ToParameters,
 {
     let mut block = *block;
     block.limits.acceleration = ACCELERATION;
-    ride.send_block(&block.parameters());
-    ride.wait(0.15)?;
-    let began = ride.time();
-    ride.follow(WATCHED, |_| want())?;
+    run.send_block(&block.parameters());
+    run.wait(0.15)?;
+    let began = run.time();
+    run.follow(WATCHED, |_| want())?;
     // a record tells of the turn that begins with it; it comes some turns later, and its time counts periods
-    let short: Vec<f64> = (ride.taken.records.iter().filter(|r| r.headroom < u8::MAX))
+    let short: Vec<f64> = (run.log.records.iter().filter(|r| r.headroom < u8::MAX))
         .map(|r| f64::from(r.time) * crate::virtual_board::board::PERIOD)
         .filter(|time| *time >= began)
         .collect();
-    let moments: Vec<Moment> = ride.taken.moments.iter().filter(|m| m.time >= began).copied().collect();
-    Ok(aside(&moments, |time| short.iter().any(|at| (at - time).abs() < 0.6 * TURN)))
+    let samples: Vec<TruthSample> = run.log.truth.iter().filter(|m| m.time >= began).copied().collect();
+    Ok(direction_error(&samples, |time| short.iter().any(|at| (at - time).abs() < 0.6 * TURN)))
 }
 
 /// The same with each wheel clipped by itself, on this robot.
-pub fn clipped<const N: usize>(believed: &Robot<N, f64>, truth: &Robot<N, f64>, block: &Block<N>) -> Aside {
+pub fn clipped<const N: usize>(believed: &Robot<N, f64>, truth: &Robot<N, f64>, block: &Block<N>) -> DirectionError {
     let controller = Controller::new(&Settings {
         robot: *believed,
         compensation: Compensation::none(),
@@ -98,28 +101,28 @@ pub fn clipped<const N: usize>(believed: &Robot<N, f64>, truth: &Robot<N, f64>, 
     let plant = Plant::new(*truth, Effects::default());
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
     let mut memory = Memory::default();
-    let (mut moments, mut short) = (Vec::new(), Vec::new());
+    let (mut samples, mut short) = (Vec::new(), Vec::new());
     for k in 0..(WATCHED / TURN) as usize {
-        let seen = Measurement { wheel_speed: truth.wheels.wheel_speeds(state.twist), bus: f64::INFINITY };
-        let decided = controller.tick(&mut memory, &seen, want());
+        let measured = Measurement { wheel_speed: truth.wheels.wheel_speeds(state.twist), bus: f64::INFINITY };
+        let output = controller.tick(&mut memory, &measured, want());
         let most = MAX_DUTY * truth.supply;
-        let voltage = decided.voltage.map(|u| u.clamp(-most, most));
-        short.push(voltage != decided.voltage);
+        let voltage = output.voltage.map(|u| u.clamp(-most, most));
+        short.push(voltage != output.voltage);
         plant.step(&mut state, &mut [], &Input::Voltage(voltage), TURN);
-        moments.push(Moment { time: TURN * k as f64, pose: state.pose, twist: state.twist, enabled: u8::MAX });
+        samples.push(TruthSample { time: TURN * k as f64, pose: state.pose, twist: state.twist, enabled: u8::MAX });
     }
-    aside(&moments, |time| short[(time / TURN).round() as usize])
+    direction_error(&samples, |time| short[(time / TURN).round() as usize])
 }
 
 /// How far the acceleration points aside, taken over some turns, all of them short of voltage.
-fn aside(moments: &[Moment], short: impl Fn(f64) -> bool) -> Aside {
+fn direction_error(samples: &[TruthSample], short: impl Fn(f64) -> bool) -> DirectionError {
     let (mut sum, mut n, mut most) = (0.0, 0.0, 0.0_f64);
-    let started = |m: &Moment| m.twist.v.hypot(m.twist.vn) > STARTED;
-    for window in moments.windows(OVER + 1).filter(|w| w.iter().all(|m| short(m.time) && started(m))) {
+    let started = |m: &TruthSample| m.twist.v.hypot(m.twist.vn) > STARTED;
+    for window in samples.windows(OVER + 1).filter(|w| w.iter().all(|m| short(m.time) && started(m))) {
         let (from, to) = (window[0].twist, window[OVER].twist);
         let angle = (to.vn - from.vn).atan2(to.v - from.v) - DIRECTION;
         (sum, n, most) = (sum + angle * angle, n + 1.0, most.max(angle.abs()));
     }
-    let time = TURN * moments.iter().filter(|m| short(m.time)).count() as f64;
-    Aside { rms: f64::sqrt(sum / f64::max(n, 1.0)), most, time }
+    let time = TURN * samples.iter().filter(|m| short(m.time)).count() as f64;
+    DirectionError { rms: f64::sqrt(sum / f64::max(n, 1.0)), most, time }
 }

@@ -1,21 +1,21 @@
 //! # Study: every scenario, on both robots, with many seeds in software and one in the emulator
 //!
-//! The same [`play`] runs on either brain. What the image leaves behind must be, bit for bit, what the library called on
-//! the host leaves; only load and jitter, which take a clock, may differ.
+//! The same [`run`](NominalRobot::run) runs on either program. What the image leaves behind must be, bit for bit, what
+//! the library called on the host leaves; only load and jitter, which take a clock, may differ.
 
 use model_core::geometry::frames::Pose;
 use model_core::link::block::Block;
 use model_core::link::record::{OperatingState, TelemetryRecord};
 use model_core::plant::robot::Robot;
 
-use super::eight::{self, Path, Tracked};
+use super::command_timeout::{self, CommandTimeout};
+use super::figure_eight::{self, FigureEight, TrackingError};
 use super::ramps::{self, Ramp};
-use super::robots::{self, AnyBlock};
-use super::saturation::{self, Aside};
-use super::silence::{self, Silence};
-use super::{Ride, Software, Taken};
-use crate::emulator::{Brain, Trouble};
-use crate::virtual_board::{Setup, VirtualBoard};
+use super::robots::{self, ToParameters};
+use super::saturation::{self, DirectionError};
+use super::{ClosedLoopRun, HostProgram, RunLog};
+use crate::emulator::{BoardProgram, RunError};
+use crate::virtual_board::{BoardSetup, VirtualBoard};
 
 /// The seeds; the first one is played in the emulator too. Nobody chose them by result.
 pub const SEEDS: [u64; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
@@ -26,13 +26,13 @@ pub enum Scenario {
     /// Ramps on one axis
     Ramps(usize),
     /// The figure-eight
-    Eight,
+    FigureEight,
     /// The same without the model's feedforward
-    EightByFeedback,
+    FigureEightFeedbackOnly,
     /// A diagonal acceleration that does not fit
     Saturation,
     /// Commands that end
-    Silence,
+    CommandTimeout,
 }
 
 impl Scenario {
@@ -41,9 +41,9 @@ impl Scenario {
         Self::Ramps(0),
         Self::Ramps(1),
         Self::Ramps(2),
-        Self::EightByFeedback,
-        Self::Eight,
-        Self::Silence,
+        Self::FigureEightFeedbackOnly,
+        Self::FigureEight,
+        Self::CommandTimeout,
         Self::Saturation,
     ];
 
@@ -53,48 +53,48 @@ impl Scenario {
             Self::Ramps(0) => "ramps along v",
             Self::Ramps(1) => "ramps along vn",
             Self::Ramps(_) => "ramps about the vertical",
-            Self::Eight => "figure-eight",
-            Self::EightByFeedback => "figure-eight, feedback alone",
+            Self::FigureEight => "figure-eight",
+            Self::FigureEightFeedbackOnly => "figure-eight, feedback alone",
             Self::Saturation => "diagonal into saturation",
-            Self::Silence => "commands end",
+            Self::CommandTimeout => "commands end",
         }
     }
 }
 
 /// What came of it.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Came {
+pub enum Outcome {
     /// of ramps
     Ramps(Vec<Ramp>),
     /// of a figure-eight
-    Eight(Tracked),
+    FigureEight(TrackingError),
     /// of a saturation
-    Saturation(Aside),
+    Saturation(DirectionError),
     /// of commands that end
-    Silence(Silence),
+    CommandTimeout(CommandTimeout),
 }
 
 /// A run.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub struct ScenarioRun {
     /// What was measured
-    pub came: Came,
+    pub outcome: Outcome,
     /// All that it left behind
-    pub taken: Taken,
+    pub log: RunLog,
 }
 
 /// A robot of the paper as it is believed to be, in both precisions.
 #[derive(Clone, Copy, Debug)]
-pub struct Believed<const N: usize> {
+pub struct NominalRobot<const N: usize> {
     /// For the host
     pub host: Robot<N, f64>,
     /// For its block
     pub robot: Robot<N, f32>,
 }
 
-impl<const N: usize> Believed<N>
+impl<const N: usize> NominalRobot<N>
 where
-    Block<N>: AnyBlock,
+    Block<N>: ToParameters,
 {
     /// Its block.
     pub fn block(&self) -> Block<N> {
@@ -102,44 +102,50 @@ where
     }
 
     /// The board that a seed draws.
-    pub fn board(&self, seed: u64) -> Setup<N> {
+    pub fn board(&self, seed: u64) -> BoardSetup<N> {
         robots::board(&self.host, seed)
     }
 
     /// Lets a program play a scenario.
     ///
     /// # Errors
-    /// [`Trouble`] says what became of the program.
-    pub fn play<B: Brain>(&self, brain: B, scenario: Scenario, seed: u64) -> Result<(Run, Ride<B, N>), Trouble> {
-        let mut ride = Ride::new(brain, VirtualBoard::moving(self.board(seed), Pose::default(), Default::default()));
+    /// [`RunError`] says what became of the program.
+    pub fn run<B: BoardProgram>(
+        &self,
+        program: B,
+        scenario: Scenario,
+        seed: u64,
+    ) -> Result<(ScenarioRun, ClosedLoopRun<B, N>), RunError> {
+        let mut run =
+            ClosedLoopRun::new(program, VirtualBoard::moving(self.board(seed), Pose::default(), Default::default()));
         let mut block = self.block();
         let came = match scenario {
-            Scenario::Ramps(axis) => Came::Ramps(ramps::play(&mut ride, &block, axis)?),
-            Scenario::Saturation => Came::Saturation(saturation::play(&mut ride, &block)?),
-            Scenario::Eight | Scenario::EightByFeedback => {
-                block.feedforward = scenario == Scenario::Eight;
-                block.limits.acceleration = [eight::ACCELERATION, eight::ACCELERATION, 30.0];
-                ride.send_block(&block.parameters());
-                ride.wait(0.15)?;
-                Came::Eight(Path::default().play(&mut ride)?)
+            Scenario::Ramps(axis) => Outcome::Ramps(ramps::measure(&mut run, &block, axis)?),
+            Scenario::Saturation => Outcome::Saturation(saturation::measure(&mut run, &block)?),
+            Scenario::FigureEight | Scenario::FigureEightFeedbackOnly => {
+                block.feedforward = scenario == Scenario::FigureEight;
+                block.limits.acceleration = [figure_eight::ACCELERATION, figure_eight::ACCELERATION, 30.0];
+                run.send_block(&block.parameters());
+                run.wait(0.15)?;
+                Outcome::FigureEight(FigureEight::default().track(&mut run)?)
             }
-            Scenario::Silence => {
-                ride.send_block(&block.parameters());
-                ride.wait(0.15)?;
-                Came::Silence(silence::play(&mut ride)?)
+            Scenario::CommandTimeout => {
+                run.send_block(&block.parameters());
+                run.wait(0.15)?;
+                Outcome::CommandTimeout(command_timeout::measure(&mut run)?)
             }
         };
-        Ok((Run { came, taken: ride.taken.clone() }, ride))
+        Ok((ScenarioRun { outcome: came, log: run.log.clone() }, run))
     }
 
     /// The same in software, which has no trouble.
-    pub fn in_software(&self, scenario: Scenario, seed: u64) -> Run {
-        self.play(Software::default(), scenario, seed).expect("software does not fail").0
+    pub fn run_on_host(&self, scenario: Scenario, seed: u64) -> ScenarioRun {
+        self.run(HostProgram::default(), scenario, seed).expect("software does not fail").0
     }
 }
 
 /// What differs first between two runs of the same, bit for bit; load and jitter apart, unless `clocked`.
-pub fn difference(one: &Taken, other: &Taken, clocked: bool) -> Option<String> {
+pub fn difference(one: &RunLog, other: &RunLog, clocked: bool) -> Option<String> {
     let (n, m) = (one.records.len(), other.records.len());
     if n != m {
         return Some(format!("{n} records against {m}"));
@@ -153,14 +159,14 @@ pub fn difference(one: &Taken, other: &Taken, clocked: bool) -> Option<String> {
             return Some(format!("record {}: {a:?} against {b:?}", a.sequence));
         }
     }
-    if one.moments != other.moments {
+    if one.truth != other.truth {
         return Some("the motion, though not the records".into());
     }
     (one.replies != other.replies).then(|| "the answers to commands".into())
 }
 
 /// Worst load [‰] and jitter [cycles] that a program told while it drove.
-pub fn load(taken: &Taken) -> [u16; 2] {
-    let driving = taken.records.iter().filter(|record| record.state == OperatingState::Driving);
+pub fn load(log: &RunLog) -> [u16; 2] {
+    let driving = log.records.iter().filter(|record| record.state == OperatingState::Driving);
     driving.fold([0; 2], |[load, jitter], record| [load.max(record.load), jitter.max(record.jitter)])
 }

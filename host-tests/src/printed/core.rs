@@ -19,7 +19,7 @@ use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use crate::matrices::{Drive, Matrices};
+use crate::matrices::{Drivetrain, Matrices};
 
 /// v, vn, ω and up to four voltages.
 type D = Dual<7>;
@@ -61,7 +61,7 @@ pub fn of_the_core<const N: usize>(robot: Robot<N, D>) -> Matrices<N> {
         k: back * (Vector3::from(next.map(|x| x.re)) - g * Vector3::from(TWIST)),
         rim: SMatrix::<f64, N, 3>::from_fn(|j, axis| rows[j][axis].re),
         inertia,
-        drives: radius.map(|r| Drive {
+        drivetrains: radius.map(|r| Drivetrain {
             radius: r.re,
             gear: motor.gear_ratio.re,
             kv: motor.emf_constant.re,

@@ -56,14 +56,14 @@ fn entries<const N: usize>(printed: &Matrices<N>, b: &[f64], derived: &Matrices<
 
 /// The entries of the robot on three wheels, eq. 33 with its sign as printed.
 pub fn three() -> Vec<Entry> {
-    let derived = Matrices::derived(&THREE_WHEELS.rig(THREE_HEADINGS_DEG));
+    let derived = Matrices::derived(&THREE_WHEELS.generic(THREE_HEADINGS_DEG));
     let b = eq33_as_printed(&THREE_WHEELS);
     entries(&Matrices::<3>::printed(&THREE_WHEELS), b.as_slice(), &derived, &of_the_core(three_wheels()))
 }
 
 /// The entries of the robot on four wheels.
 pub fn four() -> Vec<Entry> {
-    let derived = Matrices::derived(&FOUR_WHEELS.rig(FOUR_HEADINGS_DEG));
+    let derived = Matrices::derived(&FOUR_WHEELS.generic(FOUR_HEADINGS_DEG));
     let printed = Matrices::<4>::printed(&FOUR_WHEELS);
     entries(&printed, printed.b.as_slice(), &derived, &of_the_core(four_wheels()))
 }

@@ -1,6 +1,6 @@
 //! The figures as the paper prints them; Table 3 is [`crate::paper`].
 
-use crate::paper::{FOUR_WHEELS, Robot, THREE_WHEELS};
+use crate::paper::{FOUR_WHEELS, PaperRobot, THREE_WHEELS};
 
 /// R of Table 1, from the steady motor line [Ω].
 pub const R_STEADY: f64 = 3.7007;
@@ -26,14 +26,14 @@ pub struct Printed {
     /// What it is called.
     pub name: &'static str,
     /// Its Table 3.
-    pub table3: Robot,
+    pub table3: PaperRobot,
     /// J and the frictions.
     pub rows: [Row; 7],
     /// Section 5.4, v axis at 6 V on two motors: back-EMF [1/s], viscous [1/s], drive [m/s²], Coulomb [m/s²].
     pub terms: [f64; 4],
 }
 
-const fn rows(t: &Robot, table1: [f64; 7], table2: [Option<f64>; 7]) -> [Row; 7] {
+const fn rows(t: &PaperRobot, table1: [f64; 7], table2: [Option<f64>; 7]) -> [Row; 7] {
     const NAMES: [(&str, &str); 7] = [
         ("J", "kg·m²"),
         ("Bv", "N/(m/s)"),

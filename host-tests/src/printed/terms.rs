@@ -8,9 +8,9 @@ use omni_gap::simulate::{AxisSensitivity, NominalKey, StepPlan, sensitivity};
 
 use super::averages::capital;
 use super::tables::{FOUR, Printed, R_STEADY, THREE};
-use crate::generated::{ROBOTS, tree};
 use crate::matrices::Matrices;
-use crate::paper::{FOUR_HEADINGS_DEG, Robot, THREE_HEADINGS_DEG};
+use crate::paper::{FOUR_HEADINGS_DEG, PaperRobot, THREE_HEADINGS_DEG};
+use crate::paper_source::{ROBOTS, tree};
 
 /// The paper's step [V].
 const VOLTS: f64 = 6.0;
@@ -21,15 +21,15 @@ const TERMS: [(&str, &str); 4] =
     [("back-EMF", "1/s"), ("viscous, Bv/M", "1/s"), ("drive at 6 V", "m/s²"), ("Coulomb, Cv/M", "m/s²")];
 
 /// A robot of section 5.4: Table 3 with this R [Ω], and Bv [N/(m/s)] and Cv [N] in their places.
-fn robot_with(printed: &Printed, r: f64, bv: f64, cv: f64) -> Robot {
+fn robot_with(printed: &Printed, r: f64, bv: f64, cv: f64) -> PaperRobot {
     let [_, bvn, bw] = printed.table3.viscous;
     let [_, cvn, cw] = printed.table3.coulomb;
-    Robot { resistance: r, ..printed.table3 }.with_friction([bv, bvn, bw], [cv, cvn, cw])
+    PaperRobot { resistance: r, ..printed.table3 }.with_friction([bv, bvn, bw], [cv, cvn, cw])
 }
 
 /// The four terms of the v axis of a robot, from its derived matrices: 6 V on the two motors that drive v most.
-fn of_matrices<const N: usize>(robot: &Robot, headings: [f64; N]) -> [f64; 4] {
-    let m = Matrices::derived(&robot.rig(headings));
+fn of_matrices<const N: usize>(robot: &PaperRobot, headings: [f64; N]) -> [f64; 4] {
+    let m = Matrices::derived(&robot.generic(headings));
     let viscous = robot.viscous[0] / robot.mass;
     let mut along: Vec<f64> = m.b.row(0).iter().map(|b| b.abs()).collect();
     along.sort_by(|a, b| b.total_cmp(a));

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use omni_gap::report::{Report, Which, estimate, num, percent};
 
-use super::sessions::{Real, judged};
+use super::sessions::{RealSession, judged};
 use crate::catalogue::page::{plain, word};
 
 /// Causes below this probability are left out.
@@ -24,7 +24,7 @@ was made for them. Nobody knows the truth of a real robot, so below each answer 
 ";
 
 /// The whole page, of sessions and their answers.
-pub fn page(answered: &[(Real, Report)]) -> String {
+pub fn page(answered: &[(RealSession, Report)]) -> String {
     answered.iter().fold(OPENING.to_owned(), |text, (real, report)| text + &section(real, report))
 }
 
@@ -40,12 +40,12 @@ pub fn answer(report: &Report) -> String {
 }
 
 /// What to say where the answer is another than the one that was judged.
-pub fn warning(real: &Real, report: &Report) -> Option<String> {
+pub fn warning(real: &RealSession, report: &Report) -> Option<String> {
     let (of, is) = (judged(real.judgement).0, answer(report));
     (of != is).then(|| format!("This was written of the answer \"{of}\"; the answer is now \"{is}\": judge it again."))
 }
 
-fn section(real: &Real, report: &Report) -> String {
+fn section(real: &RealSession, report: &Report) -> String {
     let mut text = format!("\n## {}\n\n", real.title);
     let mut line = |label: &str, said: &str| {
         let _ = writeln!(text, "- **{label}**: {}", plain(said));

@@ -8,7 +8,7 @@ use omni_gap::log::Session;
 
 /// A session made of real recordings.
 #[derive(Clone, Copy, Debug)]
-pub struct Real {
+pub struct RealSession {
     /// Its name.
     pub title: &'static str,
     /// What was recorded, in a line.
@@ -28,8 +28,8 @@ const EVERY_45_DEGREES: &[&str] =
     &["exp00.csv", "exp09.csv", "exp18.csv", "exp27.csv", "exp36.csv", "exp45.csv", "exp54.csv", "exp63.csv"];
 
 /// All sessions.
-pub const SESSIONS: [Real; 5] = [
-    Real {
+pub const SESSIONS: [RealSession; 5] = [
+    RealSession {
         title: "Robotino on a table",
         recorded: "three wheels, a drive that controls speed, 0.1 m/s on a hard table, 8 runs, one every 45 degrees",
         example: "robotino",
@@ -37,7 +37,7 @@ pub const SESSIONS: [Real; 5] = [
         files: EVERY_45_DEGREES,
         judgement: include_str!("../../golden/real-judgement/robotino-table.md"),
     },
-    Real {
+    RealSession {
         title: "Robotino on carpet, slow",
         recorded: "the same robot at 0.1 m/s on grey carpet, 8 runs, one every 45 degrees",
         example: "robotino",
@@ -45,7 +45,7 @@ pub const SESSIONS: [Real; 5] = [
         files: EVERY_45_DEGREES,
         judgement: include_str!("../../golden/real-judgement/robotino-carpet-slow.md"),
     },
-    Real {
+    RealSession {
         title: "Robotino on carpet, fast",
         recorded: "the same robot at 0.3 m/s on grey carpet, 12 runs, one every 30 degrees",
         example: "robotino",
@@ -66,7 +66,7 @@ pub const SESSIONS: [Real; 5] = [
         ],
         judgement: include_str!("../../golden/real-judgement/robotino-carpet-fast.md"),
     },
-    Real {
+    RealSession {
         title: "Robotino with its wheels lifted",
         recorded: "the same robot on a stand, set speeds in stairs, 3 runs, no camera",
         example: "robotino",
@@ -78,7 +78,7 @@ pub const SESSIONS: [Real; 5] = [
         ],
         judgement: include_str!("../../golden/real-judgement/robotino-motors.md"),
     },
-    Real {
+    RealSession {
         title: "RoboJackets 2018",
         recorded: "four wheels, brushless motors driven by open-loop duty, 3 runs, wheel speeds only",
         example: "ssl2018",
@@ -88,7 +88,7 @@ pub const SESSIONS: [Real; 5] = [
     },
 ];
 
-impl Real {
+impl RealSession {
     /// Reads it from a folder of recordings.
     ///
     /// # Errors

@@ -12,7 +12,7 @@ pub const FULL_SCALE: u16 = 4095;
 
 /// One channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Channel {
+pub struct AdcChannel {
     /// What a code is worth [A or V]
     pub step: f64,
     /// Code of zero [counts]
@@ -21,10 +21,10 @@ pub struct Channel {
     pub noise: f64,
 }
 
-impl Channel {
+impl AdcChannel {
     /// The code of a value [A or V].
-    pub fn code(&self, value: f64, dice: &mut ChaCha8Rng) -> u16 {
-        let thrown: f64 = StandardNormal.sample(dice);
+    pub fn code(&self, value: f64, rng: &mut ChaCha8Rng) -> u16 {
+        let thrown: f64 = StandardNormal.sample(rng);
         // code = round(offset + x/step + σ·n); a cast holds what is outside at the nearer end
         let counts = self.offset + value / self.step + self.noise * thrown;
         (counts.round() as u16).min(FULL_SCALE)
@@ -36,24 +36,24 @@ mod tests {
     use super::*;
     use rand_chacha::rand_core::SeedableRng;
 
-    const CURRENT: Channel = Channel { step: 0.0049, offset: 2048.0, noise: 0.0 };
+    const CURRENT: AdcChannel = AdcChannel { step: 0.0049, offset: 2048.0, noise: 0.0 };
 
     #[test]
     fn a_code_is_the_nearest_step_and_ends_at_both_sides() {
-        let mut dice = ChaCha8Rng::seed_from_u64(1);
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
         for (amperes, code) in
             [(0.0, 2048), (0.0049, 2049), (0.0049 * 1.49, 2049), (-0.0049, 2047), (99.0, 4095), (-99.0, 0)]
         {
-            assert_eq!(CURRENT.code(amperes, &mut dice), code);
+            assert_eq!(CURRENT.code(amperes, &mut rng), code);
         }
     }
 
     #[test]
     fn noise_has_its_spread_and_a_seed_its_codes() {
-        let noisy = Channel { noise: 2.0, ..CURRENT };
+        let noisy = AdcChannel { noise: 2.0, ..CURRENT };
         let throws = |seed| {
-            let mut dice = ChaCha8Rng::seed_from_u64(seed);
-            (0..10_000).map(|_| f64::from(noisy.code(0.0, &mut dice)) - 2048.0).collect::<Vec<_>>()
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            (0..10_000).map(|_| f64::from(noisy.code(0.0, &mut rng)) - 2048.0).collect::<Vec<_>>()
         };
         let codes = throws(7);
         let mean = codes.iter().sum::<f64>() / 1e4;

@@ -26,11 +26,11 @@ use model_core::plant::{Input, Plant, State};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::adc::{Channel, FULL_SCALE};
+use super::adc::{AdcChannel, FULL_SCALE};
 use super::battery::Battery;
-use super::faults::{BLOCKED, Fault};
-use super::halls::Halls;
-use super::machine::{LegLoss, Legs, Machine, Magnet, Outcome, Vector, phases};
+use super::faults::{BLOCKED, InjectedFault};
+use super::halls::HallSwitches;
+use super::machine::{BridgeLegs, LegLoss, Machine, PeriodResult, RotorFlux, Vector, phases};
 
 /// One PWM period [s].
 pub const PERIOD: f64 = 50e-6;
@@ -49,7 +49,7 @@ pub struct Outputs {
 
 /// What a board and its robot are made of.
 #[derive(Clone, Copy, Debug)]
-pub struct Setup<const N: usize> {
+pub struct BoardSetup<const N: usize> {
     /// The robot
     pub robot: Robot<N, f64>,
     /// What it has besides
@@ -72,7 +72,7 @@ pub struct Setup<const N: usize> {
     pub seed: u64,
 }
 
-impl<const N: usize> Setup<N> {
+impl<const N: usize> BoardSetup<N> {
     /// A robot on the board's default scaling: ±10 A and 36 V of full scale, offsets within 12 codes and noise of 1.5.
     pub fn new(robot: Robot<N, f64>, effects: Effects<N, f64>, seed: u64) -> Self {
         Self {
@@ -97,41 +97,41 @@ impl<const N: usize> Setup<N> {
 
 /// A motor with its converters and switches.
 #[derive(Clone, Copy, Debug)]
-struct Motor {
+struct BoardMotor {
     machine: Machine,
-    channels: [Channel; 3],
-    halls: Halls,
+    channels: [AdcChannel; 3],
+    halls: HallSwitches,
     /// o of `current_sensor_offset` [A, DC-equivalent]
     sensor_offset: f64,
     /// Space vector of the phase currents [A]
     current: Vector,
     /// Electrical angle [rad]
     angle: f64,
-    outcome: Outcome,
+    outcome: PeriodResult,
 }
 
 /// The board with its robot.
 #[derive(Debug)]
 pub struct VirtualBoard<const N: usize> {
-    setup: Setup<N>,
+    setup: BoardSetup<N>,
     /// The effects that the plant carries
-    carried: Effects<N, f64>,
+    plant_effects: Effects<N, f64>,
     plant: Plant<N, f64>,
     state: State<N, f64>,
     memory: Vec<f64>,
-    motors: [Motor; N],
+    motors: [BoardMotor; N],
     battery: Battery,
     bus: f64,
     /// Current drawn from the battery in the last period [A]
     drawn: f64,
-    bus_channel: Channel,
-    dice: ChaCha8Rng,
-    faults: Vec<Fault>,
+    bus_channel: AdcChannel,
+    rng: ChaCha8Rng,
+    faults: Vec<InjectedFault>,
 }
 
 impl<const N: usize> VirtualBoard<N> {
     /// A board whose robot stands in the origin, every rotor at an angle of its own.
-    pub fn new(setup: Setup<N>) -> Self {
+    pub fn new(setup: BoardSetup<N>) -> Self {
         Self::moving(setup, Pose::default(), BodyTwist::default())
     }
 
@@ -139,9 +139,9 @@ impl<const N: usize> VirtualBoard<N> {
     ///
     /// # Panics
     /// With `actuation_delay` among the effects.
-    pub fn moving(setup: Setup<N>, pose: Pose<f64>, twist: BodyTwist<f64>) -> Self {
-        let mut dice = ChaCha8Rng::seed_from_u64(setup.seed);
-        let motors = std::array::from_fn(|j| Motor::new(&setup, j, &mut dice));
+    pub fn moving(setup: BoardSetup<N>, pose: Pose<f64>, twist: BodyTwist<f64>) -> Self {
+        let mut rng = ChaCha8Rng::seed_from_u64(setup.seed);
+        let motors = std::array::from_fn(|j| BoardMotor::new(&setup, j, &mut rng));
         let mut battery = Battery { open_circuit: setup.robot.supply, resistance: 0.0 };
         for sag in setup.effects.at(Seam::Supply) {
             if let [resistance, open_circuit] = *sag.params() {
@@ -160,7 +160,7 @@ impl<const N: usize> VirtualBoard<N> {
         let mut memory = vec![0.0; plant.memory_len()];
         plant.restart(&state, &mut memory);
         Self {
-            carried,
+            plant_effects: carried,
             plant,
             state,
             memory,
@@ -168,8 +168,8 @@ impl<const N: usize> VirtualBoard<N> {
             battery,
             bus: battery.bus(0.0),
             drawn: 0.0,
-            bus_channel: Channel { step: setup.bus_volts_per_count, offset: 0.0, noise: setup.noise },
-            dice,
+            bus_channel: AdcChannel { step: setup.bus_volts_per_count, offset: 0.0, noise: setup.noise },
+            rng,
             faults: Vec::new(),
             setup,
         }
@@ -181,21 +181,21 @@ impl<const N: usize> VirtualBoard<N> {
         let speeds = self.wheel_speeds();
         let mut codes = self.resting();
         for (j, motor) in self.motors.iter_mut().enumerate() {
-            let legs = Legs {
+            let legs = BridgeLegs {
                 duties: outputs.compare[j].map(|count| (f64::from(count) / f64::from(TOPS[j])).min(1.0)),
                 bus: self.bus,
                 enabled: outputs.enabled >> j & 1 != 0,
             };
             // ω = p·l·ω_w
             let speed = motor.machine.pole_pairs * self.setup.robot.motor.gear_ratio * speeds[j];
-            let magnet = Magnet { angle: motor.angle, speed };
+            let magnet = RotorFlux { angle: motor.angle, speed };
             motor.outcome = motor.machine.period(&mut motor.current, &legs, magnet, PERIOD);
             let middle = magnet.angle + 0.5 * speed * PERIOD;
             motor.angle = (magnet.angle + speed * PERIOD).rem_euclid(std::f64::consts::TAU);
             codes.halls[j] = HallCode(motor.halls.code(middle));
-            codes.phases[j] = motor.codes(middle, &mut self.dice);
+            codes.phases[j] = motor.codes(middle, &mut self.rng);
         }
-        codes.bus = AdcCode(self.bus_channel.code(self.bus, &mut self.dice));
+        codes.bus = AdcCode(self.bus_channel.code(self.bus, &mut self.rng));
         self.drawn = self.motors.iter().map(|motor| motor.outcome.bus_current).sum();
         let current = Input::Current(self.currents());
         self.plant.step(&mut self.state, &mut self.memory, &current, PERIOD);
@@ -205,12 +205,12 @@ impl<const N: usize> VirtualBoard<N> {
 
     /// The codes of a board on which nothing is connected.
     fn resting(&mut self) -> Codes {
-        let zero = Channel { step: 1.0, offset: 2048.0, noise: self.setup.noise };
-        let dice = &mut self.dice;
+        let zero = AdcChannel { step: 1.0, offset: 2048.0, noise: self.setup.noise };
+        let rng = &mut self.rng;
         let unconnected: [[AdcCode; 3]; MOTORS] =
             std::array::from_fn(
                 |j| {
-                    if j < N { [AdcCode(0); 3] } else { [(); 3].map(|()| AdcCode(zero.code(0.0, dice))) }
+                    if j < N { [AdcCode(0); 3] } else { [(); 3].map(|()| AdcCode(zero.code(0.0, rng))) }
                 },
             );
         Codes { phases: unconnected, bus: AdcCode(0), halls: [RESTING; MOTORS], driver_fault: false }
@@ -220,19 +220,22 @@ impl<const N: usize> VirtualBoard<N> {
     fn spoil(&self, codes: &mut Codes, enabled: u8) {
         for fault in &self.faults {
             match *fault {
-                Fault::Short { motor, phase } if enabled >> motor & 1 != 0 => {
+                InjectedFault::Short { motor, phase } if enabled >> motor & 1 != 0 => {
                     codes.phases[motor][phase] = AdcCode(FULL_SCALE);
                 }
-                Fault::Halls { motor, code } => codes.halls[motor] = HallCode(code),
-                Fault::DriverLine => codes.driver_fault = true,
-                Fault::Short { .. } | Fault::Bus(_) | Fault::Blocked { .. } | Fault::Offset { .. } => {}
+                InjectedFault::Halls { motor, code } => codes.halls[motor] = HallCode(code),
+                InjectedFault::DriverLine => codes.driver_fault = true,
+                InjectedFault::Short { .. }
+                | InjectedFault::Bus(_)
+                | InjectedFault::Blocked { .. }
+                | InjectedFault::Offset { .. } => {}
             }
         }
     }
 
     /// Something goes wrong, from the next period on.
-    pub fn inject(&mut self, fault: Fault) {
-        if let Fault::Offset { motor, phase, counts } = fault {
+    pub fn inject(&mut self, fault: InjectedFault) {
+        if let InjectedFault::Offset { motor, phase, counts } = fault {
             self.motors[motor].channels[phase].offset = counts;
         }
         self.faults.push(fault);
@@ -240,16 +243,16 @@ impl<const N: usize> VirtualBoard<N> {
     }
 
     /// All faults are mended; a converter's zero stays where it was put.
-    pub fn heal(&mut self) {
+    pub fn clear_faults(&mut self) {
         self.faults.clear();
         self.rebuild();
     }
 
     /// The plant with the wheels that are blocked now.
     fn rebuild(&mut self) {
-        let mut effects = self.carried;
+        let mut effects = self.plant_effects;
         for fault in &self.faults {
-            if let Fault::Blocked { motor } = *fault {
+            if let InjectedFault::Blocked { motor } = *fault {
                 effects.add(&BLOCKED, Some(motor), &[]).expect("room for a blocked wheel");
             }
         }
@@ -257,7 +260,8 @@ impl<const N: usize> VirtualBoard<N> {
     }
 
     fn bus_now(&self) -> f64 {
-        let held = self.faults.iter().rev().find_map(|fault| if let Fault::Bus(u) = fault { Some(*u) } else { None });
+        let held =
+            self.faults.iter().rev().find_map(|fault| if let InjectedFault::Bus(u) = fault { Some(*u) } else { None });
         held.unwrap_or_else(|| self.battery.bus(self.drawn))
     }
 
@@ -269,7 +273,7 @@ impl<const N: usize> VirtualBoard<N> {
     /// Speed of each wheel at its shaft [rad/s].
     pub fn wheel_speeds(&self) -> [f64; N] {
         // a wheel that rolls turns with the body; the plant keeps the speed of one that slips
-        if self.carried.none_at(Seam::Contact) {
+        if self.plant_effects.none_at(Seam::Contact) {
             self.setup.robot.wheels.wheel_speeds(self.state.twist)
         } else {
             self.state.wheel_speed
@@ -302,9 +306,9 @@ impl<const N: usize> VirtualBoard<N> {
     }
 }
 
-impl Motor {
+impl BoardMotor {
     /// Motor `j` with its mismatch, dead time and whatever is drawn.
-    fn new<const N: usize>(setup: &Setup<N>, j: usize, dice: &mut ChaCha8Rng) -> Self {
+    fn new<const N: usize>(setup: &BoardSetup<N>, j: usize, rng: &mut ChaCha8Rng) -> Self {
         let motor = setup.robot.motor;
         let params = |id: &str| {
             let on = |active: &&ActiveEffect<f64>| active.effect.card().id == id && active.on(j);
@@ -317,25 +321,25 @@ impl Motor {
             machine.loss = Some(LegLoss::dc_equivalent(voltage, smoothing));
         }
         let sensor_offset = if let [offset] = params("current_sensor_offset")[..] { offset } else { 0.0 };
-        let mut within = |most: f64| most * dice.random_range(-1.0..=1.0);
-        let channels = [(); 3].map(|()| Channel {
+        let mut within = |most: f64| most * rng.random_range(-1.0..=1.0);
+        let channels = [(); 3].map(|()| AdcChannel {
             step: setup.amps_per_count,
             offset: 2048.0 + within(setup.offset_spread),
             noise: setup.noise,
         });
-        let halls = Halls { errors: [(); 3].map(|()| within(setup.hall_spread)) };
+        let halls = HallSwitches { errors: [(); 3].map(|()| within(setup.hall_spread)) };
         let angle = within(std::f64::consts::PI).rem_euclid(std::f64::consts::TAU);
-        let (current, outcome) = (Vector::default(), Outcome::default());
+        let (current, outcome) = (Vector::default(), PeriodResult::default());
         Self { machine, channels, halls, sensor_offset, current, angle, outcome }
     }
 
     /// Codes of the phase currents, sampled while the rotor is at an electrical angle [rad].
-    fn codes(&self, angle: f64, dice: &mut ChaCha8Rng) -> [AdcCode; 3] {
+    fn codes(&self, angle: f64, rng: &mut ChaCha8Rng) -> [AdcCode; 3] {
         // the effect speaks of the DC-equivalent current: what reads o too much there turns with the rotor, i_q =
         // 2/√3·o
         let turning = Vector::new(0.0, 2.0 / 3.0_f64.sqrt() * self.sensor_offset) * Vector::from_polar(1.0, angle);
         let wrong = phases(turning);
-        std::array::from_fn(|x| AdcCode(self.channels[x].code(self.outcome.sampled[x] + wrong[x], dice)))
+        std::array::from_fn(|x| AdcCode(self.channels[x].code(self.outcome.sampled[x] + wrong[x], rng)))
     }
 }
 

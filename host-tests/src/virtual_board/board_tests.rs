@@ -31,7 +31,7 @@ fn effects<const N: usize>(wanted: &[(&str, Option<usize>, &[f64])]) -> Effects<
 
 /// Runs board and plant side by side under held voltages and compares their speeds and currents after `seconds`.
 fn alike<const N: usize>(robot: Robot<N, f64>, effects: Effects<N, f64>, voltage: [f64; N], tolerance: f64) {
-    let mut board = VirtualBoard::new(Setup::new(robot, effects, 3).ideal());
+    let mut board = VirtualBoard::new(BoardSetup::new(robot, effects, 3).ideal());
     let plant = Plant::new(robot, effects);
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
     let mut memory = vec![0.0; plant.memory_len()];
@@ -109,7 +109,7 @@ fn every_effect_is_where_it_belongs() {
 fn without_load_the_speed_settles_at_voltage_over_back_emf() {
     let mut robot = four_wheels::<f64>();
     robot.friction = Default::default();
-    let mut board = VirtualBoard::new(Setup::new(robot, Effects::default(), 1).ideal());
+    let mut board = VirtualBoard::new(BoardSetup::new(robot, Effects::default(), 1).ideal());
     for _ in 0..100_000 {
         let outputs = driven(&board, [6.0; 4]);
         board.period(&outputs);
@@ -127,7 +127,7 @@ fn without_load_the_speed_settles_at_voltage_over_back_emf() {
 fn with_open_bridges_it_coasts_as_friction_alone_lets_it() {
     let robot = four_wheels::<f64>();
     let twist = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
-    let mut board = VirtualBoard::moving(Setup::new(robot, Effects::default(), 1).ideal(), Pose::default(), twist);
+    let mut board = VirtualBoard::moving(BoardSetup::new(robot, Effects::default(), 1).ideal(), Pose::default(), twist);
     for k in 1..=2000 {
         let codes = board.period(&Outputs::default());
         assert!(codes.phases.as_flattened().iter().all(|code| code.0 == 2048) && board.bus_current() == 0.0);
@@ -141,7 +141,7 @@ fn with_open_bridges_it_coasts_as_friction_alone_lets_it() {
 #[test]
 fn rotors_and_wheels_turn_together_and_the_halls_tell() {
     let mut board = VirtualBoard::moving(
-        Setup::new(three_wheels::<f64>(), Effects::default(), 1).ideal(),
+        BoardSetup::new(three_wheels::<f64>(), Effects::default(), 1).ideal(),
         Pose::default(),
         BodyTwist { v: 0.0, vn: 0.0, w: 2.0 },
     );
@@ -162,7 +162,7 @@ fn rotors_and_wheels_turn_together_and_the_halls_tell() {
 #[test]
 fn a_seed_is_a_board_bit_for_bit() {
     let run = |seed| {
-        let mut board = VirtualBoard::new(Setup::new(four_wheels(), Effects::default(), seed));
+        let mut board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), seed));
         let codes: Vec<Codes> = (0..200)
             .map(|_| {
                 let outputs = driven(&board, [3.0; 4]);
@@ -177,28 +177,28 @@ fn a_seed_is_a_board_bit_for_bit() {
 
 #[test]
 fn faults_show_where_they_are_and_go_when_they_are_healed() {
-    let mut board = VirtualBoard::new(Setup::new(four_wheels(), Effects::default(), 2).ideal());
+    let mut board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), 2).ideal());
     let driving = Outputs { compare: [[0; 3]; MOTORS], enabled: 0b1111 };
-    board.inject(Fault::Short { motor: 2, phase: 1 });
-    board.inject(Fault::Halls { motor: 0, code: 7 });
-    board.inject(Fault::DriverLine);
-    board.inject(Fault::Bus(17.0));
+    board.inject(InjectedFault::Short { motor: 2, phase: 1 });
+    board.inject(InjectedFault::Halls { motor: 0, code: 7 });
+    board.inject(InjectedFault::DriverLine);
+    board.inject(InjectedFault::Bus(17.0));
     let codes = board.period(&driving);
     assert_eq!((codes.phases[2][1].0, codes.halls[0].0, codes.driver_fault), (FULL_SCALE, 7, true));
     assert!((f64::from(codes.bus.0) * 0.00886 - 17.0).abs() < 0.00886);
     assert_eq!(board.period(&Outputs::default()).phases[2][1].0, 2048, "an open bridge feeds no short");
-    board.heal();
+    board.clear_faults();
     let codes = board.period(&driving);
     assert_eq!((codes.phases[2][1].0, codes.driver_fault), (2048, false));
     assert!((1..=6).contains(&codes.halls[0].0));
-    board.inject(Fault::Offset { motor: 3, phase: 0, counts: 2700.0 });
+    board.inject(InjectedFault::Offset { motor: 3, phase: 0, counts: 2700.0 });
     assert_eq!(board.period(&driving).phases[3][0].0, 2700);
 }
 
 #[test]
 fn a_blocked_wheel_stands_while_its_motor_pulls() {
-    let mut board = VirtualBoard::new(Setup::new(four_wheels(), Effects::default(), 2).ideal());
-    board.inject(Fault::Blocked { motor: 1 });
+    let mut board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), 2).ideal());
+    board.inject(InjectedFault::Blocked { motor: 1 });
     for _ in 0..4000 {
         let outputs = driven(&board, [6.0; 4]);
         board.period(&outputs);
@@ -206,7 +206,7 @@ fn a_blocked_wheel_stands_while_its_motor_pulls() {
     assert!(board.wheel_speeds()[1].abs() < 1e-9, "{:?}", board.wheel_speeds());
     let locked = 6.0 / four_wheels::<f64>().motor.resistance;
     assert!((board.currents()[1] - locked).abs() < 0.01 * locked, "{:?}", board.currents());
-    board.heal();
+    board.clear_faults();
     for _ in 0..4000 {
         let outputs = driven(&board, [6.0; 4]);
         board.period(&outputs);
@@ -220,8 +220,8 @@ fn a_blocked_wheel_that_can_slip_is_dragged_along() {
     effects.add(find("wheel_slip").unwrap(), None, &[0.3, 30.0, 1.0]).unwrap();
     // a current alone gives a wheel that spins no speed; its inertia does
     effects.add(find("rotor_inertia").unwrap(), None, &[1.0e-4]).unwrap();
-    let mut board = VirtualBoard::new(Setup::new(four_wheels(), effects, 2).ideal());
-    board.inject(Fault::Blocked { motor: 1 });
+    let mut board = VirtualBoard::new(BoardSetup::new(four_wheels(), effects, 2).ideal());
+    board.inject(InjectedFault::Blocked { motor: 1 });
     for _ in 0..4000 {
         // the others turn the robot on the spot, against the grip of this one
         let outputs = driven(&board, [6.0, 0.0, 6.0, 6.0]);

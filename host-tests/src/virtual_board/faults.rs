@@ -8,7 +8,7 @@ use model_core::effects::seams::{EffectContext, Gear};
 
 /// Something that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fault {
+pub enum InjectedFault {
     /// A short in a motor's cable: the converter of that phase is at its end while the bridge is enabled.
     Short {
         /// Which motor

@@ -13,12 +13,12 @@ pub const FORWARD: [u8; 6] = [1, 3, 2, 6, 4, 5];
 
 /// The switches of one motor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Halls {
+pub struct HallSwitches {
     /// ε_x, how far each switch sits from its place [rad, electrical]
     pub errors: [f64; 3],
 }
 
-impl Halls {
+impl HallSwitches {
     /// What they read at an electrical angle [rad].
     pub fn code(&self, angle: f64) -> u8 {
         (0..3).fold(0, |code, x| {
@@ -35,7 +35,7 @@ mod tests {
 
     #[test]
     fn forward_the_codes_walk_their_sequence_in_sectors_of_sixty_degrees() {
-        let halls = Halls::default();
+        let halls = HallSwitches::default();
         for tenth in -7200..7200_i32 {
             // every tenth of a degree, between the edges
             let degrees = 0.1 * f64::from(tenth) + 0.05;
@@ -46,9 +46,9 @@ mod tests {
 
     #[test]
     fn a_switch_out_of_place_moves_its_own_two_edges_alone() {
-        let off = Halls { errors: [0.0, 0.1, 0.0] };
-        let at = |h: &Halls, degrees: f64| h.code(degrees.to_radians());
-        let straight = Halls::default();
+        let off = HallSwitches { errors: [0.0, 0.1, 0.0] };
+        let at = |h: &HallSwitches, degrees: f64| h.code(degrees.to_radians());
+        let straight = HallSwitches::default();
         // b switches at 30° and 210°, and with the error at 35.7° and 215.7°
         for (degrees, same) in [(29.0, true), (32.0, false), (36.0, true), (211.0, false), (217.0, true), (91.0, true)]
         {

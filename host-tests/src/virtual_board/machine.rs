@@ -80,7 +80,7 @@ pub struct Machine {
 
 /// What the bridge does over a period.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Legs {
+pub struct BridgeLegs {
     /// Duty of each leg, 0 to 1
     pub duties: [f64; 3],
     /// Bus voltage [V]
@@ -91,7 +91,7 @@ pub struct Legs {
 
 /// Where the magnet is when a period begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Magnet {
+pub struct RotorFlux {
     /// Electrical angle [rad]
     pub angle: f64,
     /// Electrical speed [rad/s]
@@ -100,7 +100,7 @@ pub struct Magnet {
 
 /// What came of a period.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outcome {
+pub struct PeriodResult {
     /// Phase currents at the middle of the period [A]
     pub sampled: [f64; 3],
     /// Mean DC-equivalent current: torque over K_t [A]
@@ -110,7 +110,7 @@ pub struct Outcome {
 }
 
 /// Mean over a piece.
-struct Piece {
+struct ConstantPiece {
     /// of i [A]
     current: Vector,
     /// of i·e^{−jθ} [A]
@@ -131,19 +131,19 @@ impl Machine {
     }
 
     /// Takes the current [A] through a period of `dt` [s].
-    pub fn period(&self, current: &mut Vector, legs: &Legs, magnet: Magnet, dt: f64) -> Outcome {
+    pub fn period(&self, current: &mut Vector, legs: &BridgeLegs, magnet: RotorFlux, dt: f64) -> PeriodResult {
         if !legs.enabled {
             *current = Vector::default();
-            return Outcome::default();
+            return PeriodResult::default();
         }
         let pieces = self.pieces(dt);
         let share = 1.0 / f64::from(pieces);
-        let mut outcome = Outcome::default();
+        let mut outcome = PeriodResult::default();
         for k in 0..pieces {
             if 2 * k == pieces {
                 outcome.sampled = phases(*current);
             }
-            let begins = Magnet { angle: magnet.angle + magnet.speed * dt * share * f64::from(k), ..magnet };
+            let begins = RotorFlux { angle: magnet.angle + magnet.speed * dt * share * f64::from(k), ..magnet };
             let piece = self.piece(current, self.voltage(legs, *current), begins, dt * share);
             // ī = √3/2·ī_q
             outcome.current += share * 0.5 * 3.0_f64.sqrt() * piece.turning.im;
@@ -164,7 +164,7 @@ impl Machine {
     }
 
     /// Space vector of the legs' voltages [V].
-    fn voltage(&self, legs: &Legs, current: Vector) -> Vector {
+    fn voltage(&self, legs: &BridgeLegs, current: Vector) -> Vector {
         let flowing = phases(current);
         let leg = |x: usize| {
             // v_x = d_x·U − V_l·sat(i_x/i₀)
@@ -176,7 +176,7 @@ impl Machine {
     }
 
     /// The exact solution over a piece of `dt` [s] with the voltage [V] held.
-    fn piece(&self, current: &mut Vector, voltage: Vector, magnet: Magnet, dt: f64) -> Piece {
+    fn piece(&self, current: &mut Vector, voltage: Vector, magnet: RotorFlux, dt: f64) -> ConstantPiece {
         let (r, l, w) = (self.resistance, self.inductance, magnet.speed);
         let rotor = Vector::from_polar(1.0, magnet.angle);
         let settled = voltage / r;
@@ -186,7 +186,7 @@ impl Machine {
         let (turn, fade) = (Vector::new(0.0, w * dt), Vector::new(-dt * r / l, 0.0));
         // i(t) = v/R − E·e^{jωt} + (i(0) − v/R + E)·e^{−t·R/L}
         *current = settled - induced * turn.exp() + fading * fade.exp();
-        Piece {
+        ConstantPiece {
             current: settled - induced * mean_exp(turn) + fading * mean_exp(fade),
             turning: (settled * mean_exp(-turn) - induced + fading * mean_exp(fade - turn)) * rotor.conj(),
         }

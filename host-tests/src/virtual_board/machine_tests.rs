@@ -14,19 +14,19 @@ fn machine() -> Machine {
 }
 
 /// Duties whose mean vector over a period is `d + jq` [V] in the axes of the magnet at the period's middle.
-fn duties(magnet: Magnet, d: f64, q: f64) -> [f64; 3] {
+fn duties(magnet: RotorFlux, d: f64, q: f64) -> [f64; 3] {
     let middle = magnet.angle + 0.5 * magnet.speed * DT;
     phases(Vector::new(d, q) * Vector::from_polar(1.0, middle)).map(|v| 0.5 + v / BUS)
 }
 
 /// Runs with held d and q voltages [V] until all is settled, and gives the mean of the last periods, a whole turn of
 /// them.
-fn settled(machine: &Machine, speed: f64, d: f64, q: f64) -> Outcome {
-    let (mut current, mut magnet) = (Vector::default(), Magnet { angle: 0.3, speed });
+fn settled(machine: &Machine, speed: f64, d: f64, q: f64) -> PeriodResult {
+    let (mut current, mut magnet) = (Vector::default(), RotorFlux { angle: 0.3, speed });
     let turn = if speed == 0.0 { 1 } else { (TAU / (speed.abs() * DT)).round() as usize };
-    let mut mean = Outcome::default();
+    let mut mean = PeriodResult::default();
     for k in 0..1000 + turn {
-        let legs = Legs { duties: duties(magnet, d, q), bus: BUS, enabled: true };
+        let legs = BridgeLegs { duties: duties(magnet, d, q), bus: BUS, enabled: true };
         let outcome = machine.period(&mut current, &legs, magnet, DT);
         magnet.angle += magnet.speed * DT;
         if k >= 1000 {
@@ -40,10 +40,10 @@ fn settled(machine: &Machine, speed: f64, d: f64, q: f64) -> Outcome {
 #[test]
 fn locked_it_is_the_dc_motor_at_every_angle() {
     for k in 0..36 {
-        let (mut current, magnet) = (Vector::default(), Magnet { angle: f64::from(k) * TAU / 36.0, speed: 0.0 });
+        let (mut current, magnet) = (Vector::default(), RotorFlux { angle: f64::from(k) * TAU / 36.0, speed: 0.0 });
         let u = 5.0;
-        let legs = Legs { duties: duties(magnet, 0.0, u / 3.0_f64.sqrt()), bus: BUS, enabled: true };
-        let mut outcome = Outcome::default();
+        let legs = BridgeLegs { duties: duties(magnet, 0.0, u / 3.0_f64.sqrt()), bus: BUS, enabled: true };
+        let mut outcome = PeriodResult::default();
         for n in 1..=40 {
             outcome = machine().period(&mut current, &legs, magnet, DT);
             // ∫i dt over the period, of i(t) = u/R·(1 − e^{−t·R/L})
@@ -80,14 +80,14 @@ fn the_bus_pays_for_heat_and_for_the_shaft() {
     for (angle, speed) in [(0.0, 0.0), (1.0, 500.0), (2.0, -3000.0), (4.0, 9000.0)] {
         let m = machine();
         let start = Vector::new(0.7, -1.1);
-        let legs = Legs { duties: [0.8, 0.3, 0.45], bus: BUS, enabled: true };
+        let legs = BridgeLegs { duties: [0.8, 0.3, 0.45], bus: BUS, enabled: true };
         let mut whole = start;
-        let outcome = m.period(&mut whole, &legs, Magnet { angle, speed }, DT);
+        let outcome = m.period(&mut whole, &legs, RotorFlux { angle, speed }, DT);
         let (mut current, mut heat, n) = (start, 0.0, 10_000);
         for k in 0..n {
             let h = DT / f64::from(n);
             let before = current;
-            m.period(&mut current, &legs, Magnet { angle: angle + speed * h * f64::from(k), speed }, h);
+            m.period(&mut current, &legs, RotorFlux { angle: angle + speed * h * f64::from(k), speed }, h);
             // 3/2·R·|i|², by the trapezium
             heat += 1.5 * m.resistance * 0.5 * (before.norm_sqr() + current.norm_sqr()) * h;
         }
@@ -103,8 +103,8 @@ fn the_bus_pays_for_heat_and_for_the_shaft() {
 
 #[test]
 fn the_sample_is_the_current_of_the_middle() {
-    let (m, magnet) = (machine(), Magnet { angle: 0.4, speed: 2500.0 });
-    let legs = Legs { duties: [0.2, 0.9, 0.5], bus: BUS, enabled: true };
+    let (m, magnet) = (machine(), RotorFlux { angle: 0.4, speed: 2500.0 });
+    let legs = BridgeLegs { duties: [0.2, 0.9, 0.5], bus: BUS, enabled: true };
     let (mut whole, mut half) = (Vector::new(0.2, 0.1), Vector::new(0.2, 0.1));
     let outcome = m.period(&mut whole, &legs, magnet, DT);
     m.period(&mut half, &legs, magnet, 0.5 * DT);
@@ -121,8 +121,8 @@ fn one_turn_of_the_axes_is_one_exchange_of_the_phases() {
         let mut current = Vector::from_polar(0.8, 0.2 + TAU / 3.0 * shift as f64);
         let mut duties = [0.7, 0.2, 0.6];
         duties.rotate_right(shift);
-        let magnet = Magnet { angle: 0.9 + TAU / 3.0 * shift as f64, speed: 700.0 };
-        let mut outcome = m.period(&mut current, &Legs { duties, bus: BUS, enabled: true }, magnet, DT);
+        let magnet = RotorFlux { angle: 0.9 + TAU / 3.0 * shift as f64, speed: 700.0 };
+        let mut outcome = m.period(&mut current, &BridgeLegs { duties, bus: BUS, enabled: true }, magnet, DT);
         outcome.sampled.rotate_left(shift);
         outcome
     };
@@ -138,9 +138,9 @@ fn one_turn_of_the_axes_is_one_exchange_of_the_phases() {
 #[test]
 fn an_open_bridge_carries_nothing() {
     let mut current = Vector::new(3.0, 1.0);
-    let legs = Legs { duties: [0.9, 0.1, 0.1], bus: BUS, enabled: false };
-    let outcome = machine().period(&mut current, &legs, Magnet { angle: 1.0, speed: 900.0 }, DT);
-    assert_eq!((outcome, current), (Outcome::default(), Vector::default()));
+    let legs = BridgeLegs { duties: [0.9, 0.1, 0.1], bus: BUS, enabled: false };
+    let outcome = machine().period(&mut current, &legs, RotorFlux { angle: 1.0, speed: 900.0 }, DT);
+    assert_eq!((outcome, current), (PeriodResult::default(), Vector::default()));
 }
 
 #[test]

@@ -20,5 +20,5 @@ pub mod faults;
 pub mod halls;
 pub mod machine;
 
-pub use board::{Outputs, Setup, VirtualBoard};
-pub use faults::Fault;
+pub use board::{BoardSetup, Outputs, VirtualBoard};
+pub use faults::InjectedFault;

@@ -14,7 +14,7 @@ use model_core::number::scalar::Real;
 use model_core::plant::robot::{Nominal, Robot};
 use model_core::plant::{Input, Plant, Reading};
 
-use crate::fixture::{Run, core_robot, four, plain, three, typical, usual_seat};
+use crate::fixture::{Run, core_robot, four, plain, three, typical, usual_placement};
 
 type D = Dual<8>;
 
@@ -136,7 +136,7 @@ fn effects<const N: usize>(robot: (Robot<N, f64>, Robot<N, D>), mean: [f64; 3]) 
     let drive = Drive::along(&robot.0, mean);
     for (effect, effect_d) in catalogue::<f64>().iter().zip(catalogue::<D>()) {
         let card = effect.card();
-        let seat = usual_seat(card);
+        let placement = usual_placement(card);
         let mut params = typical(card);
         if ["actuation_delay", "camera_latency"].contains(&card.id) {
             params[0] += 0.3e-3;
@@ -147,14 +147,14 @@ fn effects<const N: usize>(robot: (Robot<N, f64>, Robot<N, D>), mean: [f64; 3]) 
             let mut all: Vec<D> = params.iter().map(|p| D::constant(*p)).collect();
             free.iter().zip(x).for_each(|(k, x)| all[*k] = *x);
             let mut set = Effects::default();
-            set.add(*effect_d, seat, &all).expect("a seat that the card allows");
+            set.add(*effect_d, placement, &all).expect("a seat that the card allows");
             Plant::new(robot.1, set)
         };
         let number = |x: &[f64]| {
             let mut all = params.clone();
             free.iter().zip(x).for_each(|(k, x)| all[*k] = *x);
             let mut set = Effects::default();
-            set.add(*effect, seat, &all).expect("a seat that the card allows");
+            set.add(*effect, placement, &all).expect("a seat that the card allows");
             Plant::new(robot.0, set)
         };
         agree(card.id, &drive, &at, &at, dual, number);
@@ -183,12 +183,12 @@ fn derivatives_at_the_absent_value_are_those_of_differences_to_the_side() {
             let mut variables: Vec<D> = absent.iter().map(|p| D::constant(*p)).collect();
             variables[k] = D::variable(absent[k], 0);
             let mut set = Effects::default();
-            set.add(*effect_d, usual_seat(card), &variables).expect("a seat that the card allows");
+            set.add(*effect_d, usual_placement(card), &variables).expect("a seat that the card allows");
             let exact = drive.end(Plant::new(four(), set));
             let near = |part: f64| {
                 let mut params = absent.clone();
                 params[k] += part * (p.typical - p.absent);
-                drive.end(crate::fixture::with_effect(four(), *effect, usual_seat(card), &params))
+                drive.end(crate::fixture::with_effect(four(), *effect, usual_placement(card), &params))
             };
             let (none, little) = (near(0.0), near(1e-6));
             for (row, d) in exact.iter().enumerate() {
@@ -205,7 +205,7 @@ fn derivatives_at_the_absent_value_are_those_of_differences_to_the_side() {
 
 #[test]
 fn a_robot_of_dual_numbers_has_the_values_of_the_robot() {
-    let rig = host_tests::excite::random_rig::<4>(&mut host_tests::excite::Dice::new(1));
+    let rig = host_tests::excitation::random_robot::<4>(&mut host_tests::excitation::SeededRng::new(1));
     let (number, dual) = (core_robot::<4, f64>(&rig), core_robot::<4, D>(&rig));
     for (row, d) in number.wheels.rows().iter().flatten().zip(dual.wheels.rows().iter().flatten()) {
         assert_eq!(row.to_bits(), d.re.to_bits());

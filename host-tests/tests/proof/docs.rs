@@ -7,7 +7,7 @@ use model_core::effects::catalogue;
 
 use crate::golden;
 
-fn place(card: &Card) -> &'static str {
+fn scope_of(card: &Card) -> &'static str {
     match card.scope {
         Scope::Robot => "the robot as a whole",
         Scope::Wheels => "all wheels alike, or one wheel",
@@ -39,7 +39,7 @@ fn section(card: &Card) -> String {
     let _ = writeln!(page, "{}\n", card.summary);
     let _ = writeln!(page, "```text\n{}\n```\n", card.equation);
     let _ = writeln!(page, "- stage: {} (seam: {})", card.stage().name(), seams.join(", "));
-    let _ = writeln!(page, "- sits on: {}", place(card));
+    let _ = writeln!(page, "- sits on: {}", scope_of(card));
     let _ = writeln!(page, "- shows as: {}", card.signature);
     let _ = match card.undone {
         Undone::By(how) => writeln!(page, "- the robot undoes it: {how}"),
@@ -79,7 +79,7 @@ fn the_page_of_effects_is_made_from_the_cards() {
         let sizes: Vec<_> =
             card.params.iter().filter(|p| p.role == Role::Size).map(|p| format!("`{}`", p.key)).collect();
         let sizes = if sizes.is_empty() { "none is fitted".to_string() } else { sizes.join(", ") };
-        let _ = writeln!(page, "| `{}` | {} | {} | {sizes} |", card.id, card.stage().name(), place(card));
+        let _ = writeln!(page, "| `{}` | {} | {} | {sizes} |", card.id, card.stage().name(), scope_of(card));
     }
     for effect in catalogue::<f64>() {
         page.push('\n');

@@ -1,6 +1,6 @@
 //! Edges: rest, reversal, saturation, steps short and long, and inputs beyond reason.
 
-use host_tests::excite::{Dice, voltages};
+use host_tests::excitation::{SeededRng, voltages};
 use host_tests::paper::FOUR_WHEELS;
 use host_tests::reference::Reference;
 use model_core::effects::active::Effects;
@@ -9,7 +9,7 @@ use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant, Reading};
 
-use crate::fixture::{Run, four, gap, plain, three, typical, usual_seat, with_effect};
+use crate::fixture::{Run, four, gap, plain, three, typical, usual_placement, with_effect};
 
 /// Every effect alone at its typical size, none, and the most that fit together.
 fn models<const N: usize, T: Real>(robot: Robot<N, T>) -> Vec<(String, Plant<N, T>)> {
@@ -17,10 +17,10 @@ fn models<const N: usize, T: Real>(robot: Robot<N, T>) -> Vec<(String, Plant<N, 
     let mut together = Effects::default();
     for effect in catalogue::<T>() {
         let card = effect.card();
-        all.push((card.id.to_string(), with_effect(robot, *effect, usual_seat(card), &typical(card))));
+        all.push((card.id.to_string(), with_effect(robot, *effect, usual_placement(card), &typical(card))));
         let params: Vec<T> = typical(card).into_iter().map(T::lit).collect();
         // the thirteenth finds no room
-        let _ = together.add(*effect, usual_seat(card), &params);
+        let _ = together.add(*effect, usual_placement(card), &params);
     }
     all.push(("all together".to_string(), Plant::new(robot, together)));
     all
@@ -175,8 +175,8 @@ fn very_long_steps_stay_finite() {
 #[test]
 fn finite_in_finite_out() {
     let extremes = [0.0_f32, -0.0, 1e-38, -1e-30, 1e-6, 1.0, -30.0, 1e4, -1e6];
-    let mut dice = Dice::new(77);
-    let mut pick = || extremes[dice.below(extremes.len() as u32) as usize];
+    let mut rng = SeededRng::new(77);
+    let mut pick = || extremes[rng.below(extremes.len() as u32) as usize];
     for (what, plant) in models(four::<f32>()).into_iter() {
         for case in 0..300 {
             let twist = [pick(), pick(), pick()].map(|x| f64::from(x.clamp(-1e4, 1e4)));

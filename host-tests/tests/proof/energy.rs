@@ -1,6 +1,6 @@
 //! Energy: friction takes it and never gives it, turning forces do no work, and what sticks stays.
 
-use host_tests::excite::voltages;
+use host_tests::excitation::voltages;
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Card, Role, Scope, Seam, Stage};
 use model_core::effects::{CARDS, catalogue};
@@ -8,7 +8,7 @@ use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
 
-use crate::fixture::{Run, effect, four, gap, larger, plain, seats, three, typical, with_effect};
+use crate::fixture::{Run, effect, four, gap, larger, placements, plain, three, typical, with_effect};
 
 /// Kinetic energy of body and wheels [J]; `inertia` is that of a wheel at its shaft [kg·m²].
 fn energy<const N: usize, T: Real + Into<f64>>(run: &Run<N, T>, inertia: f64) -> f64 {
@@ -42,7 +42,7 @@ fn everything<const N: usize, T: Real>(of: impl Fn(&Card) -> bool) -> (Effects<N
 fn friction_like<const N: usize>(robot: Robot<N, f64>, check: impl Fn(&str, Plant<N, f64>, f64)) {
     for effect in catalogue::<f64>().iter().filter(|e| e.card().physics.passive) {
         let card = effect.card();
-        for seat in seats(card, N).into_iter().take(2) {
+        for placement in placements(card, N).into_iter().take(2) {
             for part in [0.1, 0.5, 1.0] {
                 let mut params = typical(card);
                 for (value, p) in params.iter_mut().zip(card.params) {
@@ -54,10 +54,10 @@ fn friction_like<const N: usize>(robot: Robot<N, f64>, check: impl Fn(&str, Plan
                 }
                 let inertia = card.physics.inertia.map_or(0.0, |k| params[k]);
                 // an inertia on one wheel alone is not what `energy` counts
-                if inertia == 0.0 || seat.is_none() {
+                if inertia == 0.0 || placement.is_none() {
                     check(
-                        &format!("{} {params:?} on {seat:?}", card.id),
-                        with_effect(robot, *effect, seat, &params),
+                        &format!("{} {params:?} on {placement:?}", card.id),
+                        with_effect(robot, *effect, placement, &params),
                         inertia,
                     );
                 }
@@ -132,18 +132,18 @@ fn driven_or_not_friction_adds_nothing_to_the_motors_work() {
     // on the shafts: what is in bridge and winding does not turn, and what a contact loses is not the motors' work
     for e in catalogue::<f64>().iter().filter(|e| e.card().seams == [Seam::Gear] && e.card().physics.passive) {
         let id = e.card().id;
-        for seat in [None, Some(2)] {
+        for placement in [None, Some(2)] {
             let inertia = e.card().physics.inertia.map_or(0.0, |k| typical(e.card())[k]);
-            if inertia > 0.0 && seat.is_some() {
+            if inertia > 0.0 && placement.is_some() {
                 continue;
             }
-            let plant = with_effect(robot, *e, seat, &typical(e.card()));
+            let plant = with_effect(robot, *e, placement, &typical(e.card()));
             let [coarse, fine] = [1, 4].map(|steps| gained(plant, inertia, steps));
             // In a step in which something turns round, friction is spent for the whole step against the way it ends:
             // budget (2 N at most on an axis) times the way gone before, ½·a·Δt² with a of 10 m/s² = 5e-6 m
-            assert!(coarse < 1e-5, "{id} on {seat:?}: {coarse:e} J");
+            assert!(coarse < 1e-5, "{id} on {placement:?}: {coarse:e} J");
             // the way gone before falls with the square of the step
-            assert!(fine < 1e-6, "{id} on {seat:?}: {coarse:e} J, and {fine:e} J in a quarter of the step");
+            assert!(fine < 1e-6, "{id} on {placement:?}: {coarse:e} J, and {fine:e} J in a quarter of the step");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Feedforward: what is asked for is what the plant does.
 
-use host_tests::excite::{Dice, random_rig};
-use host_tests::matrices::Rig;
+use host_tests::excitation::{SeededRng, random_robot};
+use host_tests::matrices::GenericRobot;
 use model_core::geometry::frames::BodyTwist;
 use model_core::plant::Input;
 use model_core::plant::robot::Robot;
@@ -10,18 +10,18 @@ use crate::fixture::{Run, core_robot, four, gap, plain, three};
 
 /// Random twists and accelerations [SI]; one of three twists rests.
 fn motions(seed: u64) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
-    let mut dice = Dice::new(seed);
+    let mut rng = SeededRng::new(seed);
     (0..60).map(move |k| {
-        let mut three = |most: [f64; 3]| most.map(|m| dice.between(-m, m));
+        let mut three = |most: [f64; 3]| most.map(|m| rng.between(-m, m));
         let (x, a) = (three([1.5, 1.5, 8.0]), three([2.0, 2.0, 15.0]));
         (if k % 3 == 0 { [0.0; 3] } else { x }, a)
     })
 }
 
 fn robots<const N: usize>(paper: Robot<N, f64>) -> Vec<Robot<N, f64>> {
-    let mut dice = Dice::new(5);
+    let mut rng = SeededRng::new(5);
     let mut all = vec![paper];
-    all.extend((0..10).map(|_| core_robot(&random_rig::<N>(&mut dice) as &Rig<N>)));
+    all.extend((0..10).map(|_| core_robot(&random_robot::<N>(&mut rng) as &GenericRobot<N>)));
     all
 }
 

@@ -1,7 +1,7 @@
 //! The core's robots, built from the reference's numbers, and runs of them.
 
-use host_tests::excite::Hold;
-use host_tests::matrices::Rig;
+use host_tests::excitation::VoltageHold;
+use host_tests::matrices::GenericRobot;
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Card, Scope};
@@ -17,14 +17,14 @@ use model_core::plant::{Input, Plant, Reading, State};
 pub const SUPPLY: f64 = 12.0;
 
 /// A core robot of a rig whose wheels all have the motor of the first.
-pub fn core_robot<const N: usize, T: Real>(rig: &Rig<N>) -> Robot<N, T> {
-    let motor = rig.wheels[0].drive;
+pub fn core_robot<const N: usize, T: Real>(rig: &GenericRobot<N>) -> Robot<N, T> {
+    let motor = rig.wheels[0].drivetrain;
     let l = T::lit;
     Robot {
         wheels: Wheels::new(rig.wheels.map(|w| Wheel {
             drive_angle: l(w.heading),
             distance: l(w.distance),
-            radius: l(w.drive.radius),
+            radius: l(w.drivetrain.radius),
         })),
         motor: Motor {
             gear_ratio: l(motor.gear),
@@ -41,12 +41,12 @@ pub fn core_robot<const N: usize, T: Real>(rig: &Rig<N>) -> Robot<N, T> {
 
 /// The paper's robot on three wheels.
 pub fn three<T: Real>() -> Robot<3, T> {
-    core_robot(&THREE_WHEELS.rig(THREE_HEADINGS_DEG))
+    core_robot(&THREE_WHEELS.generic(THREE_HEADINGS_DEG))
 }
 
 /// The paper's robot on four wheels.
 pub fn four<T: Real>() -> Robot<4, T> {
-    core_robot(&FOUR_WHEELS.rig(FOUR_HEADINGS_DEG))
+    core_robot(&FOUR_WHEELS.generic(FOUR_HEADINGS_DEG))
 }
 
 /// An effect by its id.
@@ -65,7 +65,7 @@ pub fn absent(card: &Card) -> Vec<f64> {
 }
 
 /// Where an effect can sit on a robot of `wheels` wheels: on all (or the robot), and on single ones.
-pub fn seats(card: &Card, wheels: usize) -> Vec<Option<usize>> {
+pub fn placements(card: &Card, wheels: usize) -> Vec<Option<usize>> {
     let single = (0..wheels).map(Some);
     match card.scope {
         Scope::Robot => vec![None],
@@ -75,7 +75,7 @@ pub fn seats(card: &Card, wheels: usize) -> Vec<Option<usize>> {
 }
 
 /// Where an effect usually sits: on all wheels or the robot if it can, otherwise on wheel 1.
-pub fn usual_seat(card: &Card) -> Option<usize> {
+pub fn usual_placement(card: &Card) -> Option<usize> {
     (card.scope == Scope::OneWheel).then_some(1)
 }
 
@@ -133,7 +133,7 @@ impl<const N: usize, T: Real> Run<N, T> {
     }
 
     /// Whole holds, `steps` steps a millisecond; `seen` is called after every step.
-    pub fn play(&mut self, holds: &[Hold<N>], steps: u32, mut seen: impl FnMut(&Self, Reading<N, T>)) {
+    pub fn play(&mut self, holds: &[VoltageHold<N>], steps: u32, mut seen: impl FnMut(&Self, Reading<N, T>)) {
         for hold in holds {
             for _ in 0..hold.milliseconds * steps {
                 let reading = self.drive(hold.u, 1e-3 / f64::from(steps));

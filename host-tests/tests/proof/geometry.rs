@@ -1,7 +1,7 @@
 //! Any geometry: the core against the reference derived from virtual work.
 
-use host_tests::excite::{Dice, random_rig};
-use host_tests::matrices::Rig;
+use host_tests::excitation::{SeededRng, random_robot};
+use host_tests::matrices::GenericRobot;
 use host_tests::reference::Reference;
 use model_core::plant::Input;
 use proptest::prelude::*;
@@ -15,31 +15,31 @@ fn config(cases: u32) -> Config {
 }
 
 /// A random rig whose wheels share one motor, as the core's do.
-fn rig<const N: usize>(dice: &mut Dice) -> Rig<N> {
-    let mut rig = random_rig::<N>(dice);
-    let motor = rig.wheels[0].drive;
+fn rig<const N: usize>(rng: &mut SeededRng) -> GenericRobot<N> {
+    let mut rig = random_robot::<N>(rng);
+    let motor = rig.wheels[0].drivetrain;
     for wheel in &mut rig.wheels {
-        let radius = wheel.drive.radius;
-        wheel.drive = motor;
-        wheel.drive.radius = radius;
+        let radius = wheel.drivetrain.radius;
+        wheel.drivetrain = motor;
+        wheel.drivetrain.radius = radius;
     }
     rig
 }
 
 /// A random twist [m/s, m/s, rad/s]; every axis rests in one case of four.
-fn twist(dice: &mut Dice) -> [f64; 3] {
-    [1.5, 1.5, 10.0].map(|most| if dice.below(4) == 0 { 0.0 } else { dice.between(-most, most) })
+fn twist(rng: &mut SeededRng) -> [f64; 3] {
+    [1.5, 1.5, 10.0].map(|most| if rng.below(4) == 0 { 0.0 } else { rng.between(-most, most) })
 }
 
-fn volts<const N: usize>(dice: &mut Dice) -> [f64; N] {
-    [(); N].map(|()| dice.between(-12.0, 12.0))
+fn volts<const N: usize>(rng: &mut SeededRng) -> [f64; N] {
+    [(); N].map(|()| rng.between(-12.0, 12.0))
 }
 
 /// In the limit of a short step the core accelerates as the reference does, its currents are the same.
 fn accelerates<const N: usize>(seed: u64) {
-    let mut dice = Dice::new(seed);
-    let rig = rig::<N>(&mut dice);
-    let (x, u) = (twist(&mut dice), volts::<N>(&mut dice));
+    let mut rng = SeededRng::new(seed);
+    let rig = rig::<N>(&mut rng);
+    let (x, u) = (twist(&mut rng), volts::<N>(&mut rng));
     let exact = Reference::derived(&rig).moving(x);
     let wanted = exact.acceleration(u);
     let mut run = Run::from(plain(core_robot::<N, f64>(&rig)), [0.3, -0.2, 1.0], x);
@@ -59,14 +59,14 @@ fn accelerates<const N: usize>(seed: u64) {
 
 /// Over 0.4 s of four random voltages the core moves as the reference does.
 fn moves<const N: usize>(seed: u64) -> (f64, f64) {
-    let mut dice = Dice::new(seed);
-    let rig = rig::<N>(&mut dice);
-    let x = twist(&mut dice);
+    let mut rng = SeededRng::new(seed);
+    let rig = rig::<N>(&mut rng);
+    let x = twist(&mut rng);
     let mut exact = Reference::derived(&rig).moving(x);
     let mut run = Run::from(plain(core_robot::<N, f64>(&rig)), [0.0; 3], x);
     let (mut speed, mut place) = (0.0_f64, 0.0_f64);
     for _ in 0..4 {
-        let u = volts::<N>(&mut dice);
+        let u = volts::<N>(&mut rng);
         for _ in 0..100 {
             run.drive(u, 1e-3);
             exact.advance(u, 1e-3);
@@ -81,18 +81,18 @@ fn moves<const N: usize>(seed: u64) -> (f64, f64) {
 
 /// Currents imposed: the body accelerates by the wheels' forces and its own friction alone.
 fn is_pushed<const N: usize>(seed: u64) {
-    let mut dice = Dice::new(seed);
-    let rig = rig::<N>(&mut dice);
-    let (x, current) = (twist(&mut dice), [(); N].map(|()| dice.between(-3.0, 3.0)));
+    let mut rng = SeededRng::new(seed);
+    let rig = rig::<N>(&mut rng);
+    let (x, current) = (twist(&mut rng), [(); N].map(|()| rng.between(-3.0, 3.0)));
     // with the bridge open (R infinite) what is left is friction; the wheels' forces come on top
     let mut open = rig;
     for wheel in &mut open.wheels {
-        wheel.drive.resistance = f64::INFINITY;
+        wheel.drivetrain.resistance = f64::INFINITY;
     }
     let mut force = [0.0; 3];
     for (wheel, i) in rig.wheels.iter().zip(current) {
         // f = l·Kt·i/r along (cos α, sin α, d)
-        let f = wheel.drive.gear * wheel.drive.kt * i / wheel.drive.radius;
+        let f = wheel.drivetrain.gear * wheel.drivetrain.kt * i / wheel.drivetrain.radius;
         force[0] += f * wheel.heading.cos();
         force[1] += f * wheel.heading.sin();
         force[2] += f * wheel.distance;
@@ -146,9 +146,9 @@ proptest! {
 
     #[test]
     fn wheel_speeds_that_are_imposed_carry_the_body_along(seed: u64) {
-        let mut dice = Dice::new(seed);
-        let rig = rig::<4>(&mut dice);
-        let x = twist(&mut dice);
+        let mut rng = SeededRng::new(seed);
+        let rig = rig::<4>(&mut rng);
+        let x = twist(&mut rng);
         let speeds = Reference::derived(&rig).moving(x).wheel_speeds();
         let mut run = Run::new(plain(core_robot::<4, f64>(&rig)));
         let read = run.step(&Input::Speed(speeds), 1e-3);

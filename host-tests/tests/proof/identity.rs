@@ -1,12 +1,12 @@
 //! Absent means absent: at its absent value an effect leaves a whole run bit for bit as it was without it.
 
-use host_tests::excite::voltages;
+use host_tests::excitation::voltages;
 use model_core::effects::catalogue;
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Plant, Reading, State};
 
-use crate::fixture::{Run, absent, four, plain, seats, three, typical, with_effect};
+use crate::fixture::{Run, absent, four, placements, plain, three, typical, with_effect};
 
 /// A number with bits.
 trait Bits: Real + Into<f64> {
@@ -57,11 +57,11 @@ fn every_effect_can_be_absent<const N: usize, T: Bits>(robot: Robot<N, T>) {
     let without = run(plain(robot));
     for effect in catalogue::<T>() {
         let card = effect.card();
-        for seat in seats(card, N) {
+        for placement in placements(card, N) {
             for params in ways_to_be_absent(card) {
-                let with = run(with_effect(robot, *effect, seat, &params));
+                let with = run(with_effect(robot, *effect, placement, &params));
                 let at = without.iter().zip(&with).position(|(a, b)| a != b);
-                assert!(at.is_none(), "{} on {seat:?} at {params:?} shows in step {at:?}", card.id);
+                assert!(at.is_none(), "{} on {placement:?} at {params:?} shows in step {at:?}", card.id);
             }
         }
     }
@@ -99,8 +99,8 @@ fn absent_effects_leave_imposed_currents_and_speeds_bit_for_bit() {
     };
     let without = run(plain(four()));
     for effect in catalogue::<f64>() {
-        let seat = crate::fixture::usual_seat(effect.card());
-        let with = run(with_effect(four(), *effect, seat, &absent(effect.card())));
+        let placement = crate::fixture::usual_placement(effect.card());
+        let with = run(with_effect(four(), *effect, placement, &absent(effect.card())));
         assert!(with == without, "{}", effect.card().id);
     }
 }
@@ -110,9 +110,9 @@ fn typical_effects_are_seen() {
     let without = run(plain(four::<f64>()));
     for effect in catalogue::<f64>() {
         let card = effect.card();
-        for seat in seats(card, 4) {
-            let with = run(with_effect(four(), *effect, seat, &typical(card)));
-            assert!(with != without, "{} on {seat:?} changes nothing", card.id);
+        for placement in placements(card, 4) {
+            let with = run(with_effect(four(), *effect, placement, &typical(card)));
+            assert!(with != without, "{} on {placement:?} changes nothing", card.id);
         }
     }
 }

@@ -4,13 +4,13 @@
 
 use std::fmt::Write;
 
-use host_tests::excite::{Hold, voltages};
+use host_tests::excitation::{VoltageHold, voltages};
 use model_core::effects::active::Effects;
 use model_core::effects::catalogue;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Plant, Reading};
 
-use crate::fixture::{Run, effect, four, gap, larger, plain, three, typical, usual_seat, with_effect};
+use crate::fixture::{Run, effect, four, gap, larger, plain, three, typical, usual_placement, with_effect};
 use crate::golden::{self, two_digits};
 
 /// The nominal model's most at 1 ms [m/s, rad/s, m, rad, A]; in proportion to the step.
@@ -29,7 +29,7 @@ struct Seen<const N: usize> {
 }
 
 /// Two seconds of random holds, whole numbers of 2 ms.
-fn holds<const N: usize>() -> Vec<Hold<N>> {
+fn holds<const N: usize>() -> Vec<VoltageHold<N>> {
     let mut left = 2000;
     let mut holds = voltages::<N>(17, 60, 9.0);
     holds.retain_mut(|hold| {
@@ -74,7 +74,7 @@ fn models<const N: usize>(robot: Robot<N, f64>) -> Vec<(&'static str, Plant<N, f
     let mut all = vec![("nothing", plain(robot))];
     for effect in catalogue::<f64>() {
         let card = effect.card();
-        all.push((card.id, with_effect(robot, *effect, usual_seat(card), &typical(card))));
+        all.push((card.id, with_effect(robot, *effect, usual_placement(card), &typical(card))));
     }
     // laws that need each other's answer, and the worst that wheels meet together
     for (name, ids) in [

@@ -159,7 +159,7 @@ thread_local! {
     pub static SEEN: RefCell<Vec<(&'static str, EffectContext<f64>)>> = const { RefCell::new(Vec::new()) };
 }
 
-fn told(hook: &'static str, at: &EffectContext<f64>) {
+fn record_hook(hook: &'static str, at: &EffectContext<f64>) {
     SEEN.with_borrow_mut(|seen| seen.push((hook, *at)));
 }
 
@@ -172,22 +172,22 @@ impl Effect<f64> for WheelSpy {
         &const { Card { seams: SEAMS, memory: 1, ..BLANK } }
     }
     fn bridge(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Bridge<f64>) {
-        told("drive", at);
+        record_hook("drive", at);
     }
     fn winding(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Winding<f64>) {
-        told("winding", at);
+        record_hook("winding", at);
     }
     fn gear(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Gear<f64>) {
-        told("gear", at);
+        record_hook("gear", at);
     }
     fn contact(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Contact<f64>) {
-        told("contact", at);
+        record_hook("contact", at);
     }
     fn sense(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Sense<f64>) {
-        told("sense", at);
+        record_hook("sense", at);
     }
     fn advance(&self, _: &[f64], _: &mut [f64], at: &EffectContext<f64>, _: &StepOutcome<f64>) {
-        told("advance", at);
+        record_hook("advance", at);
     }
 }
 
@@ -199,15 +199,15 @@ impl Effect<f64> for RobotSpy {
         &const { Card { seams: &[Seam::Supply, Seam::Body, Seam::Sense], scope: Scope::Robot, memory: 1, ..BLANK } }
     }
     fn supply(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Supply<f64>) {
-        told("supply", at);
+        record_hook("supply", at);
     }
     fn body(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Body<f64>) {
-        told("body", at);
+        record_hook("body", at);
     }
     fn sense(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Sense<f64>) {
-        told("sense", at);
+        record_hook("sense", at);
     }
     fn advance(&self, _: &[f64], _: &mut [f64], at: &EffectContext<f64>, _: &StepOutcome<f64>) {
-        told("advance", at);
+        record_hook("advance", at);
     }
 }

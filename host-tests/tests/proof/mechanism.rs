@@ -142,7 +142,7 @@ fn a_winding_with_inductance_follows_the_exponential() {
 fn a_moving_robot_with_inductance_is_stepped_well() {
     let run = |steps: u32| {
         let mut run = Run::new(with_effect(four::<f64>(), &Inductance, None, &[1.0]));
-        let holds = host_tests::excite::voltages::<4>(4, 15, 9.0);
+        let holds = host_tests::excitation::voltages::<4>(4, 15, 9.0);
         let mut all = Vec::new();
         let mut k = 0;
         run.play(&holds, steps, |run, _| {
@@ -188,12 +188,12 @@ fn the_current_of_a_bridge_with_dead_time_is_that_of_the_closed_form() {
     // whatever the current was before: R·i + V·sat(i/i₀) = u
     let (v, i0) = (0.3, 0.05);
     let plant = with_effect(locked(), effect("dead_time"), None, &[v, i0]);
-    let mut dice = host_tests::excite::Dice::new(3);
+    let mut rng = host_tests::excitation::SeededRng::new(3);
     let mut worst = 0.0_f64;
     for _ in 0..20_000 {
         let mut run = Run::new(plant);
-        run.state.current = [(); 4].map(|()| dice.between(-1.0, 1.0));
-        let u: [f64; 4] = [(); 4].map(|()| dice.between(-1.0, 1.0));
+        run.state.current = [(); 4].map(|()| rng.between(-1.0, 1.0));
+        let u: [f64; 4] = [(); 4].map(|()| rng.between(-1.0, 1.0));
         let exact = u.map(|u| if u.abs() <= R * i0 + v { u / (R + v / i0) } else { (u - v * u.signum()) / R });
         worst = worst.max(gap(run.drive(u, 1e-3).current, exact));
     }
@@ -249,7 +249,7 @@ fn a_wheel_with_inertia_that_slips_is_read_before_it_moves() {
         effects.add(effect(id), None, params).expect("room");
     }
     let mut run = Run::new(Plant::new(four::<f64>(), effects));
-    for hold in host_tests::excite::voltages::<4>(12, 5, 9.0) {
+    for hold in host_tests::excitation::voltages::<4>(12, 5, 9.0) {
         for _ in 0..hold.milliseconds {
             let before = run.state.wheel_speed;
             let read = run.drive(hold.u, 1e-3);
@@ -262,7 +262,10 @@ fn a_wheel_with_inertia_that_slips_is_read_before_it_moves() {
 }
 
 /// One step with a spy, and what it was told.
-fn told(spy: &'static dyn Effect<f64>, wheel: Option<usize>) -> (Run<4, f64>, Vec<(&'static str, EffectContext<f64>)>) {
+fn recorded_hooks(
+    spy: &'static dyn Effect<f64>,
+    wheel: Option<usize>,
+) -> (Run<4, f64>, Vec<(&'static str, EffectContext<f64>)>) {
     let mut effects = Effects::default();
     // a supply effect makes the plant ask twice
     effects.add(effect("supply_sag"), None, &[0.15, 0.0]).expect("room");
@@ -280,7 +283,7 @@ fn told(spy: &'static dyn Effect<f64>, wheel: Option<usize>) -> (Run<4, f64>, Ve
 #[test]
 fn an_effect_of_wheels_is_told_its_wheel_at_every_hook() {
     for wheel in [None, Some(2)] {
-        let (run, seen) = told(&WheelSpy, wheel);
+        let (run, seen) = recorded_hooks(&WheelSpy, wheel);
         let rim = run.plant.robot().wheels.rim_speeds(run.state.twist);
         let speed = run.plant.robot().wheels.wheel_speeds(run.state.twist);
         for hook in ["drive", "winding", "gear", "contact", "sense", "advance"] {
@@ -302,7 +305,7 @@ fn an_effect_of_wheels_is_told_its_wheel_at_every_hook() {
 
 #[test]
 fn an_effect_of_the_robot_is_told_where_the_robot_is() {
-    let (run, seen) = told(&RobotSpy, None);
+    let (run, seen) = recorded_hooks(&RobotSpy, None);
     for hook in ["supply", "body", "sense", "advance"] {
         let calls: Vec<_> = seen.iter().filter(|(h, _)| *h == hook).collect();
         assert!(!calls.is_empty(), "{hook} is not called");

@@ -7,7 +7,7 @@
 //! error per second. Single precision rounds each number at 6e-8; over thousands of steps of a pose of a metre the
 //! roundings walk to 1e-5.
 
-use host_tests::excite::voltages;
+use host_tests::excitation::voltages;
 use host_tests::paper::{FOUR_WHEELS, THREE_WHEELS};
 use host_tests::reference::Reference;
 use model_core::number::scalar::Real;

@@ -1,8 +1,8 @@
 //! The core's two robots of the paper: made from the robot files, and right.
 
-use host_tests::generated::{PLACE, paper_source, tree};
 use host_tests::matrices::Matrices;
 use host_tests::paper::{self, FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
+use host_tests::paper_source::{OUTPUT_PATH, paper_source, tree};
 use host_tests::printed::of_the_core;
 use model_core::plant::paper::{four_wheels, three_wheels};
 use model_core::plant::robot::Robot;
@@ -11,11 +11,11 @@ use crate::golden;
 
 #[test]
 fn the_cores_robots_are_made_from_the_robot_files() {
-    golden::holds_at(&tree().join(PLACE), &paper_source());
+    golden::holds_at(&tree().join(OUTPUT_PATH), &paper_source());
 }
 
 /// Every number against those of Table 3 as typed in for the reference, bit for bit.
-fn same_numbers<const N: usize>(core: &Robot<N, f64>, table: &paper::Robot, headings_deg: [f64; N]) {
+fn same_numbers<const N: usize>(core: &Robot<N, f64>, table: &paper::PaperRobot, headings_deg: [f64; N]) {
     for (wheel, heading) in core.wheels.wheels().iter().zip(headings_deg) {
         assert_eq!((wheel.distance, wheel.radius), (table.d, table.r));
         // one rounding of an angle of up to 5 rad on either way from degrees
@@ -44,6 +44,6 @@ fn the_cores_robots_move_by_the_derived_matrices() {
         assert!((core.k - derived.k).amax() < within, "K: {} against {}", core.k, derived.k);
         assert!((core.rim - derived.rim).amax() < within, "rim: {} against {}", core.rim, derived.rim);
     }
-    check(&of_the_core(three_wheels()), &Matrices::derived(&THREE_WHEELS.rig(THREE_HEADINGS_DEG)));
-    check(&of_the_core(four_wheels()), &Matrices::derived(&FOUR_WHEELS.rig(FOUR_HEADINGS_DEG)));
+    check(&of_the_core(three_wheels()), &Matrices::derived(&THREE_WHEELS.generic(THREE_HEADINGS_DEG)));
+    check(&of_the_core(four_wheels()), &Matrices::derived(&FOUR_WHEELS.generic(FOUR_HEADINGS_DEG)));
 }

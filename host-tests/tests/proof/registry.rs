@@ -241,10 +241,15 @@ fn a_set_of_effects_refuses_seats_that_the_card_does_not_allow() {
         let card = effect.card();
         let params = crate::fixture::typical(card);
         let mut set = Effects::<3, f64>::default();
-        let allowed = crate::fixture::seats(card, 3);
-        for seat in [None, Some(0), Some(2), Some(3)] {
-            let refused = set.add(*effect, seat, &params).err();
-            assert_eq!(refused, (!allowed.contains(&seat)).then_some(EffectError::Wheel), "{} on {seat:?}", card.id);
+        let allowed = crate::fixture::placements(card, 3);
+        for placement in [None, Some(0), Some(2), Some(3)] {
+            let refused = set.add(*effect, placement, &params).err();
+            assert_eq!(
+                refused,
+                (!allowed.contains(&placement)).then_some(EffectError::Wheel),
+                "{} on {placement:?}",
+                card.id
+            );
         }
         assert_eq!(set.add(*effect, allowed[0], &[]), Err(EffectError::Parameters));
         for _ in set.iter().count()..MAX_EFFECTS {

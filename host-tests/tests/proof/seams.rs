@@ -1,6 +1,6 @@
 //! An effect touches the seams that its card lists, and no other.
 
-use host_tests::excite::Dice;
+use host_tests::excitation::SeededRng;
 use model_core::effects::card::Seam;
 use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
 use model_core::effects::{Effect, catalogue};
@@ -10,32 +10,32 @@ use crate::fixture::typical;
 
 /// A description whose numbers are random but physical.
 trait Described: Clone {
-    fn random(dice: &mut Dice) -> Self;
+    fn random(rng: &mut SeededRng) -> Self;
     fn numbers(&self) -> Vec<f64>;
 }
 
-fn pose(dice: &mut Dice) -> Pose<f64> {
-    Pose { x: dice.between(-2.0, 2.0), y: dice.between(-2.0, 2.0), theta: dice.between(-7.0, 7.0) }
+fn pose(rng: &mut SeededRng) -> Pose<f64> {
+    Pose { x: rng.between(-2.0, 2.0), y: rng.between(-2.0, 2.0), theta: rng.between(-7.0, 7.0) }
 }
 
-fn at(dice: &mut Dice) -> EffectContext<f64> {
-    let time = dice.between(0.0, 20.0);
+fn at(rng: &mut SeededRng) -> EffectContext<f64> {
+    let time = rng.between(0.0, 20.0);
     EffectContext {
         time,
-        dt: dice.between(1e-4, 5e-3),
-        wheel: dice.below(3) as usize,
-        wheel_angle: dice.between(-50.0, 50.0),
-        wheel_speed: dice.between(-60.0, 60.0),
-        rim_speed: dice.between(-2.0, 2.0),
-        pose: pose(dice),
-        twist: BodyTwist { v: dice.between(-2.0, 2.0), vn: dice.between(-2.0, 2.0), w: dice.between(-9.0, 9.0) },
+        dt: rng.between(1e-4, 5e-3),
+        wheel: rng.below(3) as usize,
+        wheel_angle: rng.between(-50.0, 50.0),
+        wheel_speed: rng.between(-60.0, 60.0),
+        rim_speed: rng.between(-2.0, 2.0),
+        pose: pose(rng),
+        twist: BodyTwist { v: rng.between(-2.0, 2.0), vn: rng.between(-2.0, 2.0), w: rng.between(-9.0, 9.0) },
         nominal_supply: 12.0,
     }
 }
 
 impl Described for Supply<f64> {
-    fn random(dice: &mut Dice) -> Self {
-        Self { current: dice.between(-5.0, 20.0), voltage: dice.between(9.0, 13.0) }
+    fn random(rng: &mut SeededRng) -> Self {
+        Self { current: rng.between(-5.0, 20.0), voltage: rng.between(9.0, 13.0) }
     }
     fn numbers(&self) -> Vec<f64> {
         vec![self.current, self.voltage]
@@ -43,9 +43,9 @@ impl Described for Supply<f64> {
 }
 
 impl Described for Bridge<f64> {
-    fn random(dice: &mut Dice) -> Self {
-        let voltage = dice.between(-12.0, 12.0);
-        Self { command: voltage, bus: 12.0, current: dice.between(-4.0, 4.0), voltage, sampled: voltage }
+    fn random(rng: &mut SeededRng) -> Self {
+        let voltage = rng.between(-12.0, 12.0);
+        Self { command: voltage, bus: 12.0, current: rng.between(-4.0, 4.0), voltage, sampled: voltage }
     }
     fn numbers(&self) -> Vec<f64> {
         vec![self.command, self.bus, self.current, self.voltage, self.sampled]
@@ -53,14 +53,14 @@ impl Described for Bridge<f64> {
 }
 
 impl Described for Winding<f64> {
-    fn random(dice: &mut Dice) -> Self {
+    fn random(rng: &mut SeededRng) -> Self {
         Self {
-            current: dice.between(-4.0, 4.0),
-            speed: dice.between(-60.0, 60.0),
-            resistance: dice.between(1.0, 6.0),
-            inductance: dice.between(0.0, 1e-3),
-            emf_constant: dice.between(0.05, 0.2),
-            torque_constant: dice.between(0.05, 0.2),
+            current: rng.between(-4.0, 4.0),
+            speed: rng.between(-60.0, 60.0),
+            resistance: rng.between(1.0, 6.0),
+            inductance: rng.between(0.0, 1e-3),
+            emf_constant: rng.between(0.05, 0.2),
+            torque_constant: rng.between(0.05, 0.2),
         }
     }
     fn numbers(&self) -> Vec<f64> {
@@ -69,15 +69,15 @@ impl Described for Winding<f64> {
 }
 
 impl Described for Gear<f64> {
-    fn random(dice: &mut Dice) -> Self {
-        let torque = dice.between(-0.5, 0.5);
+    fn random(rng: &mut SeededRng) -> Self {
+        let torque = rng.between(-0.5, 0.5);
         Self {
             motor_torque: torque,
-            coulomb_share: dice.between(0.0, 0.05),
+            coulomb_share: rng.between(0.0, 0.05),
             torque,
-            budget: dice.between(0.0, 0.05),
-            damping: dice.between(0.0, 1e-3),
-            inertia: dice.between(0.0, 1e-4),
+            budget: rng.between(0.0, 0.05),
+            damping: rng.between(0.0, 1e-3),
+            inertia: rng.between(0.0, 1e-4),
         }
     }
     fn numbers(&self) -> Vec<f64> {
@@ -86,15 +86,15 @@ impl Described for Gear<f64> {
 }
 
 impl Described for Contact<f64> {
-    fn random(dice: &mut Dice) -> Self {
-        let (sin, cos) = dice.between(-3.0, 3.0).sin_cos();
-        let radius = dice.between(0.02, 0.05);
+    fn random(rng: &mut SeededRng) -> Self {
+        let (sin, cos) = rng.between(-3.0, 3.0).sin_cos();
+        let radius = rng.between(0.02, 0.05);
         Self {
             row: [cos, sin, 0.089],
             radius,
             per_radius: 1.0 / radius,
-            load: dice.between(3.0, 9.0),
-            creep: dice.between(0.0, 0.02),
+            load: rng.between(3.0, 9.0),
+            creep: rng.between(0.0, 0.02),
             grip: 0.0,
             stiffness: 0.0,
             shape: 1.0,
@@ -107,10 +107,10 @@ impl Described for Contact<f64> {
 }
 
 impl Described for Body<f64> {
-    fn random(dice: &mut Dice) -> Self {
-        let mut three = |most: f64| [(); 3].map(|()| dice.between(-most, most));
+    fn random(rng: &mut SeededRng) -> Self {
+        let mut three = |most: f64| [(); 3].map(|()| rng.between(-most, most));
         let (force, rate, budget) = (three(5.0), [three(1.0), three(1.0), three(1.0)], three(2.0).map(f64::abs));
-        Self { mass: dice.between(1.0, 4.0), inertia: dice.between(0.01, 0.03), force, rate, budget }
+        Self { mass: rng.between(1.0, 4.0), inertia: rng.between(0.01, 0.03), force, rate, budget }
     }
     fn numbers(&self) -> Vec<f64> {
         let mut all = vec![self.mass, self.inertia];
@@ -120,12 +120,12 @@ impl Described for Body<f64> {
 }
 
 impl Described for Sense<f64> {
-    fn random(dice: &mut Dice) -> Self {
+    fn random(rng: &mut SeededRng) -> Self {
         Self {
-            current: dice.between(-4.0, 4.0),
-            wheel_speed: dice.between(-60.0, 60.0),
-            pose: pose(dice),
-            gyro: dice.between(-9.0, 9.0),
+            current: rng.between(-4.0, 4.0),
+            wheel_speed: rng.between(-60.0, 60.0),
+            pose: pose(rng),
+            gyro: rng.between(-9.0, 9.0),
         }
     }
     fn numbers(&self) -> Vec<f64> {
@@ -135,10 +135,10 @@ impl Described for Sense<f64> {
 
 /// True if the hook changed any bit of any of 50 random descriptions.
 fn touches<D: Described>(seed: u64, hook: impl Fn(&EffectContext<f64>, &mut D)) -> bool {
-    let mut dice = Dice::new(seed);
+    let mut rng = SeededRng::new(seed);
     (0..50).any(|_| {
-        let at = at(&mut dice);
-        let before = D::random(&mut dice);
+        let at = at(&mut rng);
+        let before = D::random(&mut rng);
         let mut after = before.clone();
         hook(&at, &mut after);
         let bits = |d: &D| d.numbers().into_iter().map(f64::to_bits).collect::<Vec<_>>();
@@ -147,18 +147,18 @@ fn touches<D: Described>(seed: u64, hook: impl Fn(&EffectContext<f64>, &mut D)) 
 }
 
 /// A memory as it is after some steps.
-fn remembered(effect: &dyn Effect<f64>, p: &[f64], dice: &mut Dice) -> Vec<f64> {
+fn remembered(effect: &dyn Effect<f64>, p: &[f64], rng: &mut SeededRng) -> Vec<f64> {
     let mut s = vec![0.0; effect.card().memory];
-    effect.restart(p, &mut s, &EffectContext { time: -0.1, ..at(dice) });
+    effect.restart(p, &mut s, &EffectContext { time: -0.1, ..at(rng) });
     for k in 0..40 {
         let done = StepOutcome {
-            command: dice.between(-9.0, 9.0),
-            current: dice.between(-3.0, 3.0),
-            wheel_speed: dice.between(-50.0, 50.0),
-            bus_current: dice.between(-1.0, 9.0),
+            command: rng.between(-9.0, 9.0),
+            current: rng.between(-3.0, 3.0),
+            wheel_speed: rng.between(-50.0, 50.0),
+            bus_current: rng.between(-1.0, 9.0),
             bus: 12.0,
         };
-        effect.advance(p, &mut s, &EffectContext { time: -0.1 + 2.5e-3 * f64::from(k), ..at(dice) }, &done);
+        effect.advance(p, &mut s, &EffectContext { time: -0.1 + 2.5e-3 * f64::from(k), ..at(rng) }, &done);
     }
     s
 }
@@ -167,10 +167,10 @@ fn remembered(effect: &dyn Effect<f64>, p: &[f64], dice: &mut Dice) -> Vec<f64> 
 fn hooks_that_a_card_does_not_list_change_nothing_and_those_it_lists_do() {
     for (k, effect) in catalogue::<f64>().iter().enumerate() {
         let card = effect.card();
-        let mut dice = Dice::new(k as u64);
+        let mut rng = SeededRng::new(k as u64);
         let p = typical(card);
-        let s = remembered(*effect, &p, &mut dice);
-        let seed = dice.bits();
+        let s = remembered(*effect, &p, &mut rng);
+        let seed = rng.bits();
         // the description is asked just after what is remembered
         let now = |at: &EffectContext<f64>| EffectContext { time: 0.0, ..*at };
         for seam in Seam::ALL {
@@ -193,13 +193,13 @@ fn hooks_that_a_card_does_not_list_change_nothing_and_those_it_lists_do() {
 fn a_hook_is_a_pure_function_of_what_it_is_given() {
     for effect in catalogue::<f64>() {
         let p = typical(effect.card());
-        let s = remembered(*effect, &p, &mut Dice::new(1));
+        let s = remembered(*effect, &p, &mut SeededRng::new(1));
         let twice: Vec<_> = (0..2)
             .map(|_| {
-                let mut dice = Dice::new(4);
-                let at = at(&mut dice);
-                let (mut drive, mut gear) = (Bridge::random(&mut dice), Gear::random(&mut dice));
-                let (mut contact, mut sense) = (Contact::random(&mut dice), Sense::random(&mut dice));
+                let mut rng = SeededRng::new(4);
+                let at = at(&mut rng);
+                let (mut drive, mut gear) = (Bridge::random(&mut rng), Gear::random(&mut rng));
+                let (mut contact, mut sense) = (Contact::random(&mut rng), Sense::random(&mut rng));
                 effect.bridge(&p, &s, &at, &mut drive);
                 effect.gear(&p, &s, &at, &mut gear);
                 effect.contact(&p, &s, &at, &mut contact);
@@ -216,11 +216,11 @@ fn only_a_law_that_says_so_looks_at_the_current() {
     for effect in catalogue::<f64>() {
         let card = effect.card();
         let p = typical(card);
-        let s = remembered(*effect, &p, &mut Dice::new(2));
-        let mut dice = Dice::new(6);
+        let s = remembered(*effect, &p, &mut SeededRng::new(2));
+        let mut rng = SeededRng::new(6);
         let looks = (0..50).any(|_| {
-            let at = EffectContext { time: 0.0, ..at(&mut dice) };
-            let (mut a, mut b) = (Bridge::random(&mut dice), Winding::random(&mut dice));
+            let at = EffectContext { time: 0.0, ..at(&mut rng) };
+            let (mut a, mut b) = (Bridge::random(&mut rng), Winding::random(&mut rng));
             let (mut c, mut d) = (Bridge { current: -a.current, ..a }, Winding { current: -b.current, ..b });
             effect.bridge(&p, &s, &at, &mut a);
             effect.bridge(&p, &s, &at, &mut c);
@@ -236,14 +236,14 @@ fn only_a_law_that_says_so_looks_at_the_current() {
 fn sensing_and_its_way_back_undo_each_other() {
     for effect in catalogue::<f64>().iter().filter(|effect| effect.card().seams.contains(&Seam::Sense)) {
         let p = typical(effect.card());
-        let mut dice = Dice::new(3);
+        let mut rng = SeededRng::new(3);
         for _ in 0..50 {
             // constant velocity, straight on: the way back of a delay is exact there
-            let mut here = at(&mut dice);
+            let mut here = at(&mut rng);
             here.twist.w = 0.0;
             let mut s = vec![0.0; effect.card().memory];
             effect.restart(&p, &mut s, &here);
-            let truth = Sense { pose: here.pose, ..Sense::random(&mut dice) };
+            let truth = Sense { pose: here.pose, ..Sense::random(&mut rng) };
             let mut x = truth;
             effect.sense(&p, &s, &here, &mut x);
             effect.invert_sensing(&p, &here, &mut x);

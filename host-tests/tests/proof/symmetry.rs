@@ -4,7 +4,7 @@
 //! of v and vn, and the turn by 120°, which mixes the two, is asked of a robot without Coulomb friction on them and with
 //! one viscosity for both; ω keeps its own.
 
-use host_tests::excite::{Hold, voltages};
+use host_tests::excitation::{VoltageHold, voltages};
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Card, Physics, Scope};
 use model_core::effects::catalogue;
@@ -26,12 +26,12 @@ fn each<const N: usize>(
     check("nothing", apart(None), plain(robot.0), plain(robot.1));
     for effect in catalogue::<f64>() {
         let card = effect.card();
-        for seat in crate::fixture::seats(card, N).into_iter().take(2) {
+        for placement in crate::fixture::placements(card, N).into_iter().take(2) {
             let params = typical(card);
             let mut sets: [Effects<N, f64>; 2] = Default::default();
-            sets[0].add(*effect, seat, &params).expect("a seat that the card allows");
+            sets[0].add(*effect, placement, &params).expect("a placement that the card allows");
             let there = params_there(card, params);
-            sets[1].add(*effect, seat.map(&wheel_there), &there).expect("a seat that the card allows");
+            sets[1].add(*effect, placement.map(&wheel_there), &there).expect("a placement that the card allows");
             let [here, there] = sets;
             check(card.id, apart(Some(card)), Plant::new(robot.0, here), Plant::new(robot.1, there));
         }
@@ -43,7 +43,7 @@ fn apart(card: Option<&Card>) -> f64 {
     card.map_or(Physics::PASSIVE, |card| card.physics).apart
 }
 
-fn holds<const N: usize>() -> Vec<Hold<N>> {
+fn holds<const N: usize>() -> Vec<VoltageHold<N>> {
     voltages(5, 18, 9.0)
 }
 

@@ -24,8 +24,8 @@ impl fmt::Display for Finding {
 /// Fails with all findings, one a line, if there are any.
 #[track_caller]
 pub fn none(findings: Vec<Finding>) {
-    let told: Vec<String> = findings.iter().map(Finding::to_string).collect();
-    assert!(findings.is_empty(), "{} to mend:\n{}", findings.len(), told.join("\n"));
+    let lines: Vec<String> = findings.iter().map(Finding::to_string).collect();
+    assert!(findings.is_empty(), "{} to mend:\n{}", findings.len(), lines.join("\n"));
 }
 
 /// The first line beyond `most`.

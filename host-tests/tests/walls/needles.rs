@@ -8,7 +8,7 @@ use crate::tree::Source;
 pub type Needle = (&'static str, &'static str);
 
 const FUSED: &str = "rounds once where a·b + c rounds twice, so machines would differ; write the two operations";
-const SOFT: &str = "computes in f64, which the robot's processor does in software; use crate::trig, or a·b + c";
+const SOFT: &str = "computes in f64, which the robot's processor does in software; use crate::number::trig, or a·b + c";
 
 /// What the core does without. The names of libm are looked for bare, so that an import does not hide them.
 pub const CORE: &[Needle] = &[
@@ -92,7 +92,7 @@ fn prose_and_longer_names_are_left_alone() {
 #[test]
 fn a_finding_says_what_to_do() {
     let told = in_code(&source("\n\nlibm::tanf(x)"), CORE)[0].to_string();
-    assert!(told.starts_with("a.rs:3: `tanf`: ") && told.contains("crate::trig"), "{told}");
+    assert!(told.starts_with("a.rs:3: `tanf`: ") && told.contains("crate::number::trig"), "{told}");
 }
 
 #[test]

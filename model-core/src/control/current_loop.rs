@@ -32,20 +32,21 @@
 //! regulator goes on from where it was.
 //!
 //! The current along d is held at zero even where q gets a voltage alone: only then is the motor the DC motor of
-//! [`crate::plant::winding`] at speed. Left to itself it is i_d = ω_e·L·i/R, and the motor has R + (ω_e·L)²/R for R. For the same
-//! reason the voltage is turned on to where the rotor will be in the middle of the period that the duties are for.
+//! [`crate::plant::winding`] at speed. Left to itself it is i_d = ω_e·L·i/R, and the motor has R + (ω_e·L)²/R for R.
+//! For the same reason the voltage is turned on to where the rotor will be in the middle of the period that the duties
+//! are for.
 //!
 //! Neglects: the voltage ω_e·L·i by which d and q disturb each other, left to the integrals; harmonics; dead time of the
 //! bridge. Fails when: a feedforward that holds R·i too is given in a closed loop, where it comes on top of the
 //! integral: an overshoot of up to R/(L·w) of the step then fades with L/R.
 //!
-//! How to measure L: see [`crate::plant::winding`]. M: one less the share of a period that the converter needs to sample, both
-//! sides of the centre counted.
+//! How to measure L: see [`crate::plant::winding`]. M: one less the share of a period that the converter needs to
+//! sample, both sides of the centre counted.
 //!
 //! Numbers: finite in, finite out, for currents and voltages up to 10³⁰ and a bus that is held above zero.
 //!
-//! Source: pole and zero from the step of [`crate::plant::winding`]; conditional integration as in Åström and Hägglund, PID
-//! Controllers (1995), section 3.5.
+//! Source: pole and zero from the step of [`crate::plant::winding`]; conditional integration as in Åström and Hägglund,
+//! PID Controllers (1995), section 3.5.
 
 use crate::control::calibration::AdcCode;
 use crate::control::phases::{self, AlphaBeta, CommutationStep, DirectQuadrature, Rotation, SIX_STEPS};

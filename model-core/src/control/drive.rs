@@ -3,8 +3,9 @@
 //! The controller knows its number of wheels when it is compiled; here the parameter block chooses between the two, and
 //! the numbers of the three or four motors come and go in arrays for all that a board has bridges for.
 //!
-//! What the controller gets for the wheels' speeds is what their [`observer`](crate::control::observer) makes of hall edges and
-//! reference. While the reference rests, what the integral holds fades: it was friction, and that turns round.
+//! What the controller gets for the wheels' speeds is what their [`observer`](crate::control::observer) makes of hall
+//! edges and reference. While the reference rests, what the integral holds fades: it was friction, and that turns
+//! round.
 
 use crate::control::calibration::Calibration;
 use crate::control::compensation::Compensation;

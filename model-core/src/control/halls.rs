@@ -255,7 +255,8 @@ impl HallDecoder {
 
     /// How far the angle goes on in a period [rad], signed; 0 where the speed is not known.
     ///
-    /// It is the speed that [`HallDecoder::angle`] interpolates with: cheap, and without a look at whether the next edge is late.
+    /// It is the speed that [`HallDecoder::angle`] interpolates with: cheap, and without a look at whether the next
+    /// edge is late.
     #[inline]
     pub fn ahead<T: Real>(&self) -> T {
         let ahead: T = angle_of_code(high(self.step));

@@ -3,9 +3,9 @@
 //! Two loops. At 20 kHz a motor's currents: three phases seen as one DC-equivalent motor ([`phases`]), codes of the
 //! converter as amperes and volts ([`calibration`]), the rotor's angle from its halls ([`halls`]), the
 //! [`current_loop`]. At 1 kHz the robot's motion: wheel speeds from hall edges ([`observer`]), a limited
-//! [`reference`](mod@reference), the volts that it takes ([`feedforward`]), whether there is room for them ([`headroom`]),
-//! effects undone ([`compensation`]), all of it in the [`motion_controller`], for a robot of three wheels or of four in
-//! [`drive`].
+//! [`reference`](mod@reference), the volts that it takes ([`feedforward`]), whether there is room for them
+//! ([`headroom`]), effects undone ([`compensation`]), all of it in the [`motion_controller`], for a robot of three
+//! wheels or of four in [`drive`].
 
 // 20 kHz: the currents of a motor
 pub mod phases;

@@ -329,7 +329,8 @@ impl Parameters {
     }
 }
 
-/// The checksum that a block carries, as a [`Hello`](crate::link::hello::Hello) names it; `None` where there is no block.
+/// The checksum that a block carries, as a [`Hello`](crate::link::hello::Hello) names it; `None` where there is no
+/// block.
 pub fn checksum(bytes: &[u8]) -> Option<u32> {
     let length = bytes.strip_prefix(&MAGIC)?.get(2..)?.first_chunk::<2>().map(|x| u16::from_le_bytes(*x))?;
     bytes.get(..usize::from(length))?.last_chunk::<4>().map(|x| u32::from_le_bytes(*x))

@@ -1,7 +1,7 @@
 //! # Plant: the robot that the equations describe, and its motion
 //!
-//! A [`robot`] has a [`winding`] on every wheel and a [`body`]; the paper's own two are in [`paper`]. The [`Plant`] puts them
-//! together with the effects of [`effects`](crate::effects), and takes one step of Δt along the signal path:
+//! A [`robot`] has a [`winding`] on every wheel and a [`body`]; the paper's own two are in [`paper`]. The [`Plant`]
+//! puts them together with the effects of [`effects`](crate::effects), and takes one step of Δt along the signal path:
 //!
 //! ```text
 //! command ─ bridge ─ winding ─ gear ─ contact ─ body ─ pose

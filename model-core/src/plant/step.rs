@@ -53,8 +53,8 @@ impl<const N: usize, T: Real> Plant<N, T> {
         }
     }
 
-    /// A step in which forces move the body. `PLAIN` leaves out, when compiled, what acts before the body, where nothing
-    /// does; what stays is the same arithmetic in the same order.
+    /// A step in which forces move the body. `PLAIN` leaves out, when compiled, what acts before the body, where
+    /// nothing does; what stays is the same arithmetic in the same order.
     #[inline]
     fn step_forces<const PLAIN: bool>(
         &self,

@@ -1,8 +1,8 @@
 //! # Flash store: the parameter block in flash sectors 5 and 6
 //!
 //! The chip has one flash bank: while a sector is erased (up to 4 s) the core stands still at its next fetch, and
-//! neither controls nor feeds. So a block is only stored while all bridges are open, and the watchdog gets a long timeout
-//! first.
+//! neither controls nor feeds. So a block is only stored while all bridges are open, and the watchdog gets a long
+//! timeout first.
 
 use embedded_storage::nor_flash::{ErrorType, ReadNorFlash};
 use stm32f4xx_hal::flash::FlashExt;
@@ -67,8 +67,8 @@ struct Mapped;
 impl Mapped {
     fn bytes() -> &'static [u8] {
         // SAFETY: the flash is mapped there, a mebibyte on the STM32F405RG, and any byte of it is a `u8`. It only
-        // changes within `save`, which has `FlashStore` exclusively; a block of `load` that is still held shows the slot
-        // that `save` leaves alone.
+        // changes within `save`, which has `FlashStore` exclusively; a block of `load` that is still held shows the
+        // slot that `save` leaves alone.
         unsafe { core::slice::from_raw_parts(FLASH_AT as *const u8, FLASH_LEN) }
     }
 }

@@ -5,10 +5,10 @@ use model_core::link::command::CommandError;
 use model_core::link::framing::FrameKind;
 
 use super::Results;
-use super::bench::ACCELERATION;
-use super::case::{Case, Cause, is_timed};
-use super::play::Played;
-use super::three::{Gone, LEGS, Loss};
+use super::case::{FaultCase, FaultCause, is_timed};
+use super::run_case::FaultOutcome;
+use super::test_robot::ACCELERATION;
+use super::wheel_loss::{LEGS, WheelLoss, WheelLossOutcome};
 
 /// How far from what it is told a robot with three wheels may be [m/s, and rad/s over ten].
 const ASTRAY: f64 = 0.06;
@@ -16,28 +16,28 @@ const ASTRAY: f64 = 0.06;
 /// Turns from the one that sees a fault to the one that drops the enables, at most: within one period.
 const DROPPED: u32 = 1;
 
-/// Periods without food after which the dog bites.
-const HUNGRY: u32 = 400;
+/// Periods after which an unfed watchdog fires.
+const WATCHDOG_PERIODS: u32 = 400;
 
 /// The page.
 pub fn page(results: &Results) -> String {
     let mut page = String::from(HEAD);
-    for (case, played) in &results.played {
+    for (case, played) in &results.cases {
         page += &row(case, played);
     }
     page += BETWEEN;
-    for (loss, gone) in &results.three {
+    for (loss, gone) in &results.wheel_losses {
         page += &leg_row(loss, gone);
     }
-    let dog = &results.dog;
+    let watchdog = &results.watchdog;
     page += &format!(
-        "{DOG}- {} after the first motion turn that does not end the bridges are open: `TurnOverrun`, the next turn \
+        "{WATCHDOG}- {} after the first motion turn that does not end the bridges are open: `TurnOverrun`, the next turn \
          was due.\n- {} after it the dog has bitten; it waits for {}.\n- Bridges closed after that, though \
          CLEAR and commands came: {} periods.\n",
-        dog.overrun.map_or("Never".into(), time),
-        dog.bite.map_or("Never".into(), time),
-        time(HUNGRY),
-        dog.closed_after,
+        watchdog.overrun.map_or("Never".into(), time),
+        watchdog.fired.map_or("Never".into(), time),
+        time(WATCHDOG_PERIODS),
+        watchdog.closed_after,
     );
     page + LEVELS
 }
@@ -76,7 +76,7 @@ to the right, and to turn, 1.5 s each. What it does in the last 0.3 s, and the l
 |---|---|---|---|---|---|
 ";
 
-const DOG: &str = "
+const WATCHDOG: &str = "
 ## Watchdog
 
 Motion turns are made so long that none ends: nothing below them runs, nobody feeds the dog. The dog here is the emulated \
@@ -101,7 +101,7 @@ fn time(periods: u32) -> String {
     }
 }
 
-fn row(case: &Case, played: &Played) -> String {
+fn row(case: &FaultCase, played: &FaultOutcome) -> String {
     let mode = if case.mode == ControlMode::Voltage { ", by voltage" } else { "" };
     let opens = case.costs.map_or("all".into(), |motor| format!("wheel {motor}"));
     let dropped = match played.dropped {
@@ -112,14 +112,14 @@ fn row(case: &Case, played: &Played) -> String {
         None => "–".into(),
     };
     let safe = match (case.cause, played.safe) {
-        (Cause::FromTheStart(_), Some(0)) => "never closed".into(),
+        (FaultCause::FromTheStart(_), Some(0)) => "never closed".into(),
         (_, Some(periods)) => time(periods),
         (_, None) => "**never**".into(),
     };
     let seen = match (played.seen, case.cause) {
         (Some(periods), _) => time(periods),
-        (None, Cause::LongTurn(_)) => "at its end".into(),
-        (None, Cause::LongMotion(_)) => "when the next is due".into(),
+        (None, FaultCause::LongTurn(_)) => "at its end".into(),
+        (None, FaultCause::LongMotion(_)) => "when the next is due".into(),
         (None, _) => "**never**".into(),
     };
     let latched = match (played.named, played.closed_after) {
@@ -157,7 +157,7 @@ fn reason(to: u8, code: u8) -> String {
     words.unwrap_or("**no reason that is known**").into()
 }
 
-fn leg_row(loss: &Loss, gone: &Gone) -> String {
+fn leg_row(loss: &WheelLoss, gone: &WheelLossOutcome) -> String {
     let [ahead, left, back, turned] = gone.went;
     let held = if gone.without { "" } else { " **(not as it should be)**" };
     format!(
@@ -168,9 +168,9 @@ fn leg_row(loss: &Loss, gone: &Gone) -> String {
 }
 
 /// What the results do not keep of what is promised; empty where they keep all.
-pub fn broken(results: &Results) -> Vec<String> {
+pub fn broken_promises(results: &Results) -> Vec<String> {
     let mut broken = Vec::new();
-    for (case, played) in &results.played {
+    for (case, played) in &results.cases {
         let mut must = |kept: bool, what: &str| {
             if !kept {
                 broken.push(format!("{}, {} wheels, {:?}: {what}: {played:?}", case.title, case.wheels, case.mode));
@@ -184,10 +184,10 @@ pub fn broken(results: &Results) -> Vec<String> {
         must(played.named && played.closed_after == 0, "latched");
         must(played.cleared && played.closed_waiting == 0 && played.drives(), "cleared, and driving again");
         must(played.same_block, "the first block is still in use");
-        must(played.parted.is_none(), "the twins ask the same");
+        must(played.diverged_at.is_none(), "the twins ask the same");
         let answer = match case.cause {
-            Cause::Block(spoilt) => Some((FrameKind::Commit, spoilt.reason().code())),
-            Cause::Command(v) => Some((
+            FaultCause::Block(spoilt) => Some((FrameKind::Commit, spoilt.reason().code())),
+            FaultCause::Command(v) => Some((
                 FrameKind::Drive,
                 if v.is_finite() { CommandError::TooFast } else { CommandError::NotFinite }.code(),
             )),
@@ -195,7 +195,7 @@ pub fn broken(results: &Results) -> Vec<String> {
         };
         must(played.refused.map(|r| (r.to, r.reason)) == answer.map(|(to, code)| (to.code(), code)), "answered");
     }
-    for (loss, gone) in &results.three {
+    for (loss, gone) in &results.wheel_losses {
         let near = |k: usize| {
             let (is, want) = (gone.went[k], LEGS[k]);
             (is.v - want.v).abs() < ASTRAY && (is.vn - want.vn).abs() < ASTRAY && (is.w - want.w).abs() < 10.0 * ASTRAY
@@ -205,9 +205,12 @@ pub fn broken(results: &Results) -> Vec<String> {
             broken.push(format!("wheel lost: {}: {gone:?}", loss.title));
         }
     }
-    let dog = &results.dog;
-    if !(dog.overrun.is_some_and(|k| k <= 42) && dog.bite.is_some_and(|k| k <= HUNGRY + 20) && dog.closed_after == 0) {
-        broken.push(format!("the dog: {dog:?}"));
+    let watchdog = &results.watchdog;
+    if !(watchdog.overrun.is_some_and(|k| k <= 42)
+        && watchdog.fired.is_some_and(|k| k <= WATCHDOG_PERIODS + 20)
+        && watchdog.closed_after == 0)
+    {
+        broken.push(format!("the watchdog: {watchdog:?}"));
     }
     broken
 }

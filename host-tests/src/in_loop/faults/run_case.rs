@@ -8,11 +8,11 @@ use model_core::link::faults::{Fault, Faults};
 use model_core::link::framing::FrameKind;
 use model_core::link::record::{OperatingState, TelemetryRecord};
 
-use super::bench::{self, Bench};
-use super::case::{Case, Cause, Spoilt, is_timed};
-use crate::emulator::{Brain, Trouble};
-use crate::in_loop::{Ride, Twin};
-use crate::virtual_board::Fault as Broken;
+use super::case::{CorruptBlock, FaultCase, FaultCause, is_timed};
+use super::test_robot::{self, TestRobot};
+use crate::emulator::{BoardProgram, RunError};
+use crate::in_loop::{ClosedLoopRun, ShadowedProgram};
+use crate::virtual_board::InjectedFault as Broken;
 
 /// What is commanded all the while.
 const ALONG: BodyTwist<f64> = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
@@ -34,7 +34,7 @@ const RUN_UP: u32 = 20_000;
 
 /// What came of a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Played {
+pub struct FaultOutcome {
     /// From the event to the turn that sees it [periods]; none where the turn's own length is the event
     pub seen: Option<u32>,
     /// From the turn that sees it to the one that drops the enables [turns]; none as before
@@ -59,11 +59,11 @@ pub struct Played {
     pub refused: Option<Reply>,
     /// True if the robot still runs with its first block
     pub same_block: bool,
-    /// The first period in which the twins differed
-    pub parted: Option<u32>,
+    /// The first period in which program and shadow differed
+    pub diverged_at: Option<u32>,
 }
 
-impl Played {
+impl FaultOutcome {
     /// True if the robot drives as it is told again.
     pub fn drives(&self) -> bool {
         (self.speed - ALONG.v).abs() < NEAR
@@ -73,11 +73,11 @@ impl Played {
 /// Plays a case.
 ///
 /// # Errors
-/// [`Trouble`] says what became of the program.
-pub fn play<B: Brain>(case: &Case, brain: B) -> Result<Played, Trouble> {
+/// [`RunError`] says what became of the program.
+pub fn run_case<B: BoardProgram>(case: &FaultCase, program: B) -> Result<FaultOutcome, RunError> {
     match case.wheels {
-        3 => run(case, bench::three(case.mode), brain),
-        _ => run(case, bench::four(case.mode), brain),
+        3 => run(case, test_robot::three(case.mode), program),
+        _ => run(case, test_robot::four(case.mode), program),
     }
 }
 
@@ -89,9 +89,9 @@ enum Host {
     Silent,
 }
 
-/// A ride that is looked at period by period.
-struct Player<B, const N: usize> {
-    ride: Ride<Twin<B>, N>,
+/// A run that is looked at period by period.
+struct CaseRunner<B, const N: usize> {
+    run: ClosedLoopRun<ShadowedProgram<B>, N>,
     fault: Fault,
     /// The bridges that are to open
     mask: u8,
@@ -101,22 +101,22 @@ struct Player<B, const N: usize> {
     latched: Vec<bool>,
 }
 
-impl<B: Brain, const N: usize> Player<B, N> {
-    fn period(&mut self) -> Result<(), Trouble> {
-        let up = self.ride.period()?;
+impl<B: BoardProgram, const N: usize> CaseRunner<B, N> {
+    fn period(&mut self) -> Result<(), RunError> {
+        let up = self.run.period()?;
         self.closed.push(up.enabled & self.mask != 0);
-        self.latched.push(self.ride.lockstep.brain.faults().has(self.fault));
+        self.latched.push(self.run.lockstep.program.faults().has(self.fault));
         Ok(())
     }
 
     /// So many periods; how many of them had bridges closed.
-    fn go(&mut self, periods: u32, host: Host) -> Result<u32, Trouble> {
+    fn go(&mut self, periods: u32, host: Host) -> Result<u32, RunError> {
         let from = self.closed.len();
         for _ in 0..periods {
-            if self.ride.periods().is_multiple_of(COMMANDS) {
+            if self.run.periods().is_multiple_of(COMMANDS) {
                 match host {
-                    Host::Commands => self.ride.drive(ALONG),
-                    Host::Repeats => self.ride.drive_again(ALONG),
+                    Host::Commands => self.run.drive(ALONG),
+                    Host::Repeats => self.run.repeat_command(ALONG),
                     Host::Silent => {}
                 }
             }
@@ -126,15 +126,15 @@ impl<B: Brain, const N: usize> Player<B, N> {
     }
 
     /// Until all that was sent has left; the period that took the last of it.
-    fn sent(&mut self) -> Result<u32, Trouble> {
-        while self.ride.lockstep.line.waiting() > 0 {
+    fn sent(&mut self) -> Result<u32, RunError> {
+        while self.run.lockstep.link.waiting() > 0 {
             self.period()?;
         }
-        Ok(self.ride.periods() - 1)
+        Ok(self.run.periods() - 1)
     }
 
-    fn clear(&mut self) -> Result<(), Trouble> {
-        self.ride.lockstep.line.command(&Command::Clear);
+    fn clear(&mut self) -> Result<(), RunError> {
+        self.run.lockstep.link.command(&Command::Clear);
         // sent, heard, followed
         self.sent()?;
         self.go(60, Host::Silent)?;
@@ -142,52 +142,56 @@ impl<B: Brain, const N: usize> Player<B, N> {
     }
 
     fn record(&self) -> Option<&TelemetryRecord> {
-        self.ride.taken.records.last()
+        self.run.log.records.last()
     }
 
     /// Does it; the period that it belongs to, and what the host does from then on.
-    fn inject(&mut self, cause: Cause, parameters: &Parameters) -> Result<(u32, Host), Trouble> {
-        let next = self.ride.periods();
+    fn inject(&mut self, cause: FaultCause, parameters: &Parameters) -> Result<(u32, Host), RunError> {
+        let next = self.run.periods();
         Ok(match cause {
-            Cause::Board(broken) => {
-                self.ride.lockstep.board.inject(broken);
+            FaultCause::Board(broken) => {
+                self.run.lockstep.board.inject(broken);
                 (next, Host::Commands)
             }
             // the last code of those that a zero is the mean of
-            Cause::FromTheStart(_) => (offsets::PERIODS - 1, Host::Commands),
-            Cause::Silence | Cause::Repeated => {
-                self.ride.drive(ALONG);
-                (self.sent()?, if cause == Cause::Silence { Host::Silent } else { Host::Repeats })
+            FaultCause::FromTheStart(_) => (offsets::PERIODS - 1, Host::Commands),
+            FaultCause::Silence | FaultCause::Repeated => {
+                self.run.drive(ALONG);
+                (self.sent()?, if cause == FaultCause::Silence { Host::Silent } else { Host::Repeats })
             }
-            Cause::Command(v) => {
-                self.ride.drive(BodyTwist { v, ..ALONG });
+            FaultCause::Command(v) => {
+                self.run.drive(BodyTwist { v, ..ALONG });
                 (self.sent()?, Host::Commands)
             }
-            Cause::Block(spoilt) => {
-                send_spoilt(&mut self.ride, parameters, spoilt);
+            FaultCause::Block(spoilt) => {
+                send_spoilt(&mut self.run, parameters, spoilt);
                 (self.sent()?, Host::Commands)
             }
-            Cause::LongTurn(turns) => {
-                self.ride.lockstep.burn_current = turns;
+            FaultCause::LongTurn(turns) => {
+                self.run.lockstep.burn_current = turns;
                 (next, Host::Commands)
             }
-            Cause::LongMotion(turns) => {
-                self.ride.lockstep.burn_motion = turns;
+            FaultCause::LongMotion(turns) => {
+                self.run.lockstep.burn_motion = turns;
                 (next, Host::Commands)
             }
         })
     }
 }
 
-fn run<B: Brain, const N: usize>(case: &Case, bench: Bench<N>, brain: B) -> Result<Played, Trouble> {
-    let Bench { board, parameters } = bench;
-    let ride = Ride::new(Twin::new(brain), board);
+fn run<B: BoardProgram, const N: usize>(
+    case: &FaultCase,
+    robot: TestRobot<N>,
+    program: B,
+) -> Result<FaultOutcome, RunError> {
+    let TestRobot { board, parameters } = robot;
+    let run = ClosedLoopRun::new(ShadowedProgram::new(program), board);
     let mask = case.costs.map_or(0b1111, |motor| 1 << motor);
-    let mut player = Player { ride, fault: case.fault, mask, closed: Vec::new(), latched: Vec::new() };
-    if let Cause::FromTheStart(broken) = case.cause {
-        player.ride.lockstep.board.inject(broken);
+    let mut player = CaseRunner { run, fault: case.fault, mask, closed: Vec::new(), latched: Vec::new() };
+    if let FaultCause::FromTheStart(broken) = case.cause {
+        player.run.lockstep.board.inject(broken);
     }
-    player.ride.send_block(&parameters);
+    player.run.send_block(&parameters);
     player.go(3_000, Host::Silent)?;
     player.go(RUN_UP / 2, Host::Commands)?;
 
@@ -201,29 +205,29 @@ fn run<B: Brain, const N: usize>(case: &Case, bench: Bench<N>, brain: B) -> Resu
     // what a turn decides, the board does in the period after it
     let dropped = seen.and_then(|seen| safe.map(|safe| safe.saturating_sub(seen + 1)));
 
-    let lasts = matches!(case.cause, Cause::Board(_) | Cause::FromTheStart(_));
+    let lasts = matches!(case.cause, FaultCause::Board(_) | FaultCause::FromTheStart(_));
     let closed_by_clear = if lasts {
         player.clear()?;
         Some(player.go(case.seen_within + AFTER, Host::Commands)?)
     } else {
         None
     };
-    if let Cause::FromTheStart(Broken::Offset { motor, phase, .. }) = case.cause {
-        player.ride.lockstep.board.inject(Broken::Offset { motor, phase, counts: 2048.0 });
+    if let FaultCause::FromTheStart(Broken::Offset { motor, phase, .. }) = case.cause {
+        player.run.lockstep.board.inject(Broken::Offset { motor, phase, counts: 2048.0 });
     }
-    player.ride.lockstep.board.heal();
+    player.run.lockstep.board.clear_faults();
     let closed_after = player.go(AFTER, Host::Commands)?;
     let stage = if case.costs.is_some() { OperatingState::Driving } else { OperatingState::Faulted };
     let found = player.record().map_or(Faults::NONE, |last| last.faults);
     let named = found.iter().eq([case.fault]) && player.record().is_some_and(|last| last.state == stage);
-    let refused = player.ride.taken.replies.iter().find(|reply| !reply.taken).copied();
+    let refused = player.run.log.replies.iter().find(|reply| !reply.taken).copied();
 
     player.clear()?;
     let closed_waiting = player.go(PAUSE, Host::Silent)?;
     let cleared = player.record().is_some_and(|last| last.faults == Faults::NONE && last.state == OperatingState::Open)
-        && player.ride.taken.replies.last() == Some(&Reply { to: FrameKind::Clear.code(), taken: true, reason: 0 });
+        && player.run.log.replies.last() == Some(&Reply { to: FrameKind::Clear.code(), taken: true, reason: 0 });
     player.go(RUN_UP, Host::Commands)?;
-    Ok(Played {
+    Ok(FaultOutcome {
         seen,
         dropped,
         safe,
@@ -233,10 +237,10 @@ fn run<B: Brain, const N: usize>(case: &Case, bench: Bench<N>, brain: B) -> Resu
         closed_by_clear,
         closed_waiting,
         cleared,
-        speed: player.ride.lockstep.board.state().twist.v,
+        speed: player.run.lockstep.board.state().twist.v,
         refused,
-        same_block: player.ride.taken.hellos.last().map(|hello| hello.block_check) == checksum(&bytes(&parameters)),
-        parted: player.ride.lockstep.brain.parted().filter(|_| !timed),
+        same_block: player.run.log.hellos.last().map(|hello| hello.block_check) == checksum(&bytes(&parameters)),
+        diverged_at: player.run.lockstep.program.diverged_at().filter(|_| !timed),
     })
 }
 
@@ -246,31 +250,35 @@ fn bytes(parameters: &Parameters) -> Vec<u8> {
     room[..length].to_vec()
 }
 
-fn send_spoilt<B: Brain, const N: usize>(ride: &mut Ride<B, N>, parameters: &Parameters, spoilt: Spoilt) {
+fn send_spoilt<B: BoardProgram, const N: usize>(
+    run: &mut ClosedLoopRun<B, N>,
+    parameters: &Parameters,
+    spoilt: CorruptBlock,
+) {
     let mut block = bytes(parameters);
     let wheels = usize::from(block[8]);
     // behind the header and the wheels: gear ratio, resistance
     let resistance = 13 + 12 * wheels + 4;
     match spoilt {
-        Spoilt::Bit => block[resistance] ^= 0x10,
-        Spoilt::Number => {
+        CorruptBlock::Bit => block[resistance] ^= 0x10,
+        CorruptBlock::Number => {
             block[resistance..resistance + 4].copy_from_slice(&(-1.0_f32).to_le_bytes());
             seal(&mut block);
         }
-        Spoilt::Newer => {
+        CorruptBlock::Newer => {
             block[4] += 1;
             seal(&mut block);
         }
-        Spoilt::Chunk => {
+        CorruptBlock::Chunk => {
             // the second of its chunks never comes
             for (k, bytes) in block.chunks(MAX_CHUNK).enumerate().filter(|(k, _)| *k != 1) {
-                ride.lockstep.line.command(&Command::Chunk { offset: (k * MAX_CHUNK) as u16, bytes });
+                run.lockstep.link.command(&Command::Chunk { offset: (k * MAX_CHUNK) as u16, bytes });
             }
-            ride.lockstep.line.command(&Command::Commit { length: block.len() as u16 });
+            run.lockstep.link.command(&Command::Commit { length: block.len() as u16 });
             return;
         }
     }
-    ride.send_bytes_of_block(&block);
+    run.send_bytes_of_block(&block);
 }
 
 /// Puts a checksum behind a block that fits it.

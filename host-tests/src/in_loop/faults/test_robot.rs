@@ -7,7 +7,7 @@ use model_core::plant::paper::{four_wheels, three_wheels};
 use model_core::plant::robot::Robot;
 
 use crate::in_loop::robots;
-use crate::virtual_board::{Setup, VirtualBoard};
+use crate::virtual_board::{BoardSetup, VirtualBoard};
 
 /// Seed of the boards: zeros of the converters, rotor angles, noise.
 const SEED: u64 = 6;
@@ -23,7 +23,7 @@ pub const ACCELERATION: [f32; 3] = [2.0, 2.0, 15.0];
 
 /// A robot that a case is played with.
 #[derive(Debug)]
-pub struct Bench<const N: usize> {
+pub struct TestRobot<const N: usize> {
     /// Electronics and body
     pub board: VirtualBoard<N>,
     /// What its program is told
@@ -48,15 +48,15 @@ fn board<const N: usize>(robot: Robot<N, f64>) -> VirtualBoard<N> {
     effects.add(slip, None, &SLIP).expect("there is room for one");
     let rotor = find("rotor_inertia").expect("the catalogue has it");
     effects.add(rotor, None, &ROTOR).expect("there is room for two");
-    VirtualBoard::new(Setup::new(robot, effects, SEED))
+    VirtualBoard::new(BoardSetup::new(robot, effects, SEED))
 }
 
 /// The robot with three wheels.
-pub fn three(mode: ControlMode) -> Bench<3> {
-    Bench { board: board(three_wheels()), parameters: Parameters::Three(block(three_wheels(), mode)) }
+pub fn three(mode: ControlMode) -> TestRobot<3> {
+    TestRobot { board: board(three_wheels()), parameters: Parameters::Three(block(three_wheels(), mode)) }
 }
 
 /// The robot with four wheels.
-pub fn four(mode: ControlMode) -> Bench<4> {
-    Bench { board: board(four_wheels()), parameters: Parameters::Four(block(four_wheels(), mode)) }
+pub fn four(mode: ControlMode) -> TestRobot<4> {
+    TestRobot { board: board(four_wheels()), parameters: Parameters::Four(block(four_wheels(), mode)) }
 }

@@ -2,11 +2,11 @@
 
 use omni_gap::identify::{IDENTIFIED, Refused, TradeOff, Word};
 
-use super::asked::{Answer, Told};
-use super::believed::symbol;
-use super::digits::{percent, two};
-use super::idle::Idle;
-use super::missing::Missing;
+use super::joint_fit::{FittedNumber, JointAnswer};
+use super::missing_group::MissingGroup;
+use super::no_excitation::NoExcitation;
+use super::prior::symbol;
+use super::significant_figures::{percent, two_figures};
 
 /// In the order in which they are told.
 const WORDS: [Word; 5] = [Word::Identified, Word::Weak, Word::Combined, Word::NotSeen, Word::AtBound];
@@ -34,7 +34,7 @@ fn head(first: &str) -> String {
 }
 
 /// What is said of each number with a group missing.
-pub fn words(missing: &[Missing]) -> String {
+pub fn words(missing: &[MissingGroup]) -> String {
     let mut text = head("missing");
     for m in missing {
         let cells = IDENTIFIED.iter().enumerate().map(|(k, _)| said(m, k)).collect::<Vec<_>>();
@@ -45,18 +45,18 @@ pub fn words(missing: &[Missing]) -> String {
 
 /// The words that a number gets, with how often where they differ; in the first place the largest error of those that are
 /// called identified.
-fn said(m: &Missing, k: usize) -> String {
-    let told: Vec<Told> = m.answers.iter().flatten().map(|a| a.numbers[k]).collect();
+fn said(m: &MissingGroup, k: usize) -> String {
+    let numbers: Vec<FittedNumber> = m.answers.iter().flatten().map(|a| a.numbers[k]).collect();
     let mut parts = Vec::new();
     for kind in WORDS {
-        let those: Vec<&Told> = told.iter().filter(|t| t.word == kind).collect();
+        let those: Vec<&FittedNumber> = numbers.iter().filter(|t| t.word == kind).collect();
         if those.is_empty() {
             continue;
         }
-        let often = if those.len() == told.len() { String::new() } else { format!("{} × ", those.len()) };
+        let often = if those.len() == numbers.len() { String::new() } else { format!("{} × ", those.len()) };
         let error = if kind == Word::Identified {
-            let largest = |of: &dyn Fn(&Told) -> f64| those.iter().map(|t| of(t)).fold(0.0, f64::max);
-            let (error, off) = (largest(&|t| (t.factor - 1.0).abs()), largest(&Told::off));
+            let largest = |of: &dyn Fn(&FittedNumber) -> f64| those.iter().map(|t| of(t)).fold(0.0, f64::max);
+            let (error, off) = (largest(&|t| (t.factor - 1.0).abs()), largest(&FittedNumber::off));
             format!(" {} % ({off:.1} σ)", percent(error))
         } else {
             String::new()
@@ -70,9 +70,9 @@ fn said(m: &Missing, k: usize) -> String {
     parts.join("; ")
 }
 
-/// What could move together, as the first morning says it.
-pub fn together(missing: &[Missing]) -> String {
-    let told: Vec<String> = missing
+/// What could move together, as the first trial says it.
+pub fn together(missing: &[MissingGroup]) -> String {
+    let lines: Vec<String> = missing
         .iter()
         .filter_map(|m| {
             let first = m.answers.iter().flatten().next()?;
@@ -82,23 +82,23 @@ pub fn together(missing: &[Missing]) -> String {
             Some(format!("- without {}, {} wheels: {}\n", m.group.word(), m.wheels, trade_offs(first)))
         })
         .collect();
-    if told.is_empty() { "- nothing\n".to_owned() } else { told.concat() }
+    if lines.is_empty() { "- nothing\n".to_owned() } else { lines.concat() }
 }
 
-fn trade_offs(answer: &Answer) -> String {
+fn trade_offs(answer: &JointAnswer) -> String {
     answer.trade_offs.iter().map(trade_off).collect::<Vec<_>>().join("; ")
 }
 
 fn trade_off(t: &TradeOff) -> String {
-    let moves: Vec<String> = t.moves.iter().map(|(p, by)| format!("{} by {}", symbol(*p), two(*by))).collect();
+    let moves: Vec<String> = t.moves.iter().map(|(p, by)| format!("{} by {}", symbol(*p), two_figures(*by))).collect();
     let known = t.known.map_or(String::new(), |([(a, _), (b, power)], std)| {
-        format!(", but {}·{}^({}) is known to {} %", symbol(a), symbol(b), two(power), percent(std))
+        format!(", but {}·{}^({}) is known to {} %", symbol(a), symbol(b), two_figures(power), percent(std))
     });
     format!("{} move together (the first uncertain by {} %){known}", moves.join(", "), percent(t.std))
 }
 
 /// What is said of recordings without excitation.
-pub fn idle(idle: &[Idle]) -> String {
+pub fn idle(idle: &[NoExcitation]) -> String {
     let mut text = "| the robot | sensors | wheels | seeds | answer |\n|---|---|---|---|---|\n".to_owned();
     for i in idle {
         let mut answers: Vec<(String, usize)> = Vec::new();
@@ -109,30 +109,31 @@ pub fn idle(idle: &[Idle]) -> String {
             }
         }
         let often = |n: usize| if n == i.answers.len() { String::new() } else { format!("{n} × ") };
-        let told: Vec<String> = answers.iter().map(|(answer, n)| format!("{}{answer}", often(*n))).collect();
-        let off = i.answers.iter().flatten().flat_map(Answer::identified).map(Told::off).fold(0.0, f64::max);
+        let texts: Vec<String> = answers.iter().map(|(answer, n)| format!("{}{answer}", often(*n))).collect();
+        let off =
+            i.answers.iter().flatten().flat_map(JointAnswer::identified).map(FittedNumber::off).fold(0.0, f64::max);
         let within =
             if off > 0.0 { format!("; what is identified is within {off:.1} σ of the truth") } else { String::new() };
         text += &format!(
             "| {} | {} | {} | {} | {}{within} |\n",
-            i.lack.does(),
+            i.missing.does(),
             i.sensing.word(),
             i.wheels,
             i.answers.len(),
-            told.join("; or ")
+            texts.join("; or ")
         );
     }
     text
 }
 
-fn answer(answer: &Result<Answer, Refused>) -> String {
-    let told = match answer {
+fn answer(answer: &Result<JointAnswer, Refused>) -> String {
+    let fitted = match answer {
         Err(why) => return refused(*why).to_owned(),
-        Ok(told) => told,
+        Ok(fitted) => fitted,
     };
     let mut parts = Vec::new();
     for kind in WORDS {
-        let those = IDENTIFIED.iter().zip(&told.numbers).filter(|(_, told)| told.word == kind);
+        let those = IDENTIFIED.iter().zip(&fitted.numbers).filter(|(_, number)| number.word == kind);
         let names: Vec<&str> = those.map(|(p, _)| symbol(*p)).collect();
         if !names.is_empty() {
             parts.push(format!("{} {}", word(kind), names.join(", ")));

@@ -13,7 +13,7 @@ pub const ROBOTS: [(&str, &str); 2] =
     [("examples/feup-3w/robot.toml", "three_wheels"), ("examples/feup-4w/robot.toml", "four_wheels")];
 
 /// Where the source stands, from the top of the tree.
-pub const PLACE: &str = "model-core/src/plant/paper.rs";
+pub const OUTPUT_PATH: &str = "model-core/src/plant/paper.rs";
 
 const HEAD: &str = "\
 //! # The paper's two robots (Table 3)

@@ -5,14 +5,14 @@ use model_core::link::block::ControlMode;
 use model_core::link::faults::{Fault, Faults};
 use model_core::link::record::OperatingState;
 
-use super::bench;
-use crate::emulator::{Brain, Trouble};
-use crate::in_loop::{Ride, Twin};
-use crate::virtual_board::Fault as Broken;
+use super::test_robot;
+use crate::emulator::{BoardProgram, RunError};
+use crate::in_loop::{ClosedLoopRun, ShadowedProgram};
+use crate::virtual_board::InjectedFault as Broken;
 
 /// How a wheel is lost.
 #[derive(Clone, Copy, Debug)]
-pub struct Loss {
+pub struct WheelLoss {
     /// In words
     pub title: &'static str,
     /// What the robot is to call it
@@ -26,23 +26,29 @@ pub struct Loss {
 }
 
 /// Wheels that are lost, each in a way that is its own.
-pub const LOSSES: [Loss; 4] = [
-    Loss { title: "none", fault: Fault::HallCode, motor: 4, broken: Broken::Bus(12.0), mode: ControlMode::Current },
-    Loss {
+pub const LOSSES: [WheelLoss; 4] = [
+    WheelLoss {
+        title: "none",
+        fault: Fault::HallCode,
+        motor: 4,
+        broken: Broken::Bus(12.0),
+        mode: ControlMode::Current,
+    },
+    WheelLoss {
         title: "wheel 1: hall lines read 7",
         fault: Fault::HallCode,
         motor: 1,
         broken: Broken::Halls { motor: 1, code: 7 },
         mode: ControlMode::Current,
     },
-    Loss {
+    WheelLoss {
         title: "wheel 1: hall lines read 7, wheels driven by voltage",
         fault: Fault::HallCode,
         motor: 1,
         broken: Broken::Halls { motor: 1, code: 7 },
         mode: ControlMode::Voltage,
     },
-    Loss {
+    WheelLoss {
         title: "wheel 1: blocked until it was given up, then free",
         fault: Fault::Stall,
         motor: 1,
@@ -67,7 +73,7 @@ const END: usize = 300;
 
 /// What became of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gone {
+pub struct WheelLossOutcome {
     /// Mean motion at the end of each leg
     pub went: [BodyTwist<f64>; 4],
     /// Largest acceleration of the reference along v [m/s²] over all legs
@@ -81,41 +87,41 @@ pub struct Gone {
 /// Drives on without the wheel.
 ///
 /// # Errors
-/// [`Trouble`] says what became of the program.
-pub fn go_on<B: Brain>(loss: &Loss, brain: B) -> Result<Gone, Trouble> {
-    let bench::Bench { board, parameters } = bench::four(loss.mode);
-    let mut ride = Ride::new(Twin::new(brain), board);
-    ride.send_block(&parameters);
-    ride.wait(0.15)?;
-    ride.follow(0.5, |_| LEGS[0])?;
+/// [`RunError`] says what became of the program.
+pub fn run_with_three_wheels<B: BoardProgram>(loss: &WheelLoss, program: B) -> Result<WheelLossOutcome, RunError> {
+    let test_robot::TestRobot { board, parameters } = test_robot::four(loss.mode);
+    let mut run = ClosedLoopRun::new(ShadowedProgram::new(program), board);
+    run.send_block(&parameters);
+    run.wait(0.15)?;
+    run.follow(0.5, |_| LEGS[0])?;
     if loss.motor < 4 {
-        ride.lockstep.board.inject(loss.broken);
+        run.lockstep.board.inject(loss.broken);
     }
     // long enough for a blocked wheel to be found
-    ride.follow(0.7, |_| LEGS[0])?;
+    run.follow(0.7, |_| LEGS[0])?;
     if loss.fault == Fault::Stall {
         // a wheel that is dragged holds as much as one that pushes can push: along its line the robot would stand
-        ride.lockstep.board.heal();
+        run.lockstep.board.clear_faults();
     }
-    ride.follow(0.3, |_| LEGS[0])?;
-    let (moments, records) = (ride.taken.moments.len(), ride.taken.records.len());
+    run.follow(0.3, |_| LEGS[0])?;
+    let (truth, records) = (run.log.truth.len(), run.log.records.len());
     let mut went = [BodyTwist::default(); 4];
     for (to, leg) in went.iter_mut().zip(LEGS) {
-        ride.follow(LEG, |_| leg)?;
-        let end = &ride.taken.moments[ride.taken.moments.len() - END..];
+        run.follow(LEG, |_| leg)?;
+        let end = &run.log.truth[run.log.truth.len() - END..];
         let mean = |of: fn(&BodyTwist<f64>) -> f64| end.iter().map(|m| of(&m.twist)).sum::<f64>() / END as f64;
         *to = BodyTwist { v: mean(|x| x.v), vn: mean(|x| x.vn), w: mean(|x| x.w) };
     }
-    let records = &ride.taken.records[records..];
+    let records = &run.log.records[records..];
     let acceleration = records
         .windows(2)
         .map(|pair| f64::from((pair[1].wanted[0] - pair[0].wanted[0]).abs()) * 1000.0)
         .fold(0.0, f64::max);
     let left = 0b1111 & !(1 << loss.motor);
-    let without = ride.taken.moments[moments..].iter().all(|moment| moment.enabled == left)
+    let without = run.log.truth[truth..].iter().all(|moment| moment.enabled == left)
         && records
             .iter()
             .all(|record| record.state == OperatingState::Driving && record.faults.has(loss.fault) == (loss.motor < 4));
     let found = records.iter().fold(0, |found, record| found | record.faults.bits());
-    Ok(Gone { went, acceleration, without, found: Faults::from_bits(found) })
+    Ok(WheelLossOutcome { went, acceleration, without, found: Faults::from_bits(found) })
 }

@@ -13,14 +13,14 @@ pub const NUMBERS: usize = IDENTIFIED.len();
 
 /// A robot file that is wrong in what is identified; mass and geometry are right.
 #[derive(Clone, Debug)]
-pub struct Believed {
+pub struct PriorRobot {
     /// The file.
     pub file: RobotFile,
     /// Its numbers over the truth, in the order of [`IDENTIFIED`].
     pub off: [f64; NUMBERS],
 }
 
-impl Believed {
+impl PriorRobot {
     /// Draws how wrong each number is: by e^x, x Gaussian with the relative uncertainty that the file states.
     pub fn drawn(truth: &RobotFile, seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x1de_a11);

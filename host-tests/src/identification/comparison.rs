@@ -3,45 +3,45 @@
 use model_core::plant::robot::Nominal;
 use omni_gap::identify::IDENTIFIED;
 
-use super::believed::NUMBERS;
-use super::quality::{Quality, bias_taken_off, middle};
-use super::study::Studied;
+use super::prior::NUMBERS;
+use super::statistics::{EstimatorStatistics, bias_reduction, median};
+use super::study::StudyResult;
 
 /// One number of a case.
 #[derive(Clone, Copy, Debug)]
-pub struct Compared {
+pub struct EstimatorComparison {
     /// Which.
     pub nominal: Nominal,
     /// Experiments 1 and 2, and the motor's.
-    pub first: Option<Quality>,
+    pub first: Option<EstimatorStatistics>,
     /// Experiment 3 by least squares.
-    pub least_squares: Option<Quality>,
+    pub least_squares: Option<EstimatorStatistics>,
     /// Experiment 3 by instrumental variables.
-    pub instrumental: Option<Quality>,
+    pub instrumental: Option<EstimatorStatistics>,
     /// The paper's table.
-    pub table: Option<Quality>,
+    pub table: Option<EstimatorStatistics>,
     /// All runs together.
-    pub joint: Option<Quality>,
+    pub joint: Option<EstimatorStatistics>,
     /// The Cramér–Rao bound, relative.
     pub bound: f64,
     /// |bias| of least squares less that of instrumental variables, and its standard error; relative.
-    pub bias_taken_off: Option<(f64, f64)>,
+    pub bias_reduction: Option<(f64, f64)>,
 }
 
-impl Compared {
+impl EstimatorComparison {
     /// All numbers of a case.
-    pub fn all(studied: &Studied) -> Vec<Self> {
-        let mornings = &studied.mornings;
+    pub fn all(studied: &StudyResult) -> Vec<Self> {
+        let trials = &studied.trials;
         (0..NUMBERS)
             .map(|k| Self {
                 nominal: IDENTIFIED[k],
-                first: Quality::of(mornings, k, |m| &m.first),
-                least_squares: Quality::of(mornings, k, |m| &m.least_squares),
-                instrumental: Quality::of(mornings, k, |m| &m.instrumental),
-                table: Quality::of(mornings, k, |m| &m.table),
-                joint: Quality::of(mornings, k, |m| &m.joint),
+                first: EstimatorStatistics::of(trials, k, |m| &m.first),
+                least_squares: EstimatorStatistics::of(trials, k, |m| &m.least_squares),
+                instrumental: EstimatorStatistics::of(trials, k, |m| &m.instrumental),
+                table: EstimatorStatistics::of(trials, k, |m| &m.table),
+                joint: EstimatorStatistics::of(trials, k, |m| &m.joint),
                 bound: studied.bound[k],
-                bias_taken_off: bias_taken_off(mornings, k),
+                bias_reduction: bias_reduction(trials, k),
             })
             .collect()
     }
@@ -65,8 +65,8 @@ impl Compared {
 }
 
 /// The median of the ratios of a case.
-pub fn median_ratio(numbers: &[Compared]) -> f64 {
-    let mut ratios: Vec<f64> = numbers.iter().filter_map(Compared::ratio).collect();
+pub fn median_ratio(numbers: &[EstimatorComparison]) -> f64 {
+    let mut ratios: Vec<f64> = numbers.iter().filter_map(EstimatorComparison::ratio).collect();
     ratios.sort_by(f64::total_cmp);
-    middle(&ratios)
+    median(&ratios)
 }

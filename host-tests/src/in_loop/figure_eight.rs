@@ -14,8 +14,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use model_core::geometry::frames::BodyTwist;
 
-use super::{Moment, Ride};
-use crate::emulator::{Brain, Trouble};
+use super::{ClosedLoopRun, TruthSample};
+use crate::emulator::{BoardProgram, RunError};
 
 /// A, half the length [m]
 const SIZE: f64 = 1.2;
@@ -34,7 +34,7 @@ pub const ACCELERATION: f32 = 3.0;
 
 /// The path, sampled every millisecond.
 #[derive(Clone, Debug)]
-pub struct Path {
+pub struct FigureEight {
     /// Position [m] and velocity [m/s]
     points: Vec<[[f64; 2]; 2]>,
     /// Time at which the lap at full speed begins and ends [s]
@@ -43,14 +43,14 @@ pub struct Path {
 
 /// How far a robot was from the path, root mean square over the lap.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tracked {
+pub struct TrackingError {
     /// [m/s]
     pub velocity: f64,
     /// [m]
     pub position: f64,
 }
 
-impl Default for Path {
+impl Default for FigureEight {
     fn default() -> Self {
         let dt = 1e-3;
         let (mut theta, mut time, mut points, mut end) = (FRAC_PI_2, 0.0, Vec::new(), f64::INFINITY);
@@ -77,9 +77,9 @@ impl Default for Path {
     }
 }
 
-impl Path {
+impl FigureEight {
     /// How long it takes [s].
-    pub fn takes(&self) -> f64 {
+    pub fn duration(&self) -> f64 {
         1e-3 * self.points.len() as f64
     }
 
@@ -92,20 +92,23 @@ impl Path {
     /// Lets a robot follow it, and says how well it did.
     ///
     /// # Errors
-    /// [`Trouble`] says what became of the program.
-    pub fn play<B: Brain, const N: usize>(&self, ride: &mut Ride<B, N>) -> Result<Tracked, Trouble> {
-        let began = ride.time();
-        ride.follow(self.takes(), |time| {
+    /// [`RunError`] says what became of the program.
+    pub fn track<B: BoardProgram, const N: usize>(
+        &self,
+        run: &mut ClosedLoopRun<B, N>,
+    ) -> Result<TrackingError, RunError> {
+        let began = run.time();
+        run.follow(self.duration(), |time| {
             let [_, [v, vn]] = self.at(time + AHEAD);
             BodyTwist { v, vn, w: 0.0 }
         })?;
-        Ok(self.tracked(&ride.taken.moments, began))
+        Ok(self.tracked(&run.log.truth, began))
     }
 
-    fn tracked(&self, moments: &[Moment], began: f64) -> Tracked {
-        let Some(first) = moments.iter().find(|m| m.time >= began) else { return Tracked::default() };
-        let (mut sum, mut n) = (Tracked::default(), 0.0);
-        for moment in moments.iter().filter(|m| (self.lap[0]..self.lap[1]).contains(&(m.time - began))) {
+    fn tracked(&self, truth: &[TruthSample], began: f64) -> TrackingError {
+        let Some(first) = truth.iter().find(|m| m.time >= began) else { return TrackingError::default() };
+        let (mut sum, mut n) = (TrackingError::default(), 0.0);
+        for moment in truth.iter().filter(|m| (self.lap[0]..self.lap[1]).contains(&(m.time - began))) {
             let [place, velocity] = self.at(moment.time - began);
             let (sin, cos) = moment.pose.theta.sin_cos();
             let BodyTwist { v, vn, .. } = moment.twist;
@@ -115,6 +118,6 @@ impl Path {
             sum.position += (x - place[0]).powi(2) + (y - place[1]).powi(2);
             n += 1.0;
         }
-        Tracked { velocity: (sum.velocity / n).sqrt(), position: (sum.position / n).sqrt() }
+        TrackingError { velocity: (sum.velocity / n).sqrt(), position: (sum.position / n).sqrt() }
     }
 }

@@ -3,8 +3,8 @@
 use omni_gap::identify::{IDENTIFIED, Shots, Windows, linearise};
 use omni_gap::simulate::{Model, Recorded, Slot};
 
-use super::asked::freely_driven;
-use super::believed::NUMBERS;
+use super::joint_fit::freely_driven;
+use super::prior::NUMBERS;
 
 /// The Cramér–Rao bound of each number, relative: the least standard deviation that the inverse of Fisher's information
 /// at the truth allows, for Gaussian noise of the stated sizes, each run's start unknown. The camera's errors are alike
@@ -12,7 +12,11 @@ use super::believed::NUMBERS;
 ///
 /// # Panics
 /// Where the runs do not tell all numbers.
-pub fn bound<const N: usize>(truth: &Model<N>, runs: &[Recorded<N>], camera_correlation: f64) -> [f64; NUMBERS] {
+pub fn cramer_rao_bound<const N: usize>(
+    truth: &Model<N>,
+    runs: &[Recorded<N>],
+    camera_correlation: f64,
+) -> [f64; NUMBERS] {
     let mut runs: Vec<Recorded<N>> = freely_driven(runs).into_iter().cloned().collect();
     for run in &mut runs {
         run.correlation_time[2 * N..2 * N + 3].fill(camera_correlation);

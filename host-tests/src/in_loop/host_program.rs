@@ -1,4 +1,4 @@
-//! # Software: the robot's program, called here turn by turn instead of by interrupts
+//! # Host program: the robot's program, called here turn by turn instead of by interrupts
 //!
 //! The firmware's tasks do little more than call its library, in an order that their priorities fix. Here the same calls
 //! are made in that order, so that a run without the emulator leaves the same bits: it is what the image is compared
@@ -15,10 +15,10 @@ use firmware::tx_queue::{self, TxConsumer, TxProducer, TxStorage};
 use firmware::windings::Windings;
 use model_core::link::faults::Faults;
 
-use crate::emulator::{Brain, Trouble};
+use crate::emulator::{BoardProgram, RunError};
 
 /// The robot's program on the host.
-pub struct Software {
+pub struct HostProgram {
     windings: Windings,
     motion: Motion,
     receiver: CommandReceiver,
@@ -30,7 +30,7 @@ pub struct Software {
     next: UpFrame,
 }
 
-impl Default for Software {
+impl Default for HostProgram {
     fn default() -> Self {
         // the firmware's queue lives for ever too
         let (tx_producer, tx_consumer) = tx_queue::split(Box::leak(Box::new(TxStorage::new())));
@@ -48,7 +48,7 @@ impl Default for Software {
     }
 }
 
-impl fmt::Debug for Software {
+impl fmt::Debug for HostProgram {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Software")
             .field("windings", &self.windings)
@@ -57,7 +57,7 @@ impl fmt::Debug for Software {
     }
 }
 
-impl Software {
+impl HostProgram {
     /// The faults that are latched, those included that only cost a wheel.
     pub fn faults(&self) -> Faults {
         let guard = self.windings.protection();
@@ -65,8 +65,8 @@ impl Software {
     }
 }
 
-impl Brain for Software {
-    fn up(&mut self) -> Result<UpFrame, Trouble> {
+impl BoardProgram for HostProgram {
+    fn up(&mut self) -> Result<UpFrame, RunError> {
         let count = self.out.len().min(LINK_BYTES);
         let leaving: Vec<u8> = self.out.drain(..count).collect();
         self.next.link = LinkBytes::of(&leaving);
@@ -75,7 +75,7 @@ impl Brain for Software {
         Ok(up)
     }
 
-    fn down(&mut self, down: &DownFrame) -> Result<(), Trouble> {
+    fn down(&mut self, down: &DownFrame) -> Result<(), RunError> {
         self.inward.extend(down.link.as_slice());
         let command = self.windings.tick(&down.codes);
         for ((counts, duties), top) in self.next.compare.iter_mut().zip(command.duties).zip(TOPS) {

@@ -1,7 +1,7 @@
 //! Numbers of the tables: two significant figures.
 
 /// A number with two significant figures, without powers of ten.
-pub fn two(x: f64) -> String {
+pub fn two_figures(x: f64) -> String {
     if !x.is_finite() {
         return "–".to_owned();
     }
@@ -18,7 +18,7 @@ fn places(x: f64) -> usize {
 
 /// A fraction as a number of per cent.
 pub fn percent(x: f64) -> String {
-    two(100.0 * x)
+    two_figures(100.0 * x)
 }
 
 /// The same with its sign, to as many places as `beside` is shown with.
@@ -33,7 +33,10 @@ mod tests {
 
     #[test]
     fn a_number_shows_two_figures_and_its_sign_where_asked() {
-        assert_eq!([0.0, 0.0996, 1.0, 12.34, 127.7, f64::INFINITY].map(two), ["0.0", "0.10", "1.0", "12", "128", "–"]);
+        assert_eq!(
+            [0.0, 0.0996, 1.0, 12.34, 127.7, f64::INFINITY].map(two_figures),
+            ["0.0", "0.10", "1.0", "12", "128", "–"]
+        );
         assert_eq!([(0.01234, 0.002), (-0.456, 0.5)].map(|(x, beside)| signed(x, beside)), ["+1.23", "−46"]);
     }
 }

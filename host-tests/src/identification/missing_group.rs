@@ -6,13 +6,13 @@ use omni_gap::rehearse::rehearse;
 use omni_gap::simulate::{Recorded, Sensing};
 use rayon::prelude::*;
 
-use super::asked::{Answer, asked};
-use super::believed::Believed;
-use super::case::Case;
+use super::case::StudyCase;
+use super::joint_fit::{JointAnswer, joint_fit};
+use super::prior::PriorRobot;
 
 /// A group of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Group {
+pub enum SensorGroup {
     /// Motor currents.
     Currents,
     /// Wheel speeds.
@@ -23,9 +23,9 @@ pub enum Group {
     Voltages,
 }
 
-impl Group {
+impl SensorGroup {
     /// All of them.
-    pub const ALL: [Group; 4] = [Self::Currents, Self::WheelSpeeds, Self::Pose, Self::Voltages];
+    pub const ALL: [SensorGroup; 4] = [Self::Currents, Self::WheelSpeeds, Self::Pose, Self::Voltages];
 
     /// Its name.
     pub const fn word(self) -> &'static str {
@@ -38,7 +38,7 @@ impl Group {
     }
 
     /// Takes it out of a recording.
-    pub fn taken_from(self, run: &mut Run) {
+    pub fn remove_from(self, run: &mut Run) {
         match self {
             Self::Currents => run.i = None,
             Self::WheelSpeeds => run.w = None,
@@ -48,37 +48,37 @@ impl Group {
     }
 }
 
-/// Mornings with each group missing.
+/// Trials with each group missing.
 pub const SEEDS: u64 = 3;
 
 /// What was answered with a group missing.
 #[derive(Clone, Debug)]
-pub struct Missing {
+pub struct MissingGroup {
     /// Wheels of the robot.
     pub wheels: usize,
     /// What is missing.
-    pub group: Group,
-    /// The answer of each morning.
-    pub answers: Vec<Result<Answer, Refused>>,
+    pub group: SensorGroup,
+    /// The answer of each trial.
+    pub answers: Vec<Result<JointAnswer, Refused>>,
 }
 
-/// Plays mornings of a modern robot, of whose recordings a group is missing.
-pub fn missing(wheels: usize, group: Group, seeds: u64) -> Missing {
-    let case = Case { wheels, sensing: Sensing::Modern, camera_correlation: 0.0, repeats: 1, seeds };
-    let morning = |seed| match wheels {
-        3 => morning::<3>(case, group, seed),
-        _ => morning::<4>(case, group, seed),
+/// Plays trials of a modern robot, of whose recordings a group is missing.
+pub fn without_group(wheels: usize, group: SensorGroup, seeds: u64) -> MissingGroup {
+    let case = StudyCase { wheels, sensing: Sensing::Modern, camera_correlation: 0.0, repeats: 1, seeds };
+    let trial = |seed| match wheels {
+        3 => trial::<3>(case, group, seed),
+        _ => trial::<4>(case, group, seed),
     };
-    Missing { wheels, group, answers: (1..=seeds).into_par_iter().map(morning).collect() }
+    MissingGroup { wheels, group, answers: (1..=seeds).into_par_iter().map(trial).collect() }
 }
 
-fn morning<const N: usize>(case: Case, group: Group, seed: u64) -> Result<Answer, Refused> {
+fn trial<const N: usize>(case: StudyCase, group: SensorGroup, seed: u64) -> Result<JointAnswer, Refused> {
     let truth = case.truth();
-    let believed = Believed::drawn(&truth, seed);
+    let prior = PriorRobot::drawn(&truth, seed);
     let mut runs = rehearse(&truth, &case.plan(), &case.recording(), seed);
     for run in &mut runs {
-        group.taken_from(run);
+        group.remove_from(run);
     }
-    let recorded: Vec<Recorded<N>> = runs.iter().filter_map(|run| Recorded::new(run, &believed.file)).collect();
-    asked(&believed, case.plan().voltage, &recorded)
+    let recorded: Vec<Recorded<N>> = runs.iter().filter_map(|run| Recorded::new(run, &prior.file)).collect();
+    joint_fit(&prior, case.plan().voltage, &recorded)
 }

@@ -3,11 +3,11 @@
 use omni_gap::identify::{IDENTIFIED, Refused, TradeOff, Word, joint};
 use omni_gap::simulate::{Experiment, Model, Recorded};
 
-use super::believed::{Believed, NUMBERS};
+use super::prior::{NUMBERS, PriorRobot};
 
 /// The answer about one number.
 #[derive(Clone, Copy, Debug)]
-pub struct Told {
+pub struct FittedNumber {
     /// What the runs say of it.
     pub word: Word,
     /// Found over true.
@@ -16,7 +16,7 @@ pub struct Told {
     pub std: f64,
 }
 
-impl Told {
+impl FittedNumber {
     /// How far off it is [σ of its own]
     pub fn off(&self) -> f64 {
         (self.factor - 1.0).abs() / self.std
@@ -25,19 +25,19 @@ impl Told {
 
 /// The answer about all.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub struct JointAnswer {
     /// The numbers, in the order of [`IDENTIFIED`].
-    pub numbers: [Told; NUMBERS],
+    pub numbers: [FittedNumber; NUMBERS],
     /// Numbers that could move together.
     pub trade_offs: Vec<TradeOff>,
     /// True if the fit predicts whole runs to within noise.
     pub follows: bool,
 }
 
-impl Answer {
+impl JointAnswer {
     /// Those that are called identified.
-    pub fn identified(&self) -> impl Iterator<Item = &Told> {
-        self.numbers.iter().filter(|told| told.word == Word::Identified)
+    pub fn identified(&self) -> impl Iterator<Item = &FittedNumber> {
+        self.numbers.iter().filter(|number| number.word == Word::Identified)
     }
 }
 
@@ -45,14 +45,18 @@ impl Answer {
 ///
 /// # Errors
 /// Where the runs tell nothing.
-pub fn asked<const N: usize>(believed: &Believed, supply: f64, recorded: &[Recorded<N>]) -> Result<Answer, Refused> {
-    let model = Model::<N>::nominal(&believed.file, supply);
-    let found = joint(&model, &believed.file, &freely_driven(recorded))?;
+pub fn joint_fit<const N: usize>(
+    prior: &PriorRobot,
+    supply: f64,
+    recorded: &[Recorded<N>],
+) -> Result<JointAnswer, Refused> {
+    let model = Model::<N>::nominal(&prior.file, supply);
+    let found = joint(&model, &prior.file, &freely_driven(recorded))?;
     let numbers = std::array::from_fn(|k| {
         let number = found.of(IDENTIFIED[k]).expect("the fit answers about every number");
-        Told { word: number.word, factor: number.factor * believed.off[k], std: number.std * believed.off[k] }
+        FittedNumber { word: number.word, factor: number.factor * prior.off[k], std: number.std * prior.off[k] }
     });
-    Ok(Answer { numbers, trade_offs: found.trade_offs, follows: found.follows })
+    Ok(JointAnswer { numbers, trade_offs: found.trade_offs, follows: found.follows })
 }
 
 /// The runs without those of the motor experiment.

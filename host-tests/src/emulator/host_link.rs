@@ -8,7 +8,7 @@ use model_core::link::framing::{FrameDecoder, MAX_FRAME};
 
 /// A frame that has come from the robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Frame {
+pub struct ReceivedFrame {
     /// Its kind, see `model_core::link::framing::FrameKind`
     pub kind: u8,
     /// What it carries
@@ -17,15 +17,15 @@ pub struct Frame {
 
 /// The host's end of the line.
 #[derive(Clone, Debug, Default)]
-pub struct Line {
+pub struct HostLink {
     waiting: VecDeque<u8>,
     decoder: FrameDecoder,
-    frames: Vec<Frame>,
+    frames: Vec<ReceivedFrame>,
     /// Every byte that has come, as a recorder would keep it
     received: Vec<u8>,
 }
 
-impl Line {
+impl HostLink {
     /// Puts bytes on the line, behind those that wait; [`LINK_BYTES`] leave in a period.
     pub fn send(&mut self, bytes: &[u8]) {
         self.waiting.extend(bytes);
@@ -39,24 +39,24 @@ impl Line {
     }
 
     /// What leaves in this period.
-    pub fn leave(&mut self) -> LinkBytes {
+    pub fn transmit(&mut self) -> LinkBytes {
         let count = self.waiting.len().min(LINK_BYTES);
         let leaving: Vec<u8> = self.waiting.drain(..count).collect();
         LinkBytes::of(&leaving)
     }
 
     /// What came in this period.
-    pub fn take(&mut self, bytes: &LinkBytes) {
+    pub fn receive(&mut self, bytes: &LinkBytes) {
         self.received.extend(bytes.as_slice());
         for byte in bytes.as_slice() {
             if let Some(frame) = self.decoder.push(*byte) {
-                self.frames.push(Frame { kind: frame.kind, payload: frame.payload.to_vec() });
+                self.frames.push(ReceivedFrame { kind: frame.kind, payload: frame.payload.to_vec() });
             }
         }
     }
 
     /// The frames that have come since this was last asked.
-    pub fn frames(&mut self) -> Vec<Frame> {
+    pub fn frames(&mut self) -> Vec<ReceivedFrame> {
         std::mem::take(&mut self.frames)
     }
 
@@ -79,13 +79,13 @@ mod tests {
 
     #[test]
     fn a_command_leaves_in_pieces_of_a_period_and_comes_whole() {
-        let mut line = Line::default();
+        let mut line = HostLink::default();
         let drive = Command::Drive { sequence: 7, twist: BodyTwist { v: 0.5, vn: 0.0, w: -1.0 } };
         line.command(&drive);
-        let mut other = Line::default();
+        let mut other = HostLink::default();
         let mut periods = 0;
         while line.waiting() > 0 {
-            other.take(&line.leave());
+            other.receive(&line.transmit());
             periods += 1;
         }
         // 1 + 14 + 2 bytes of body and two more
@@ -100,10 +100,10 @@ mod tests {
     fn a_frame_between_broken_ones_is_found() {
         let mut room = [0; MAX_FRAME];
         let whole = encode_frame(FrameKind::Reply.code(), &[1, 2, 3], &mut room).expect("it fits").to_vec();
-        let mut line = Line::default();
+        let mut line = HostLink::default();
         for piece in [&[9, 9, 0][..], &whole, &[4, 1, 0]].concat().chunks(LINK_BYTES) {
-            line.take(&LinkBytes::of(piece));
+            line.receive(&LinkBytes::of(piece));
         }
-        assert_eq!(line.frames(), [Frame { kind: FrameKind::Reply.code(), payload: vec![1, 2, 3] }]);
+        assert_eq!(line.frames(), [ReceivedFrame { kind: FrameKind::Reply.code(), payload: vec![1, 2, 3] }]);
     }
 }

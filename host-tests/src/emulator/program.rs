@@ -7,24 +7,24 @@ use firmware::exchange::{DownFrame, UpFrame};
 
 /// A program that drives a board: the image in QEMU, or the same turns called on the host.
 ///
-/// Once a period: [`Brain::up`], then [`Brain::down`].
-pub trait Brain {
+/// Once a period: [`BoardProgram::up`], then [`BoardProgram::down`].
+pub trait BoardProgram {
     /// What it asks of the period that begins.
     ///
     /// # Errors
-    /// [`Trouble`] says what became of it.
-    fn up(&mut self) -> Result<UpFrame, Trouble>;
+    /// [`RunError`] says what became of it.
+    fn up(&mut self) -> Result<UpFrame, RunError>;
 
     /// What is measured in that period.
     ///
     /// # Errors
-    /// [`Trouble`] says what became of it.
-    fn down(&mut self, down: &DownFrame) -> Result<(), Trouble>;
+    /// [`RunError`] says what became of it.
+    fn down(&mut self, down: &DownFrame) -> Result<(), RunError>;
 }
 
 /// Why a run cannot go on.
 #[derive(Debug)]
-pub enum Trouble {
+pub enum RunError {
     /// The emulator cannot be started.
     NotStarted {
         /// What was tried
@@ -61,7 +61,7 @@ pub enum Trouble {
     },
 }
 
-impl fmt::Display for Trouble {
+impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotStarted { what, why } => write!(f, "{what}: {why}"),
@@ -80,7 +80,7 @@ impl fmt::Display for Trouble {
     }
 }
 
-impl std::error::Error for Trouble {}
+impl std::error::Error for RunError {}
 
 fn told(said: &str) -> &str {
     let said = said.trim();

@@ -2,19 +2,19 @@
 //!
 //! Seeded and the same on every machine: integer arithmetic draws the numbers, so a failing seed is a whole bug report.
 
-use crate::matrices::{Drive, Rig, Wheel};
+use crate::matrices::{Drivetrain, GenericRobot, Wheel};
 use crate::paper::THREE_WHEELS;
 
 /// Voltages held for a while.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hold<const N: usize> {
+pub struct VoltageHold<const N: usize> {
     /// Motor voltages [V]
     pub u: [f64; N],
     /// How long [ms]; whole, so that every step of 1 ms or a divisor of it fits
     pub milliseconds: u32,
 }
 
-impl<const N: usize> Hold<N> {
+impl<const N: usize> VoltageHold<N> {
     /// How long [s].
     pub fn seconds(&self) -> f64 {
         f64::from(self.milliseconds) * 1e-3
@@ -23,9 +23,9 @@ impl<const N: usize> Hold<N> {
 
 /// A small seeded source of numbers (SplitMix64).
 #[derive(Clone, Debug)]
-pub struct Dice(u64);
+pub struct SeededRng(u64);
 
-impl Dice {
+impl SeededRng {
     /// The same seed throws the same numbers.
     pub fn new(seed: u64) -> Self {
         Self(seed)
@@ -56,53 +56,53 @@ impl Dice {
 ///
 /// Of eight holds, on average: four draw every wheel anew, one reverses all wheels, one rests at 0 V, one draws voltages
 /// of a sixth of the limit at most (about where friction holds), one drives a single wheel.
-pub fn voltages<const N: usize>(seed: u64, holds: usize, limit: f64) -> Vec<Hold<N>> {
-    let mut dice = Dice::new(seed);
+pub fn voltages<const N: usize>(seed: u64, holds: usize, limit: f64) -> Vec<VoltageHold<N>> {
+    let mut rng = SeededRng::new(seed);
     let mut last = [0.0; N];
     (0..holds)
         .map(|_| {
-            let u = match dice.below(8) {
+            let u = match rng.below(8) {
                 0 => last.map(|u: f64| -u),
                 1 => [0.0; N],
-                2 => [(); N].map(|()| dice.between(-limit, limit) / 6.0),
+                2 => [(); N].map(|()| rng.between(-limit, limit) / 6.0),
                 3 => {
-                    let wheel = dice.below(N as u32) as usize;
-                    let volts = dice.between(-limit, limit);
+                    let wheel = rng.below(N as u32) as usize;
+                    let volts = rng.between(-limit, limit);
                     std::array::from_fn(|j| if j == wheel { volts } else { 0.0 })
                 }
-                _ => [(); N].map(|()| dice.between(-limit, limit)),
+                _ => [(); N].map(|()| rng.between(-limit, limit)),
             };
             // A rest does not make the robot forget what it would reverse.
             if u != [0.0; N] {
                 last = u;
             }
-            Hold { u, milliseconds: 20 + dice.below(181) }
+            VoltageHold { u, milliseconds: 20 + rng.below(181) }
         })
         .collect()
 }
 
 /// A random robot about the size of the paper's: N wheels evenly round a circle give or take 10°, each with its own lever
 /// arm (±20 %), radius (±10 %), Kt, Kv and R (±20 %); mass and inertia by half to double, friction by zero to double.
-pub fn random_rig<const N: usize>(dice: &mut Dice) -> Rig<N> {
+pub fn random_robot<const N: usize>(rng: &mut SeededRng) -> GenericRobot<N> {
     let paper = THREE_WHEELS;
-    let turn = dice.between(0.0, 360.0);
+    let turn = rng.between(0.0, 360.0);
     let wheels = std::array::from_fn(|j| Wheel {
-        heading: (turn + 360.0 * j as f64 / N as f64 + dice.between(-10.0, 10.0)).to_radians(),
-        distance: paper.d * dice.between(0.8, 1.2),
-        drive: Drive {
-            radius: paper.r * dice.between(0.9, 1.1),
+        heading: (turn + 360.0 * j as f64 / N as f64 + rng.between(-10.0, 10.0)).to_radians(),
+        distance: paper.d * rng.between(0.8, 1.2),
+        drivetrain: Drivetrain {
+            radius: paper.r * rng.between(0.9, 1.1),
             gear: paper.l,
-            kv: paper.kv * dice.between(0.8, 1.2),
-            kt: paper.kt * dice.between(0.8, 1.2),
-            resistance: paper.resistance * dice.between(0.8, 1.2),
+            kv: paper.kv * rng.between(0.8, 1.2),
+            kt: paper.kt * rng.between(0.8, 1.2),
+            resistance: paper.resistance * rng.between(0.8, 1.2),
         },
     });
-    Rig {
+    GenericRobot {
         wheels,
-        mass: paper.mass * dice.between(0.5, 2.0),
-        inertia: paper.inertia * dice.between(0.5, 2.0),
-        viscous: paper.viscous.map(|b| b * dice.between(0.0, 2.0)),
-        coulomb: paper.coulomb.map(|c| c * dice.between(0.0, 2.0)),
+        mass: paper.mass * rng.between(0.5, 2.0),
+        inertia: paper.inertia * rng.between(0.5, 2.0),
+        viscous: paper.viscous.map(|b| b * rng.between(0.0, 2.0)),
+        coulomb: paper.coulomb.map(|c| c * rng.between(0.0, 2.0)),
     }
 }
 
@@ -113,8 +113,8 @@ mod tests {
     #[test]
     fn the_dice_are_splitmix64() {
         // The published generator's first numbers from seed 1234567.
-        let mut dice = Dice::new(1_234_567);
-        assert_eq!([dice.bits(), dice.bits()], [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]);
+        let mut rng = SeededRng::new(1_234_567);
+        assert_eq!([rng.bits(), rng.bits()], [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]);
     }
 
     #[test]

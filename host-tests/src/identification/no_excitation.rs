@@ -7,16 +7,16 @@ use omni_gap::rehearse::rehearse;
 use omni_gap::simulate::{Model, Recorded, Sensing, record};
 use rayon::prelude::*;
 
-use super::asked::{Answer, asked};
-use super::believed::Believed;
-use super::case::Case;
+use super::case::StudyCase;
+use super::joint_fit::{JointAnswer, joint_fit};
+use super::prior::PriorRobot;
 
 /// How long the robot stands [s]
 pub const STANDS: f64 = 10.0;
 
 /// What the robot does not do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lack {
+pub enum MissingExcitation {
     /// Move: all voltages are zero.
     Motion,
     /// Drive: it only turns.
@@ -25,7 +25,7 @@ pub enum Lack {
     Sideways,
 }
 
-impl Lack {
+impl MissingExcitation {
     /// Robots of which this is asked: a standing one may be taken for a moving one by chance, and rarely.
     pub const fn seeds(self) -> u64 {
         match self {
@@ -55,52 +55,52 @@ impl Lack {
 
 /// What was answered.
 #[derive(Clone, Debug)]
-pub struct Idle {
+pub struct NoExcitation {
     /// Wheels of the robot.
     pub wheels: usize,
     /// How it is measured.
     pub sensing: Sensing,
     /// What is lacking.
-    pub lack: Lack,
-    /// The answer of each morning.
-    pub answers: Vec<Result<Answer, Refused>>,
+    pub missing: MissingExcitation,
+    /// The answer of each trial.
+    pub answers: Vec<Result<JointAnswer, Refused>>,
 }
 
 /// All that is asked: standing robots however they are measured, the others with modern sensors.
-pub const ASKED: [(Lack, Sensing); 5] = [
-    (Lack::Motion, Sensing::Paper),
-    (Lack::Motion, Sensing::Modern),
-    (Lack::Motion, Sensing::Halls),
-    (Lack::Driving, Sensing::Modern),
-    (Lack::Sideways, Sensing::Modern),
+pub const NO_EXCITATION_CASES: [(MissingExcitation, Sensing); 5] = [
+    (MissingExcitation::Motion, Sensing::Paper),
+    (MissingExcitation::Motion, Sensing::Modern),
+    (MissingExcitation::Motion, Sensing::Halls),
+    (MissingExcitation::Driving, Sensing::Modern),
+    (MissingExcitation::Sideways, Sensing::Modern),
 ];
 
 /// Records robots that lack excitation, and asks for their numbers.
-pub fn idle(wheels: usize, lack: Lack, sensing: Sensing, seeds: u64) -> Idle {
-    let case = Case { wheels, sensing, camera_correlation: 0.0, repeats: 1, seeds };
-    let morning = |seed| match wheels {
-        3 => answer::<3>(case, lack, seed),
-        _ => answer::<4>(case, lack, seed),
+pub fn without_excitation(wheels: usize, missing: MissingExcitation, sensing: Sensing, seeds: u64) -> NoExcitation {
+    let case = StudyCase { wheels, sensing, camera_correlation: 0.0, repeats: 1, seeds };
+    let trial = |seed| match wheels {
+        3 => answer::<3>(case, missing, seed),
+        _ => answer::<4>(case, missing, seed),
     };
-    Idle { wheels, sensing, lack, answers: (1..=seeds).into_par_iter().map(morning).collect() }
+    NoExcitation { wheels, sensing, missing, answers: (1..=seeds).into_par_iter().map(trial).collect() }
 }
 
-fn answer<const N: usize>(case: Case, lack: Lack, seed: u64) -> Result<Answer, Refused> {
+fn answer<const N: usize>(case: StudyCase, missing: MissingExcitation, seed: u64) -> Result<JointAnswer, Refused> {
     let truth = case.truth();
-    let believed = Believed::drawn(&truth, seed);
-    let runs = match lack {
-        Lack::Motion => vec![standing::<N>(case, seed)],
+    let prior = PriorRobot::drawn(&truth, seed);
+    let runs = match missing {
+        MissingExcitation::Motion => vec![standing::<N>(case, seed)],
         _ => {
             let mut runs = rehearse(&truth, &case.plan(), &case.recording(), seed);
-            runs.retain(|run| !lack.leaves_out(&run.name));
+            runs.retain(|run| !missing.leaves_out(&run.name));
             runs
         }
     };
-    let recorded: Vec<Recorded<N>> = runs.iter().filter_map(|run| Recorded::new(run, &believed.file)).collect();
-    asked(&believed, case.plan().voltage, &recorded)
+    let recorded: Vec<Recorded<N>> = runs.iter().filter_map(|run| Recorded::new(run, &prior.file)).collect();
+    joint_fit(&prior, case.plan().voltage, &recorded)
 }
 
-fn standing<const N: usize>(case: Case, seed: u64) -> Run {
+fn standing<const N: usize>(case: StudyCase, seed: u64) -> Run {
     let rows = (STANDS * case.sensing.rate()).round() as usize;
     let t: Vec<f64> = (0..rows).map(|row| row as f64 / case.sensing.rate()).collect();
     let plant = Model::<N>::nominal(&case.truth(), case.plan().voltage).plant();
