@@ -14,7 +14,7 @@ use host_tests::identification::missing_group::{SEEDS, SensorGroup, without_grou
 use host_tests::identification::no_excitation::{NO_EXCITATION_CASES, without_excitation};
 use host_tests::identification::page::page;
 use host_tests::identification::promises::promises;
-use host_tests::identification::study::studied;
+use host_tests::identification::study::study;
 
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);

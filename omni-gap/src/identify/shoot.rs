@@ -6,7 +6,7 @@ use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::Plant;
 
-use crate::simulate::{HORIZON_S, MAX_CHANNELS, Model, Recorded, restart_rows, start_at};
+use crate::simulate::{FreeRun, HORIZON_S, MAX_CHANNELS, Model, Recorded, RowPassed, restart_rows, start_at};
 
 /// The state from which a window starts: x, y, θ, v, vn, ω [m, m, rad, m/s, m/s, rad/s].
 pub type StartState = [f64; 6];
@@ -137,20 +137,13 @@ pub(super) fn run_some_windows<const N: usize, T: Real>(
     enter: impl Fn(&mut [T]),
     mut each: impl FnMut(usize, usize, &[T; MAX_CHANNELS]),
 ) {
-    let mut memory = vec![T::zero(); plant.memory_len()];
-    let mut state = plant.start(T::zero(), Pose::default(), BodyTwist::default());
+    let mut on_the_way = FreeRun::new(plant, run);
     for window in which {
         let rows = windows.rows(window);
         let (pose, twist) = start(window);
-        let before = state;
-        state = plant.start(T::lit(run.t[rows.start]), pose, twist);
-        (state.wheel_angle, state.current, state.bus) = (before.wheel_angle, before.current, before.bus);
-        enter(&mut memory);
-        plant.restart(&state, &mut memory);
-        run.note_effort(rows.clone());
+        on_the_way.restart_with(rows.start, pose, twist, &enter);
         for row in rows {
-            let input = run.input::<T>(row);
-            let reading = run.take_row(plant, &mut state, &mut memory, &input, row);
+            let RowPassed { reading, .. } = on_the_way.pass(row, &run.input(row));
             each(window, row, &run.row_of(&reading));
         }
     }

@@ -2,14 +2,13 @@
 
 use std::path::Path;
 
-use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::Input;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::log::{Catalogue, RobotFile};
-use crate::simulate::{Excitation, MAX_CHANNELS, Model, Recorded, Recording, Row, excite, record};
+use crate::simulate::{Excitation, FreeRun, MAX_CHANNELS, Model, Recorded, Recording, Row, excite, record};
 
 /// What is recorded.
 #[derive(Clone, Copy)]
@@ -69,10 +68,10 @@ pub fn staged(model: &Model<4>, how: &Staging) -> Vec<Recorded<4>> {
             let mut random = ChaCha8Rng::seed_from_u64(how.seed + 100 * k + 2);
             let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
             let mut noise: Row = std::array::from_fn(|_| normal());
-            let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
+            let blank = run.clone();
+            let mut on_the_way = FreeRun::new(&plant, &blank);
             for row in 0..run.rows() {
-                let input = run.input::<f64>(row);
-                let reading = run.take_row(&plant, &mut state, &mut [], &input, row);
+                let reading = on_the_way.pass(row, &run.input(row)).reading;
                 let mut says = run.row_of(&reading);
                 for c in 0..MAX_CHANNELS {
                     // x_k = ρ·x_{k−1} + √(1 − ρ²)·n

@@ -1,13 +1,12 @@
 //! The gap: errors of free runs restarted every horizon, in units of the sensors' sigma.
 
-use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::Plant;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use crate::simulate::{HORIZON_S, MAX_CHANNELS, Recorded, predict, start_at};
+use crate::simulate::{HORIZON_S, MAX_CHANNELS, Recorded, free_run, predict};
 
 /// The signal groups, in the order of their channels.
 pub const GROUPS: [&str; 3] = ["i", "w", "pose"];
@@ -97,23 +96,22 @@ pub(super) fn replayed<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<
 fn replay<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, seed: u64) -> Recorded<N> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut replayed = run.clone();
-    let mut memory = vec![0.0; plant.memory_len()];
-    let rest = plant.start(0.0, Pose::default(), BodyTwist::default());
-    let mut state = start_at(run, 0).state(plant, &rest);
-    plant.restart(&state, &mut memory);
-    run.note_effort(0..run.rows());
-    for row in 0..run.rows() {
-        let input = run.input::<f64>(row);
-        let reading = run.take_row(plant, &mut state, &mut memory, &input, row);
-        let mut says = run.row_of(&reading);
-        for (c, x) in says.iter_mut().enumerate() {
-            let noise: f64 = StandardNormal.sample(&mut random);
-            *x += run.sigma[c] * noise;
-        }
-        replayed.measured[row] = says;
-        if let Some(gyro) = &mut replayed.gyro[row] {
-            *gyro = reading.gyro;
-        }
-    }
+    free_run(
+        plant,
+        run,
+        &[0],
+        |row| run.input(row),
+        |row, passed| {
+            let mut says = run.row_of(&passed.reading);
+            for (c, x) in says.iter_mut().enumerate() {
+                let noise: f64 = StandardNormal.sample(&mut random);
+                *x += run.sigma[c] * noise;
+            }
+            replayed.measured[row] = says;
+            if let Some(gyro) = &mut replayed.gyro[row] {
+                *gyro = passed.reading.gyro;
+            }
+        },
+    );
     replayed
 }

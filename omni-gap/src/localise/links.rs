@@ -6,12 +6,11 @@
 //! substitution takes off the free run's error, averaged over all orders in which the links can be substituted
 //! (Shapley), so that the shares add up to the whole.
 
-use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::{Input, Plant};
 use rayon::prelude::*;
 
 use super::gap::{FLOOR_SEED, GROUPS, replayed};
-use crate::simulate::{Recorded, Row, restart_rows, start_at};
+use crate::simulate::{Recorded, Row, free_run, restart_rows};
 
 /// A link between two measured signals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,9 +99,9 @@ struct Paths {
 
 fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon: f64) -> Subsets {
     let paths = Paths {
-        plain: free_run(plant, run, horizon, |row| run.input(row)),
-        by_current: free_run(plant, run, horizon, |row| measured(run, row, 0).map_or(run.input(row), Input::Current)),
-        by_speed: free_run(plant, run, horizon, |row| measured(run, row, N).map_or(run.input(row), Input::Speed)),
+        plain: rows(plant, run, horizon, |row| run.input(row)),
+        by_current: rows(plant, run, horizon, |row| measured(run, row, 0).map_or(run.input(row), Input::Current)),
+        by_speed: rows(plant, run, horizon, |row| measured(run, row, N).map_or(run.input(row), Input::Speed)),
     };
     let motor = &plant.robot().motor;
     let mut sums = [[(0.0, 0.0); 3]; 8];
@@ -151,24 +150,14 @@ fn measured<const N: usize>(run: &Recorded<N>, row: usize, first: usize) -> Opti
     whole.then(|| std::array::from_fn(|j| run.measured[row][first + j]))
 }
 
-fn free_run<const N: usize>(
+/// The rows that a free run predicts from any input.
+fn rows<const N: usize>(
     plant: &Plant<N, f64>,
     run: &Recorded<N>,
     horizon: f64,
     input: impl Fn(usize) -> Input<N, f64>,
 ) -> Vec<Row> {
-    run.note_effort(0..run.rows());
-    let mut memory = vec![0.0; plant.memory_len()];
-    let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
-    let mut restarts = restart_rows(&run.t, horizon).into_iter().peekable();
-    (0..run.rows())
-        .map(|row| {
-            if restarts.next_if_eq(&row).is_some() {
-                state = start_at(run, row).state(plant, &state);
-                plant.restart(&state, &mut memory);
-            }
-            let reading = run.take_row(plant, &mut state, &mut memory, &input(row), row);
-            run.row_of(&reading)
-        })
-        .collect()
+    let mut rows = Vec::with_capacity(run.rows());
+    free_run(plant, run, &restart_rows(&run.t, horizon), input, |_, passed| rows.push(run.row_of(&passed.reading)));
+    rows
 }

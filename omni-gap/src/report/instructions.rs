@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use model_core::effects::seams::STANDARD_GRAVITY;
+
 use super::number::{NBSP, figures, num};
 use crate::simulate::{Experiment, Floor};
 
@@ -48,8 +50,6 @@ const ARM: f64 = 0.15;
 const CLOTH: f64 = 0.4;
 /// Width of a line (characters)
 const WIDTH: usize = 110;
-/// Gravity [m/s²]
-const G: f64 = 9.81;
 
 /// The page, in Markdown that reads well as it is.
 pub fn instructions(say: &Instructions) -> String {
@@ -126,7 +126,7 @@ fn experiment_said(page: &mut String, say: &Instructions, n: usize, experiment: 
     };
     let _ = writeln!(page, "{purpose}");
     if experiment == Experiment::Motor && own.len() > 1 {
-        let bag = say.drag / (ARM * CLOTH * G);
+        let bag = say.drag / (ARM * CLOTH * STANDARD_GRAVITY);
         let _ = writeln!(
             page,
             "About {} N·m more each time is right, for example {} kg more on a piece of cloth that an arm of {:.0} cm drags\n\

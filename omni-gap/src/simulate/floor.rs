@@ -3,6 +3,7 @@
 use model_core::geometry::frames::{BodyTwist, Pose};
 
 use super::model::Model;
+use super::recorded::LONGEST_STEP_S;
 use super::script::Script;
 
 /// The box around everywhere a robot goes, seen from where it starts and the way it looks then.
@@ -17,9 +18,6 @@ pub struct Floor {
     /// Along vn, to the right [m]
     pub right: f64,
 }
-
-/// The longest step of the plant [s]
-const LONGEST_STEP: f64 = 0.0025;
 
 impl Floor {
     /// The box around both.
@@ -46,7 +44,7 @@ pub fn floor_of<const N: usize>(model: &Model<N>, script: &Script<N>) -> Floor {
     let mut floor = Floor::default();
     for (row, input) in script.inputs().enumerate() {
         let Some(length) = script.t.get(row + 1).map(|next| next - script.t[row]) else { break };
-        let steps = (length / LONGEST_STEP).ceil().max(1.0);
+        let steps = (length / LONGEST_STEP_S).ceil().max(1.0);
         for _ in 0..steps as usize {
             plant.step(&mut state, &mut memory, &input, length / steps);
         }

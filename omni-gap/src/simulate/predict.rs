@@ -1,13 +1,11 @@
 //! Free-run prediction with restarts: the protocol by which the gap is measured.
 //!
 //! Every horizon H the run restarts from the smoothed measurement; in between it is driven by the recorded input alone.
-//! Pose and velocity restart; what is hidden (wheel angles, delay lines, currents) runs on from the start of the run.
 
-use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::Plant;
 
+use super::free_run::free_run;
 use super::recorded::{MAX_CHANNELS, Recorded, Row};
-use super::start::start_at;
 
 /// Time between restarts of the free runs by which a gap is measured [s]
 pub const HORIZON_S: f64 = 0.5;
@@ -40,29 +38,20 @@ pub fn restart_rows(t: &[f64], horizon: f64) -> Vec<usize> {
 
 /// Lets the plant run freely along a recording, restarted every `horizon` [s].
 pub fn predict<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon: f64) -> Prediction {
-    run.note_effort(0..run.rows());
     let restarts = restart_rows(&run.t, horizon);
-    let mut memory = vec![0.0; plant.memory_len()];
-    let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
     let mut rows = Vec::with_capacity(run.rows());
     let (mut gyro, mut bus) = (Vec::with_capacity(run.rows()), Vec::with_capacity(run.rows()));
-    let mut coming = restarts.iter().copied().peekable();
-    for row in 0..run.rows() {
-        if coming.next_if_eq(&row).is_some() {
-            state = start_at(run, row).state(plant, &state);
-            plant.restart(&state, &mut memory);
-        }
-        let input = run.input::<f64>(row);
-        let steps = run.steps(row);
-        let dt = run.dt[row] / steps as f64;
-        let reading = plant.step(&mut state, &mut memory, &input, dt);
-        bus.push(state.bus);
-        for _ in 1..steps {
-            plant.step(&mut state, &mut memory, &input, dt);
-        }
-        rows.push(run.row_of(&reading));
-        gyro.push(reading.gyro);
-    }
+    free_run(
+        plant,
+        run,
+        &restarts,
+        |row| run.input(row),
+        |_, passed| {
+            rows.push(run.row_of(&passed.reading));
+            gyro.push(passed.reading.gyro);
+            bus.push(passed.bus);
+        },
+    );
     Prediction { rows, gyro, bus, restarts }
 }
 

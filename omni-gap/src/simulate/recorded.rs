@@ -1,16 +1,15 @@
 //! A recording, laid out row by row for the plant: what drives the model, and what it is compared with.
 
 use model_core::number::scalar::Real;
-use model_core::plant::{Input, Plant, Reading, State};
+use model_core::plant::{Input, Reading};
 
-use super::effort;
 use crate::log::{Group, RobotFile, Run, Sampled};
 
 /// The most channels that are compared: four currents, four wheel speeds, and the pose.
 pub const MAX_CHANNELS: usize = 11;
 
 /// The longest step that the plant takes [s]; longer rows are cut into equal ones.
-const LONGEST_STEP_S: f64 = 0.0026;
+pub(super) const LONGEST_STEP_S: f64 = 0.0026;
 
 /// The most steps through one row: beyond half a minute without a row there is nothing to be told, and work must end.
 const MOST_STEPS: usize = 10_000;
@@ -275,30 +274,6 @@ impl<const N: usize> Recorded<N> {
     #[inline]
     pub fn steps(&self, row: usize) -> usize {
         ((self.dt[row] / LONGEST_STEP_S).ceil() as usize).clamp(1, MOST_STEPS)
-    }
-
-    /// Counts the plant's steps through these rows into [`steps_taken`](super::steps_taken).
-    pub fn note_effort(&self, rows: std::ops::Range<usize>) {
-        effort::note(rows.map(|row| self.steps(row) as u64).sum());
-    }
-
-    /// Takes the plant through a row with the input held, and returns the reading at the row's beginning.
-    #[inline]
-    pub fn take_row<T: Real>(
-        &self,
-        plant: &Plant<N, T>,
-        state: &mut State<N, T>,
-        memory: &mut [T],
-        input: &Input<N, T>,
-        row: usize,
-    ) -> Reading<N, T> {
-        let steps = self.steps(row);
-        let dt = T::lit(self.dt[row] / steps as f64);
-        let reading = plant.step(state, memory, input, dt);
-        for _ in 1..steps {
-            plant.step(state, memory, input, dt);
-        }
-        reading
     }
 
     /// A reading as a row of channels, currents as magnitudes where the log keeps only those.

@@ -6,14 +6,13 @@
 
 use super::{NominalCard, Number, Table};
 use crate::effects::card::Stage;
+use crate::effects::seams::STANDARD_GRAVITY;
 use crate::plant::robot::Nominal;
 
 /// Viscous friction over mass, where a fit begins [1/s]
 const VISCOUS_RATE: f64 = 0.2;
 /// Coulomb friction over weight, where a fit begins [1]
 const COULOMB_SHARE: f64 = 0.05;
-/// Gravity [m/s²]
-const G: f64 = 9.81;
 
 /// (B_v, B_vn, B_ω).
 pub const VISCOUS: NominalCard = NominalCard {
@@ -82,7 +81,7 @@ pub const COULOMB: NominalCard = NominalCard {
             axis: Some(0),
             relative_uncertainty: 0.20,
             within: (0.0, 1000.0),
-            first_guess: Some(|mass, _| COULOMB_SHARE * mass * G),
+            first_guess: Some(|mass, _| COULOMB_SHARE * mass * STANDARD_GRAVITY),
         },
         Number {
             key: "coulomb_vn_N",
@@ -94,7 +93,7 @@ pub const COULOMB: NominalCard = NominalCard {
             axis: Some(1),
             relative_uncertainty: 0.20,
             within: (0.0, 1000.0),
-            first_guess: Some(|mass, _| COULOMB_SHARE * mass * G),
+            first_guess: Some(|mass, _| COULOMB_SHARE * mass * STANDARD_GRAVITY),
         },
         Number {
             key: "coulomb_w_Nm",
@@ -106,7 +105,7 @@ pub const COULOMB: NominalCard = NominalCard {
             axis: Some(2),
             relative_uncertainty: 0.20,
             within: (0.0, 1000.0),
-            first_guess: Some(|mass, distance| COULOMB_SHARE * mass * G * distance),
+            first_guess: Some(|mass, distance| COULOMB_SHARE * mass * STANDARD_GRAVITY * distance),
         },
     ],
 };

@@ -16,8 +16,7 @@
 
 use super::bins::{Bin, bins};
 use super::regress::{Estimate, Rows, jackknife};
-use crate::simulate::{AXES, Model, Recorded, Slot};
-use model_core::geometry::frames::{BodyTwist, Pose};
+use crate::simulate::{AXES, FreeRun, Model, Recorded, Slot};
 use model_core::plant::robot::{Nominal, Robot};
 
 /// Length of a stretch over which a velocity is taken [s]: by a camera, by wheel speeds
@@ -133,14 +132,13 @@ fn with<const N: usize>(model: &Model<N>, resistance: f64, inertia: f64) -> Mode
 /// Mean twists over the stretches, by a free run of the model from rest.
 fn simulated<const N: usize>(model: &Model<N>, run: &Recorded<N>, bins: &[Bin<N>]) -> Vec<[f64; 3]> {
     let plant = model.plant();
-    let mut memory = vec![0.0; plant.memory_len()];
-    let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
+    let mut on_the_way = FreeRun::new(&plant, run);
     // ∫ twist dt up to each row
     let mut way = vec![[0.0; 3]; run.rows() + 1];
     for row in 0..run.rows() {
-        let before = state.twist;
-        run.take_row(&plant, &mut state, &mut memory, &run.input(row), row);
-        let mean = before.mean(state.twist).to_array();
+        let before = on_the_way.state().twist;
+        on_the_way.pass(row, &run.input(row));
+        let mean = before.mean(on_the_way.state().twist).to_array();
         way[row + 1] = std::array::from_fn(|a| way[row][a] + mean[a] * run.dt[row]);
     }
     let mean = |bin: &Bin<N>| std::array::from_fn(|a| (way[bin.rows.1][a] - way[bin.rows.0][a]) / bin.dt);
