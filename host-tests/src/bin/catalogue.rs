@@ -4,8 +4,8 @@
 
 use std::process::ExitCode;
 
-use host_tests::catalogue::outcome::{BenchmarkOutcome, Judgement, diagnose_case};
-use host_tests::catalogue::page::{page, plain, promises, word};
+use host_tests::catalogue::outcome::{BenchmarkOutcome, ENGINES, Judgement, diagnose_case};
+use host_tests::catalogue::page::{by_engine, page, plain, promises, word};
 use host_tests::catalogue::sessions::cases;
 use host_tests::golden::record;
 use omni_gap::Error;
@@ -26,18 +26,22 @@ fn benchmark(only: Option<&str>) -> Result<(), Error> {
     if let Some(only) = only {
         all.retain(|case| format!("{} on {} wheels", case.hidden, case.wheels).contains(only));
     }
-    let mut outcomes = Vec::with_capacity(all.len());
-    for (k, case) in all.iter().enumerate() {
-        let outcome = diagnose_case(case)?;
-        println!("[{}/{}] {}", k + 1, all.len(), told(&outcome));
+    let asked = || all.iter().flat_map(|case| ENGINES.map(|engine| (case, engine)));
+    let mut outcomes = Vec::with_capacity(asked().count());
+    for (k, (case, engine)) in asked().enumerate() {
+        let outcome = diagnose_case(case, engine)?;
+        println!("[{}/{}] {}", k + 1, asked().count(), told(&outcome));
         if only.is_some() {
             println!("{}", terminal(&outcome.report, None));
             closest(&outcome);
         }
         outcomes.push(outcome);
     }
-    for promise in promises(&outcomes) {
-        println!("{}: {} of {} (at least {})", promise.what, promise.kept, promise.of, promise.least);
+    for (engine, outcomes) in by_engine(&outcomes) {
+        println!("engine {engine}");
+        for promise in promises(&outcomes) {
+            println!("{}: {} of {} (at least {})", promise.what, promise.kept, promise.of, promise.least);
+        }
     }
     let seconds: Vec<f64> = outcomes.iter().map(|o| o.seconds).collect();
     let most = seconds.iter().fold(0.0, |most: f64, s| most.max(*s));

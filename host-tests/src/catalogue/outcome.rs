@@ -3,20 +3,24 @@
 use std::path::Path;
 use std::time::Instant;
 
+use omni_gap::engine::evidence::LaidOut;
+use omni_gap::engine::{Engine, Evidence, Knobs, Stepwise};
 use omni_gap::error::Result;
 use omni_gap::localise::{floor, measure};
-use omni_gap::log::{RobotFile, Session};
+use omni_gap::log::RobotFile;
 use omni_gap::report::{Estimate, Report, Verdict};
 use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded};
 use omni_gap::{Diagnosis, Options, known_effects};
 
 use super::sessions::{BenchmarkCase, HiddenCause, truth};
 
-/// A gap smaller than this is not divided by [σ].
-pub const TOO_SMALL: f64 = 0.1;
+/// The engines that stand in the table.
+pub const ENGINES: [&dyn Engine; 1] = [&Stepwise];
 
-/// The diagnosis holds out every third run of a session that holds out none.
-const HOLD_OUT: usize = 3;
+/// A gap smaller than this is not divided by [σ], here as in a report.
+pub fn too_small() -> f64 {
+    Knobs::default().measure.smallest_room_sigma
+}
 
 /// How good the answer is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +68,8 @@ impl EstimatedNumber {
 pub struct BenchmarkOutcome {
     /// What was diagnosed.
     pub case: BenchmarkCase,
+    /// Which engine did it: its name and its version.
+    pub engine: String,
     /// The answer.
     pub report: Report,
     /// What the true model achieves.
@@ -76,23 +82,27 @@ pub struct BenchmarkOutcome {
     pub seconds: f64,
 }
 
-/// Stages and diagnoses a session.
+/// Stages a session and lets an engine diagnose it.
 ///
 /// # Errors
 /// Where the true robot's file is not sound.
-pub fn diagnose_case(case: &BenchmarkCase) -> Result<BenchmarkOutcome> {
+pub fn diagnose_case(case: &BenchmarkCase, engine: &dyn Engine) -> Result<BenchmarkOutcome> {
     let session = case.session()?;
+    let options = Options::default();
     let start = Instant::now();
-    let report = Diagnosis::of(&session, &Options::default()).report;
+    let report = Diagnosis::by(engine, &session, &options).report;
     let seconds = start.elapsed().as_secs_f64();
     let file = RobotFile::parse(truth(case.wheels), Path::new("robot.toml"), &known_effects())?;
-    let oracle = match case.wheels {
-        3 => oracle::<3>(case, &session, &file),
-        _ => oracle::<4>(case, &session, &file),
+    let evidence = Evidence::of(&session, &options.knobs.layout).expect("a staged session has all signals");
+    let horizon_s = options.knobs.measure.horizon_s;
+    let oracle = match &evidence.runs {
+        LaidOut::Three(runs) => oracle(case, &evidence.robot, &file, &runs.held, horizon_s),
+        LaidOut::Four(runs) => oracle(case, &evidence.robot, &file, &runs.held, horizon_s),
     };
     let numbers = numbers(case, &report, &file);
     let drawn = drawn(&session.robot, &file);
-    Ok(BenchmarkOutcome { case: case.clone(), report, oracle, numbers, drawn, seconds })
+    let engine = format!("{} {}", engine.name(), engine.version());
+    Ok(BenchmarkOutcome { case: case.clone(), engine, report, oracle, numbers, drawn, seconds })
 }
 
 fn drawn(nominal: &RobotFile, truth: &RobotFile) -> Vec<(&'static str, f64)> {
@@ -103,26 +113,24 @@ fn drawn(nominal: &RobotFile, truth: &RobotFile) -> Vec<(&'static str, f64)> {
     NOMINAL_KEYS.iter().filter_map(off).collect()
 }
 
-fn oracle<const N: usize>(case: &BenchmarkCase, session: &Session, file: &RobotFile) -> Oracle {
+fn oracle<const N: usize>(
+    case: &BenchmarkCase,
+    nominal: &RobotFile,
+    truth: &RobotFile,
+    held: &[Recorded<N>],
+    horizon_s: f64,
+) -> Oracle {
     let voltage = case.plan().voltage;
-    let mut model = Model::<N>::nominal(file, voltage);
+    let mut model = Model::<N>::nominal(truth, voltage);
     if let HiddenCause::Effect(effect) = &case.hidden {
         model.carry(effect.clone());
     }
-    let held: Vec<Recorded<N>> = session
-        .runs
-        .iter()
-        .enumerate()
-        .filter(|(k, _)| k % HOLD_OUT == HOLD_OUT - 1)
-        .filter_map(|(_, run)| Recorded::new(run, &session.robot))
-        .collect();
     let held: Vec<&Recorded<N>> = held.iter().collect();
-    let horizon = omni_gap::simulate::HORIZON_S;
-    let (nominal, true_) = (Model::<N>::nominal(&session.robot, voltage).plant(), model.plant());
+    let (nominal, truth) = (Model::<N>::nominal(nominal, voltage).plant(), model.plant());
     Oracle {
-        before: measure(&nominal, &held, horizon).total(),
-        after: measure(&true_, &held, horizon).total(),
-        floor: floor(&true_, &held, horizon).total(),
+        before: measure(&nominal, &held, horizon_s).total(),
+        after: measure(&truth, &held, horizon_s).total(),
+        floor: floor(&truth, &held, horizon_s).total(),
     }
 }
 
@@ -189,13 +197,13 @@ impl BenchmarkOutcome {
     /// What the true model closes of its gap; none where there is none worth dividing by.
     pub fn closed_by_truth(&self) -> Option<f64> {
         let Oracle { before, after, floor } = self.oracle;
-        (before - floor >= TOO_SMALL).then(|| (before - after) / (before - floor))
+        (before - floor >= too_small()).then(|| (before - after) / (before - floor))
     }
 
     /// What the diagnosis closes of what the true model closes.
     pub fn closed_of_truth(&self) -> Option<f64> {
         let Oracle { before, after, .. } = self.oracle;
-        (before - after >= TOO_SMALL).then_some(())?;
+        (before - after >= too_small()).then_some(())?;
         Some((before - self.report.shrink.after?) / (before - after))
     }
 

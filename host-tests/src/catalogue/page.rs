@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use omni_gap::report::{Verdict, estimate, num, percent};
 
-use super::outcome::{BenchmarkOutcome, EstimatedNumber, Judgement, TOO_SMALL};
+use super::outcome::{BenchmarkOutcome, EstimatedNumber, Judgement, too_small};
 use super::sessions::{FIRST_SEED, HiddenCause, WRONG_PARAMETERS};
 
 /// Share of what the true model closes that the diagnosis has to close.
@@ -75,15 +75,30 @@ pub fn read_promises(page: &str) -> Vec<Promise> {
 /// The whole page.
 pub fn page(outcomes: &[BenchmarkOutcome]) -> String {
     let mut text = opening();
-    text += "## What was promised\n\n| | sessions that keep it | of | at least |\n|---|---|---|---|\n";
-    for Promise { what, kept, of, least } in promises(outcomes) {
-        let _ = writeln!(text, "| {what} | {kept} | {of} | {least} |");
+    text += "## What was promised\n\n";
+    for (engine, outcomes) in by_engine(outcomes) {
+        let _ = writeln!(text, "Engine `{engine}`:\n\n| | sessions that keep it | of | at least |\n|---|---|---|---|");
+        for Promise { what, kept, of, least } in promises(&outcomes) {
+            let _ = writeln!(text, "| {what} | {kept} | {of} | {least} |");
+        }
+        text += &aside(&outcomes);
     }
-    text += &aside(outcomes);
     text += &answers(outcomes);
     text += &gaps(outcomes);
     text += &numbers(outcomes);
     text
+}
+
+/// The outcomes of each engine, engines in the order in which they first stand.
+pub fn by_engine(outcomes: &[BenchmarkOutcome]) -> Vec<(&str, Vec<BenchmarkOutcome>)> {
+    let mut all: Vec<(&str, Vec<BenchmarkOutcome>)> = Vec::new();
+    for o in outcomes {
+        match all.iter_mut().find(|(engine, _)| *engine == o.engine) {
+            Some((_, own)) => own.push(o.clone()),
+            None => all.push((&o.engine, vec![o.clone()])),
+        }
+    }
+    all
 }
 
 fn opening() -> String {
@@ -132,8 +147,8 @@ fn answers(outcomes: &[BenchmarkOutcome]) -> String {
         \"Right\" is `first` where the first cause is the hidden one (on its wheel), `named` where the hidden one is a member\n\
         of the set that the data cannot tell from the first, and **wrong** otherwise. The probability is the one that the\n\
         report gives to the truth: to the hidden cause, or to there being no gap.\n\n\
-        | seed | wheels | hidden | verdict | causes | not told apart from the first | probability | right |\n\
-        |---|---|---|---|---|---|---|---|\n"
+        | seed | wheels | hidden | verdict | causes | not told apart from the first | probability | right | engine |\n\
+        |---|---|---|---|---|---|---|---|---|\n"
         .to_owned();
     for o in outcomes {
         let causes: Vec<String> = o.report.causes.iter().map(|id| o.named(id)).collect();
@@ -144,7 +159,7 @@ fn answers(outcomes: &[BenchmarkOutcome]) -> String {
         };
         let _ = writeln!(
             text,
-            "| {} | {} | {} | `{}` | {} | {} | {:.2} | {right} |",
+            "| {} | {} | {} | `{}` | {} | {} | {:.2} | {right} | `{}` |",
             o.case.seed,
             o.case.wheels,
             o.case.hidden,
@@ -152,6 +167,7 @@ fn answers(outcomes: &[BenchmarkOutcome]) -> String {
             listed(&causes),
             listed(&o.alike().iter().map(|id| format!("`{id}`")).collect::<Vec<_>>()),
             o.probability(),
+            o.engine,
         );
     }
     text
@@ -163,8 +179,9 @@ fn gaps(outcomes: &[BenchmarkOutcome]) -> String {
         Errors of free runs of 0.5 s over the runs held out, in sigmas of the sensors: with the session's robot file, with the\n\
         corrected one, and what noise alone gives. \"Closed\" is (before − after) over (before − floor); \"by the true model\" is\n\
         the same for a model with the true numbers and the hidden effect as it was simulated. \"Of that\" is (before − after) of\n\
-        the diagnosis over that of the true model. A gap under {TOO_SMALL} σ is not divided by.\n\n\
-        | wheels | hidden | before | after | floor | closed | by the true model | of that |\n|---|---|---|---|---|---|---|---|\n"
+        the diagnosis over that of the true model. A gap under {} σ is not divided by.\n\n\
+        | wheels | hidden | before | after | floor | closed | by the true model | of that | engine |\n|---|---|---|---|---|---|---|---|---|\n",
+        too_small()
     );
     let share = |x: Option<f64>| x.map_or("–".to_owned(), |x| plain(&percent(x)));
     let sigmas = |x: Option<f64>| x.map_or("–".to_owned(), num);
@@ -172,7 +189,7 @@ fn gaps(outcomes: &[BenchmarkOutcome]) -> String {
         let s = &o.report.shrink;
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {} | {} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} | {} | `{}` |",
             o.case.wheels,
             o.case.hidden,
             sigmas(s.before),
@@ -181,11 +198,12 @@ fn gaps(outcomes: &[BenchmarkOutcome]) -> String {
             share(s.closed),
             share(o.closed_by_truth()),
             share(o.closed_of_truth()),
+            o.engine,
         );
     }
     if outcomes.iter().any(|o| !o.same_runs()) {
-        text += "\nIn some sessions the report speaks of other runs than the true model was measured on: the last column is\n\
-                 then not to be trusted.\n";
+        text += "\nIn some sessions the report speaks of other runs than the true model was measured on: \"of that\" is then\n\
+                 not to be trusted.\n";
     }
     text
 }
@@ -194,7 +212,7 @@ fn numbers(outcomes: &[BenchmarkOutcome]) -> String {
     let mut text = "\n## The numbers\n\n\
         What the report says of the hidden cause's own numbers, one standard deviation with each; a number without one was\n\
         not fitted. \"Off\" is the distance to the truth in these deviations.\n\n\
-        | wheels | hidden | number | truth | estimate | off |\n|---|---|---|---|---|---|\n"
+        | wheels | hidden | number | truth | estimate | off | engine |\n|---|---|---|---|---|---|---|\n"
         .to_owned();
     for o in outcomes {
         for n in &o.numbers {
@@ -202,11 +220,12 @@ fn numbers(outcomes: &[BenchmarkOutcome]) -> String {
             let off = n.off().map_or("–".to_owned(), |off| format!("{off:.1}"));
             let _ = writeln!(
                 text,
-                "| {} | {} | `{}` | {} | {said} | {off} |",
+                "| {} | {} | `{}` | {} | {said} | {off} | `{}` |",
                 o.case.wheels,
                 o.case.hidden,
                 n.key,
-                num(n.truth)
+                num(n.truth),
+                o.engine,
             );
         }
     }

@@ -41,9 +41,9 @@ pub struct Knobs {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LayoutKnobs {
-    /// Every so-manieth run is held out where the session holds out none [runs]: a third judges as surely as two thirds fit.
+    /// One run of this many is held out where the session holds out none [runs]: a third to judge by, two thirds to fit.
     pub hold_out_every: usize,
-    /// Parts into which each run is cut where there are fewer than `hold_out_every` [1]: the fewest that leave one of three.
+    /// Parts into which each run is cut where there are fewer than `hold_out_every` [1]: as many, so that one is held out.
     pub parts_of_a_lone_run: usize,
     /// Length of a shooting window [s]: the gap's own horizon, so that what is fitted is what is measured.
     pub window_s: f64,
