@@ -10,7 +10,7 @@ pub mod layouts;
 pub mod recordings;
 
 use omni_gap::error::Result;
-use omni_gap::{Diagnosis, Options, Session};
+use omni_gap::{Diagnosis, Options, Report, Session};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -23,10 +23,11 @@ pub const FILE: &str = "frozen.jsonl";
 /// The file of the real ones.
 pub const REAL_FILE: &str = "frozen-real.jsonl";
 
-/// What a diagnosis leaves, as one value.
+/// What a diagnosis leaves, as one value; which engine answered, and with which knobs, is no part of the answer.
 fn answer(name: &str, session: &Session) -> Value {
     let diagnosis = Diagnosis::of(session, &Options::default());
-    json!({ "recording": name, "report": diagnosis.report, "corrected_robot": diagnosis.corrected_robot })
+    let report = Report { engine: None, ..diagnosis.report };
+    json!({ "recording": name, "report": report, "corrected_robot": diagnosis.corrected_robot })
 }
 
 /// The answers to recordings, in their order; as many at once as there are threads.

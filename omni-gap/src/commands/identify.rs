@@ -4,12 +4,11 @@ mod by_experiment;
 
 use std::path::PathBuf;
 
-use model_core::plant::robot::Nominal;
 use omni_gap::check::check;
 use omni_gap::identify::{Asked, Fit, FitSettings, Prior, Shots, WINDOW_S, Windows, fit_tempered, nominal_free};
 use omni_gap::log::{RobotFile, corrected, write_whole};
 use omni_gap::report::num;
-use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded, Slot, supply_seen};
+use omni_gap::simulate::{Model, NOMINAL_KEYS, Recorded, Slot, supply_seen};
 use omni_gap::{Error, Session};
 
 use super::given::GivenSession;
@@ -99,7 +98,7 @@ fn table<const N: usize>(fit: &Fit<N>, robot: &RobotFile, runs: usize) -> String
         let factor = key.factor(&fit.model.factor);
         let stated = robot.relative_uncertainty(key.key).unwrap_or(0.0);
         let fitted = nominal * factor;
-        let std = relative_std(fit, key);
+        let std = fit.relative_std(key).unwrap_or(0.0);
         let bound = key.factors.iter().any(|p| fit.free.iter().any(|f| f.slot == Slot::Nominal(*p) && fit.at_bound(f)));
         let note = if bound {
             "  at its bound: the recordings cannot tell it"
@@ -130,19 +129,4 @@ fn table<const N: usize>(fit: &Fit<N>, robot: &RobotFile, runs: usize) -> String
 fn figures(x: f64) -> String {
     let digits = if x == 0.0 { 0 } else { (3 - x.abs().log10().floor() as i32).clamp(0, 8) };
     format!("{x:.*}", digits as usize)
-}
-
-/// Relative one-sigma uncertainty of a number that is a product of factors, their correlation included.
-fn relative_std<const N: usize>(fit: &Fit<N>, key: &NominalKey) -> f64 {
-    // σ² = Σ Σ cov(a, b) / (f_a · f_b)
-    let at = |p: &Nominal| fit.free.iter().position(|f| f.slot == Slot::Nominal(*p));
-    let mut variance = 0.0;
-    for a in key.factors {
-        for b in key.factors {
-            let (Some(j), Some(k)) = (at(a), at(b)) else { continue };
-            let scale = fit.model.factor[*a as usize] * fit.model.factor[*b as usize];
-            variance += fit.covariance[(j, k)] / scale;
-        }
-    }
-    variance.max(0.0).sqrt()
 }

@@ -31,7 +31,7 @@ pub(super) fn of_cause<const N: usize>(cause: &Cause, fit: &Fit<N>, robot: &Robo
         Cause::Parameter(release) => {
             for key in own_keys(*release) {
                 let value = key.value(robot) * key.factor(&fit.model.factor);
-                let std = relative_std(fit, key).map(|s| s * value);
+                let std = fit.relative_std(key).map(|s| s * value);
                 numbers.insert(key.key.to_owned(), Estimate { value, std, unit: key.unit.to_owned() });
             }
         }
@@ -43,15 +43,6 @@ pub(super) fn of_cause<const N: usize>(cause: &Cause, fit: &Fit<N>, robot: &Robo
 pub(super) fn own_keys(release: Release) -> impl Iterator<Item = &'static NominalKey> {
     let own = move |p: &Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
     NOMINAL_KEYS.iter().filter(move |key| key.factors.iter().any(own))
-}
-
-/// Relative uncertainty of a nominal number after a fit, its factors' correlation left aside.
-fn relative_std<const N: usize>(fit: &Fit<N>, key: &NominalKey) -> Option<f64> {
-    let mut variance = 0.0;
-    for p in key.factors {
-        variance += (fit.std(Slot::Nominal(*p))? / fit.model.factor[*p as usize]).powi(2);
-    }
-    Some(variance.sqrt())
 }
 
 /// The robot file's numbers before and after.
@@ -68,7 +59,7 @@ pub(super) fn parameters<const N: usize>(search: &Search<N>, robot: &RobotFile) 
                 nominal: Some(nominal),
                 nominal_std: robot.relative_uncertainty(key.key).map(|s| s * nominal),
                 corrected,
-                std: relative_std(fit, key).map(|s| s * corrected),
+                std: fit.relative_std(key).map(|s| s * corrected),
             }
         })
         .collect();
