@@ -13,6 +13,7 @@ use omni_gap::engine::{Engine, Evidence, Findings, Knobs, Stepwise};
 use omni_gap::report::Kind;
 use omni_gap::simulate::Carried;
 use omni_gap::stage::{Stage, stage};
+use omni_gap::vocabulary::Progress;
 use omni_gap::{Diagnosis, Options, Verdict, known_effects};
 
 const PLAN: Stage = Stage {
@@ -136,7 +137,7 @@ impl Engine for Deaf {
         7
     }
 
-    fn find(&self, _: &Evidence, knobs: &Knobs, _: &dyn Fn(&str)) -> Findings {
+    fn find(&self, _: &Evidence, knobs: &Knobs, _: Progress<'_>) -> Findings {
         let engine = EngineRecord { name: "deaf".to_owned(), version: 7, knobs: knobs.clone() };
         Findings { engine: Some(engine), verdict: Verdict::NoGap, ..Findings::unfit() }
     }

@@ -8,6 +8,7 @@ use crate::engine::evidence::Unfit;
 use crate::engine::{Engine, Evidence, Findings, Knobs, Stepwise};
 use crate::log::{Session, corrected};
 use crate::report::{About, Fault, Pictures, Report};
+use crate::vocabulary::Progress;
 
 /// How to diagnose.
 #[derive(Clone)]
@@ -17,7 +18,7 @@ pub struct Options<'a> {
     /// Every threshold; [`Knobs::measure`] has the time between restarts of the free runs that measure the gap.
     pub knobs: Knobs,
     /// Told what is being done.
-    pub progress: &'a dyn Fn(&str),
+    pub progress: Progress<'a>,
 }
 
 impl std::fmt::Debug for Options<'_> {

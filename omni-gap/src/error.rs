@@ -26,6 +26,18 @@ pub enum Error {
         /// How to mend it.
         mend: String,
     },
+    /// A recording with a fault that spoils any fit.
+    #[error("{}: {problem} {mend}", file.display())]
+    Faulty {
+        /// The fault's code, as `check` tells it.
+        code: &'static str,
+        /// The run.
+        file: PathBuf,
+        /// Where it is, and what is wrong.
+        problem: String,
+        /// How to mend it.
+        mend: String,
+    },
     /// An output cannot be written.
     #[error("{}: cannot be written: {reason}. {mend}", path.display())]
     Output {

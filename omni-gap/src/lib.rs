@@ -34,6 +34,8 @@ pub mod report;
 
 pub mod diagnosis;
 
+pub mod api;
+
 pub mod stage;
 
 pub mod rehearse;

@@ -5,6 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Told, from any thread, what is being done.
+pub type Progress<'a> = &'a (dyn Fn(&str) + Sync);
+
 /// The answer in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use omni_gap::log::{Columns, RobotFile, Run};
-use omni_gap::simulate::{Recorded, drivable};
 use omni_gap::{Session, known_effects};
 
 use super::{Stop, Voice};
@@ -86,13 +85,6 @@ pub fn robot_and_run(robot: &Path, run: &Path, columns: Option<&Path>, voice: &V
         voice.more(notice);
     }
     Ok(RobotAndRun { robot, run })
-}
-
-impl RobotAndRun {
-    /// The run, ready to be driven along.
-    pub fn recorded<const N: usize>(&self) -> Result<Recorded<N>, Stop> {
-        Ok(drivable(&self.run, &self.robot)?)
-    }
 }
 
 /// A time above zero [s].

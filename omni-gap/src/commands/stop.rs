@@ -1,7 +1,5 @@
 //! Why a command ends before it is done.
 
-use std::path::PathBuf;
-
 /// One message, with how to mend it.
 #[derive(Debug, thiserror::Error)]
 pub enum Stop {
@@ -19,14 +17,4 @@ pub enum Stop {
     /// A session that is named both ways, or not at all.
     #[error("{0}")]
     Unclear(&'static str),
-    /// A recording that nothing may be fitted on.
-    #[error("{}: {sentence} {mend}", file.display())]
-    Faulty {
-        /// The run.
-        file: PathBuf,
-        /// What is wrong.
-        sentence: String,
-        /// How to mend it.
-        mend: String,
-    },
 }

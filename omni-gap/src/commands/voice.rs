@@ -1,9 +1,9 @@
 //! What is said: answers on standard output, progress and timings on standard error.
 
-use std::cell::RefCell;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -17,7 +17,7 @@ pub struct Voice {
     quiet: bool,
     verbose: bool,
     spinner: Option<ProgressBar>,
-    phase: RefCell<Option<(String, Instant)>>,
+    phase: Mutex<Option<(String, Instant)>>,
 }
 
 impl Voice {
@@ -27,7 +27,7 @@ impl Voice {
             let style = ProgressStyle::with_template("{spinner} {msg} ({elapsed})");
             ProgressBar::new_spinner().with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()))
         });
-        Self { quiet, verbose, spinner, phase: RefCell::new(None) }
+        Self { quiet, verbose, spinner, phase: Mutex::new(None) }
     }
 
     /// Says an answer on standard output. A reader who has gone away has heard enough.
@@ -66,18 +66,24 @@ impl Voice {
             spinner.set_message(phrase.to_owned());
             spinner.enable_steady_tick(Duration::from_millis(100));
         }
-        self.phase.replace(Some((phrase.to_owned(), Instant::now())));
+        self.exchange_phase(Some((phrase.to_owned(), Instant::now())));
     }
 
     /// Ends the phase, if there is one.
     pub fn end_phase(&self) {
-        let Some((phrase, since)) = self.phase.take() else { return };
+        let Some((phrase, since)) = self.exchange_phase(None) else { return };
         self.more(format!("{:7.2} s  {phrase}", since.elapsed().as_secs_f64()));
         if let Some(spinner) = &self.spinner {
             spinner.disable_steady_tick();
             spinner.finish_and_clear();
             spinner.reset();
         }
+    }
+
+    /// Puts another phase in the place of the one that was there.
+    fn exchange_phase(&self, next: Option<(String, Instant)>) -> Option<(String, Instant)> {
+        let mut phase = self.phase.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::replace(&mut phase, next)
     }
 
     fn beside_the_spinner(&self, line: &str) {

@@ -3,6 +3,7 @@
 use super::evidence::Evidence;
 use super::findings::Findings;
 use super::knobs::Knobs;
+use crate::vocabulary::Progress;
 
 /// Something that says of recordings where a gap lies, which cause it has and how far it closes.
 ///
@@ -17,5 +18,5 @@ pub trait Engine: Sync {
 
     /// Says what it finds; `progress` is told what is being done. The same evidence and knobs give the same findings,
     /// bit for bit, on any number of threads.
-    fn find(&self, evidence: &Evidence, knobs: &Knobs, progress: &dyn Fn(&str)) -> Findings;
+    fn find(&self, evidence: &Evidence, knobs: &Knobs, progress: Progress<'_>) -> Findings;
 }

@@ -28,7 +28,7 @@ use super::knobs::Knobs;
 use super::seam::Engine;
 use crate::identify::Windows;
 use crate::simulate::{Model, supply_seen};
-use crate::vocabulary::Verdict;
+use crate::vocabulary::{Progress, Verdict};
 use candidate::Cause;
 use distances::Plants;
 use scored::Data;
@@ -47,7 +47,7 @@ impl Engine for Stepwise {
         1
     }
 
-    fn find(&self, evidence: &Evidence, knobs: &Knobs, progress: &dyn Fn(&str)) -> Findings {
+    fn find(&self, evidence: &Evidence, knobs: &Knobs, progress: Progress<'_>) -> Findings {
         let engine = EngineRecord { name: self.name().to_owned(), version: self.version(), knobs: knobs.clone() };
         let found = match &evidence.runs {
             LaidOut::Three(runs) => findings(evidence, runs, knobs, progress),
@@ -57,7 +57,7 @@ impl Engine for Stepwise {
     }
 }
 
-fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, progress: &dyn Fn(&str)) -> Findings {
+fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, progress: Progress<'_>) -> Findings {
     let Runs { fit, held } = runs;
     let robot = &evidence.robot;
     let nominal = Model::<N>::nominal(robot, supply_seen(fit.iter().chain(held)));

@@ -7,6 +7,7 @@ use super::scored::{Data, Scored};
 use crate::engine::knobs::OutcomeKnobs;
 use crate::localise::{floor, measure};
 use crate::simulate::Model;
+use crate::vocabulary::Progress;
 
 /// A cause of the corrected model.
 #[derive(Clone, Debug)]
@@ -59,7 +60,7 @@ impl<const N: usize> Search<N> {
 }
 
 /// Searches causes one by one, until a further one explains no more.
-pub fn search<const N: usize>(data: &Data<'_, N>, nominal: &Model<N>, progress: &dyn Fn(&str)) -> Search<N> {
+pub fn search<const N: usize>(data: &Data<'_, N>, nominal: &Model<N>, progress: Progress<'_>) -> Search<N> {
     progress("fitting the plain model within its stated uncertainty");
     let knobs = &data.knobs.search;
     let mut prior = data.prior.clone();

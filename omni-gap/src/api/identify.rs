@@ -1,0 +1,141 @@
+//! Identify: the best nominal numbers of a robot file, and how sure they are.
+
+use serde::Serialize;
+
+use crate::check::check;
+use crate::error::{Error, Result};
+use crate::identify::{Fit, FitSettings, Prior, Shots, WINDOW_S, Windows, fit_tempered, nominal_free};
+use crate::log::{RobotFile, Session, corrected};
+use crate::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded, Slot, supply_seen};
+
+/// A fit with a larger error per sample leaves something unexplained [σ]
+const MORE_THAN_NOISE: f64 = 1.2;
+/// A number that moved further than this many of its stated sigmas is plainly wrong
+const FAR_BEYOND: f64 = 3.0;
+/// A number that the recordings know no better than this share of what was stated was not told by them
+const NO_SURER: f64 = 0.9;
+
+/// What became of a number in a fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FitRemark {
+    /// It is known better than the file stated.
+    Fitted,
+    /// It ended at a bound: the recordings cannot tell it.
+    AtBound,
+    /// It lies far beyond what the file states of its uncertainty.
+    FarBeyondStated,
+    /// The recordings tell no more of it than the file does.
+    NoSurerThanStated,
+}
+
+/// A fitted number of the robot file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FittedNumber {
+    /// Its key in the robot file.
+    pub key: &'static str,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// The file's value, in that unit; of a wheel's key, the first wheel's.
+    pub nominal: f64,
+    /// What the file states of its relative uncertainty, one sigma.
+    pub stated_relative: f64,
+    /// Fitted over nominal.
+    pub factor: f64,
+    /// The fitted value, in that unit.
+    pub fitted: f64,
+    /// Its relative uncertainty after the fit, one sigma, correlations included.
+    pub relative_std: f64,
+    /// What became of it.
+    pub remark: FitRemark,
+}
+
+/// A robot file's numbers, fitted to recordings within their stated uncertainty.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Identification {
+    /// All nominal numbers, in the order of the file.
+    pub numbers: Vec<FittedNumber>,
+    /// Root mean square of what is left [σ]
+    pub error_sigma: f64,
+    /// How many numbers were compared.
+    pub samples: usize,
+    /// How many runs were fitted to.
+    pub runs: usize,
+    /// True where what is left is more than noise: the model lacks something.
+    pub lacks_something: bool,
+    /// The text of the robot file with the fitted numbers in it.
+    pub robot_text: String,
+}
+
+/// Fits the nominal numbers of a session's robot file to its runs.
+///
+/// # Errors
+/// [`Error::Faulty`] where the recordings have a fault that spoils any fit, [`Error::Input`] where nothing in them can
+/// drive the model.
+pub fn identify(session: &Session) -> Result<Identification> {
+    refuse_faulty(session)?;
+    match session.robot.wheel.len() {
+        3 => identified::<3>(session),
+        _ => identified::<4>(session),
+    }
+}
+
+/// Refuses recordings with a fault that spoils any fit.
+pub(super) fn refuse_faulty(session: &Session) -> Result<()> {
+    let Some(fault) = check(session).into_iter().find(|fault| fault.fatal) else { return Ok(()) };
+    let problem = format!("lines {} to {}: {}", fault.lines.0, fault.lines.1, fault.sentence);
+    Err(Error::Faulty { code: fault.code, file: fault.file, problem, mend: fault.mend })
+}
+
+fn identified<const N: usize>(session: &Session) -> Result<Identification> {
+    let runs: Vec<Recorded<N>> = session.runs.iter().filter_map(|r| Recorded::new(r, &session.robot)).collect();
+    if runs.is_empty() {
+        let problem =
+            "no run has a voltage, a signed current, a wheel speed or a commanded speed to drive the model with";
+        let place = session.runs.first().map_or(std::path::Path::new("runs"), |run| run.place());
+        return Err(Error::input(place, problem, "Log at least one of u, i, w or wset for every wheel"));
+    }
+    let model = Model::<N>::nominal(&session.robot, supply_seen(&runs));
+    let windows: Vec<Windows> = runs.iter().map(|r| Windows::new(r, WINDOW_S)).collect();
+    let runs: Vec<&Recorded<N>> = runs.iter().collect();
+    let (settings, prior) = (FitSettings::default(), Prior::stated(&session.robot));
+    let shots = Shots { runs: &runs, windows: &windows };
+    let fit = fit_tempered(model, shots, None, &nominal_free(&settings), &prior, &settings);
+    let changes: Vec<_> =
+        NOMINAL_KEYS.iter().flat_map(|key| key.scaled(&session.robot, key.factor(&fit.model.factor))).collect();
+    let error_sigma = (fit.cost / fit.samples.max(1) as f64).sqrt();
+    Ok(Identification {
+        numbers: NOMINAL_KEYS.iter().map(|key| fitted_number(&fit, key, &session.robot)).collect(),
+        error_sigma,
+        samples: fit.samples,
+        runs: runs.len(),
+        lacks_something: error_sigma > MORE_THAN_NOISE,
+        robot_text: corrected(&session.robot_text, &changes)?,
+    })
+}
+
+fn fitted_number<const N: usize>(fit: &Fit<N>, key: &NominalKey, robot: &RobotFile) -> FittedNumber {
+    let (nominal, factor) = (key.value(robot), key.factor(&fit.model.factor));
+    let stated = robot.relative_uncertainty(key.key).unwrap_or(0.0);
+    let relative_std = fit.relative_std(key).unwrap_or(0.0);
+    let ended_at = |slot: Slot| fit.free.iter().any(|free| free.slot == slot && fit.at_bound(free));
+    let remark = if key.factors.iter().any(|p| ended_at(Slot::Nominal(*p))) {
+        FitRemark::AtBound
+    } else if stated > 0.0 && factor.ln().abs() > FAR_BEYOND * stated {
+        FitRemark::FarBeyondStated
+    } else if stated > 0.0 && relative_std > NO_SURER * stated {
+        FitRemark::NoSurerThanStated
+    } else {
+        FitRemark::Fitted
+    };
+    FittedNumber {
+        key: key.key,
+        unit: key.unit,
+        nominal,
+        stated_relative: stated,
+        factor,
+        fitted: nominal * factor,
+        relative_std,
+        remark,
+    }
+}

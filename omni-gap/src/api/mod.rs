@@ -1,0 +1,34 @@
+//! # The face for programs
+//!
+//! What the commands do, for programs: owned types in and out, free of how many wheels the robot has, that can be
+//! serialised, sent to another thread and kept. A command parses its arguments, calls one of these, and writes the answer.
+//!
+//! | ask | answer |
+//! |---|---|
+//! | [`diagnose`], [`Diagnosis::of`] | [`Report`], [`Findings`]: where the gap lies, which cause it has, how far it shrinks |
+//! | [`identify`] | [`Identification`]: the robot file's numbers, fitted, and how sure they are |
+//! | [`identify_by_experiment`] | [`Answer`](crate::identify::Answer): the same by the paper's experiments |
+//! | [`validate`] | [`Validated`]: every run simulated over what was measured |
+//! | [`predict`](fn@predict) | [`Run`]: what the model says of each measured column |
+//! | [`simulate`](fn@simulate) | [`Run`]: what the robot of a file would have recorded |
+//!
+//! Sessions come from files ([`Session::load`]) or from memory ([`Session`] has public fields). Whatever is wrong with
+//! them is an [`Error`] that says where it stands and how to mend it; recordings that cannot be used are no error of
+//! [`diagnose`] but its answer, `unfit_data`.
+
+mod experiments;
+mod identify;
+mod predict;
+mod simulate;
+
+pub use crate::diagnosis::{Diagnosis, Options, diagnose};
+pub use crate::engine::{Findings, Knobs};
+pub use crate::error::Error;
+pub use crate::known::known_effects;
+pub use crate::localise::validation::{Validated, validate};
+pub use crate::log::{RobotFile, Run, Session};
+pub use crate::report::Report;
+pub use experiments::identify_by_experiment;
+pub use identify::{FitRemark, FittedNumber, Identification, identify};
+pub use predict::predict;
+pub use simulate::simulate;
