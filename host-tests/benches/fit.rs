@@ -9,13 +9,11 @@ use std::time::Duration;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use host_tests::catalogue::sessions::truth;
 use model_core::plant::robot::Nominal;
-use omni_gap::identify::{Free, Prior, Shots, Windows, fit};
+use omni_gap::identify::{Free, Prior, Shots, WINDOW_S, Windows, fit};
 use omni_gap::known_effects;
 use omni_gap::simulate::{Model, Recorded, Slot};
 use omni_gap::stage::{Stage, stage};
 
-/// Length of a window [s]
-const WINDOW_S: f64 = 0.5;
 /// Steps of the fit at the most.
 const ROUNDS: usize = 10;
 /// How far from the truth a fitted number may be, in its own sigma.

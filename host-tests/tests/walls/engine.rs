@@ -29,7 +29,7 @@ pub fn thresholds(source: &Source) -> Vec<Finding> {
 
 /// True for a line such as `pub const TIE: (f64, f64) = …;` and not for `fn f<const N: usize>`.
 fn constant_of_numbers(line: &str) -> bool {
-    let words: Vec<&str> = line.trim_start().split_whitespace().collect();
+    let words: Vec<&str> = line.split_whitespace().collect();
     let item = words.iter().position(|word| matches!(*word, "const" | "static"));
     let starts = item
         .is_some_and(|at| words[..at].iter().all(|word| word.starts_with("pub")) && words.get(at + 1) != Some(&"fn"));

@@ -7,6 +7,7 @@ use crate::report::markup::Markup;
 use crate::report::model::Report;
 use crate::report::number::{num, percent};
 use crate::report::words;
+use crate::simulate::HORIZON_S;
 
 /// The longest bar, so that its number still fits beside it (% of the row).
 const LONGEST: f64 = 84.0;
@@ -26,9 +27,12 @@ pub(super) fn how_large(m: &mut Markup, report: &Report) {
     if rows.is_empty() {
         return;
     }
-    let how = "Root mean square of measured minus predicted, in units of each sensor’s stated sigma, over free runs of \
-               0.5 s on runs held out. The upright mark is the noise floor: a perfect model would end there.";
-    section(m, "How large is the gap?", how, |m| {
+    let horizon_s = report.engine.as_ref().map_or(HORIZON_S, |engine| engine.knobs.measure.horizon_s);
+    let how = format!(
+        "Root mean square of measured minus predicted, in units of each sensor’s stated sigma, over free runs of \
+         {horizon_s} s on runs held out. The upright mark is the noise floor: a perfect model would end there."
+    );
+    section(m, "How large is the gap?", &how, |m| {
         legend(m);
         let top = rows.iter().flat_map(|(_, g)| [g.before, g.after, g.noise_floor]).fold(0.0, f64::max);
         let width = |x: f64| LONGEST * x.max(0.0) / top.max(f64::MIN_POSITIVE);

@@ -7,9 +7,7 @@ use crate::report::html::{notes, page, section};
 use crate::report::markup::Markup;
 use crate::report::number::num;
 use crate::report::words::sentence;
-
-/// The restart whose error stands at the head of the page, where it was asked for [s]
-const SHOWN_S: f64 = 0.5;
+use crate::simulate::HORIZON_S;
 
 /// The whole page: `traces` are the runs that are drawn, in their order.
 pub fn html(validation: &Validation, traces: &[RunTraces]) -> String {
@@ -56,7 +54,7 @@ fn head(m: &mut Markup, validation: &Validation) {
                 let note = allowed.unwrap_or("it hardly varies beyond its noise".into());
                 figure(m, &format!("fit of {}, all runs", words::short(figures.signal)), &fit, &note);
             }
-            let shown = |h: &&HorizonFigures| h.horizon_s == SHOWN_S;
+            let shown = |h: &&HorizonFigures| h.horizon_s == HORIZON_S;
             if let Some(h) = validation.horizons.iter().find(shown).or(validation.horizons.first()) {
                 let name = format!("error, restarted every {}\u{a0}s", h.horizon_s);
                 let note = format!("noise floor {}", num(h.total.noise_floor_sigma));
