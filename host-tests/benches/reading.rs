@@ -1,10 +1,13 @@
-//! How fast a log is read: 60,000 rows of 16 columns, which is a minute of four wheels at 1,000 rows a second.
+//! How fast a log is read and checked: 60,000 rows of 16 columns, which is a minute of four wheels at 1,000 rows a second.
 
 use std::fmt::Write;
+use std::path::Path;
 use std::time::Duration;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use omni_gap::log::{Run, write_whole};
+use omni_gap::check::check_run;
+use omni_gap::known_effects;
+use omni_gap::log::{RobotFile, Run, write_whole};
 
 const ROWS: usize = 60_000;
 const HEADER: &str =
@@ -38,6 +41,10 @@ fn bench(c: &mut Criterion) {
     group.bench_function("60,000 rows of 16 columns", |b| {
         b.iter(|| Run::load(&path, 4, None).expect("the log is sound"));
     });
+    let robot = include_str!("../../examples/feup-4w/robot.toml");
+    let robot = RobotFile::parse(robot, Path::new("robot.toml"), &known_effects()).expect("the example is sound");
+    let (run, _) = Run::load(&path, 4, None).expect("the log is sound");
+    group.bench_function("their check", |b| b.iter(|| check_run(&run, &robot)));
     group.finish();
     let _ = std::fs::remove_file(&path);
 }

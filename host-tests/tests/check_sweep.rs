@@ -74,6 +74,33 @@ fn no_effect_of_the_robot_is_taken_for_a_fault_of_the_recording() {
 }
 
 #[test]
+fn no_effect_at_a_bound_of_its_card_is_taken_for_a_fault_of_the_recording() {
+    for (name, robot, wheels) in ROBOTS {
+        for effect in effects_at(1.0, wheels) {
+            for (k, param) in effect.card().params.iter().enumerate().filter(|(_, p)| p.role == Role::Size) {
+                for bound in [param.within.0, param.within.1] {
+                    let mut hidden = effect.clone();
+                    hidden.params[k] = bound;
+                    let plan = Stage { runs: 2, seed: 11, hidden: vec![hidden], ..plan() };
+                    assert_eq!(words(&check(&staged(robot, &plan))), [""; 0], "{name}, {plan:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_hidden_raises_nothing_at_any_rate_or_drive() {
+    for (name, robot, _) in ROBOTS {
+        for seed in 0..10 {
+            let (rate, voltage) = ([25.0, 100.0, 500.0][seed as usize % 3], [3.0, 8.0][seed as usize % 2]);
+            let plan = Stage { seed, rate, voltage, ..plan() };
+            assert_eq!(words(&check(&staged(robot, &plan))), [""; 0], "{name}, {plan:?}");
+        }
+    }
+}
+
+#[test]
 fn wheels_that_slip_in_one_run_of_a_session_are_not_swapped() {
     let slip = effects::find::<f64>("wheel_slip").expect("the catalogue has it").card();
     for (name, robot, _) in ROBOTS {

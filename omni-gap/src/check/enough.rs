@@ -61,21 +61,18 @@ fn too_little(runs: &[&Run]) -> Option<Fault> {
 /// Whether neither wheels nor pose say that the robot moves; false where neither was logged.
 fn stands_still(run: &Run, robot: &RobotFile) -> bool {
     let sensors = &robot.sensors;
+    let rows = ((0.1 / run.median_step_s().max(1e-6)) as usize).max(1);
     let wheels = run.w.iter().flat_map(|w| w.channels.iter().zip(&robot.wheel));
-    let mut still: Vec<bool> = wheels.map(|(channel, wheel)| slow(run, channel, STILL_M_S / wheel.radius_m)).collect();
-    let within = [
-        STILL_M.max(NOISES * sensors.position_noise_m),
-        STILL_M.max(NOISES * sensors.position_noise_m),
-        STILL_RAD.max(NOISES * sensors.heading_noise_rad),
-    ];
-    still.extend(run.pose.iter().flat_map(|pose| pose.channels.iter().zip(within)).map(|(c, within)| stays(c, within)));
-    still.extend(run.gyro.iter().map(|gyro| slow(run, gyro, STILL_RAD)));
-    !still.is_empty() && still.iter().all(|still| *still)
+    let mut slow_wheels = wheels.map(|(channel, wheel)| slow(channel, rows, STILL_M_S / wheel.radius_m));
+    let gyro = run.gyro.as_ref().is_none_or(|gyro| slow(gyro, rows, STILL_RAD));
+    let at_m = STILL_M.max(NOISES * sensors.position_noise_m);
+    let within = [at_m, at_m, STILL_RAD.max(NOISES * sensors.heading_noise_rad)];
+    let mut pose = run.pose.iter().flat_map(|pose| pose.channels.iter().zip(within));
+    (run.w.is_some() || run.pose.is_some()) && gyro && slow_wheels.all(|slow| slow) && pose.all(|(c, m)| stays(c, m))
 }
 
-/// Whether the means of a channel over a tenth of a second stay below a limit, on nearly all of the run.
-fn slow(run: &Run, channel: &Channel, limit: f64) -> bool {
-    let rows = ((0.1 / run.median_step_s().max(1e-6)) as usize).max(1);
+/// Whether the means of a channel over some rows stay below a limit, on nearly all of the run.
+fn slow(channel: &Channel, rows: usize, limit: f64) -> bool {
     let all: Vec<f64> = channel.present().map(|(_, value)| value).collect();
     let mut means: Vec<f64> =
         all.chunks(rows).map(|part| (part.iter().sum::<f64>() / part.len() as f64).abs()).collect();

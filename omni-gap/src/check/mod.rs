@@ -4,10 +4,15 @@
 //! this kind are used (a motor's volts against its speed and current, wheels against the body), and only differences far
 //! beyond what wrong parameters or unmodelled effects can make.
 //!
-//! Reading order: [`Fault`]; `rows` with one file per idea about a single run: `time`, `frozen`, `saturated`, `repeated`,
-//! `bunched`, `pushed`; then the relations, judged on all runs of a session (`agree`): `motor` (volts, currents and speeds
-//! of each wheel, from the sums in `gram`) and `pose` (wheels against the pose, over `windows`, with the guesses of
-//! `frame`). `order` lists the ways in which wheels can have changed places, `body` turns wheel speeds into body speed.
+//! Reading order: [`Fault`]; `rows` with one file per idea about a single run: `absurd`, `time`, `time_unit`, `frozen`,
+//! `saturated`, `glitch`, `repeated`, `held`, `rectified`, `bunched`, `pushed`; then the relations, judged on all runs of a
+//! session (`agree`): `motor` (volts, currents and speeds of each wheel, from the sums in `gram`; `duty`) and `pose` (wheels
+//! against the pose, over `windows`, with the guesses of `frame`; `quaternion`); then the session as a whole: `same` and
+//! `enough`; `grouped` tells once what many runs share. `order` lists the ways in which wheels can have changed places,
+//! `body` turns wheel speeds into body speed.
+//!
+//! Left to the diagnosis, since a robot can have it as well as a recording: encoders or currents that are late (a filter, a
+//! drive's delay), a wheel speed that drops out for a row, a camera that is off by a few per cent or degrees.
 
 mod absurd;
 mod agree;
