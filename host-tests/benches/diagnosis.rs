@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use host_tests::catalogue::sessions::truth;
-use model_core::effects;
+use model_core::effects::EffectKind;
 use omni_gap::log::Session;
 use omni_gap::simulate::Carried;
 use omni_gap::stage::{Stage, stage};
@@ -16,7 +16,7 @@ use omni_gap::{Options, diagnose, known_effects};
 const DURATIONS: [f64; 3] = [6.0, 3.0, 1.5];
 
 fn session(duration: f64) -> Session {
-    let card = effects::find::<f64>("dead_time").expect("an effect of the catalogue").card();
+    let card = EffectKind::find("dead_time").expect("an effect of the catalogue").card();
     let plan = Stage { hidden: vec![Carried::typical(card, None)], duration, ..Stage::default() };
     stage(truth(4), &plan, &known_effects()).expect("the example is sound")
 }

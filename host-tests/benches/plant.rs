@@ -1,7 +1,7 @@
 //! Plant steps a second, on one core: the plain four-wheel model at 1 kHz, each effect alone, and three together.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use model_core::effects;
+use model_core::effects::{EffectKind, EffectState};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::dual::Dual;
 use model_core::number::scalar::Real;
@@ -19,7 +19,7 @@ fn model(effects: &[&str]) -> Model<4> {
     let file = RobotFile::parse(text, Path::new("robot.toml"), &known_effects()).expect("the example is sound");
     let mut model = Model::nominal(&file, 12.0);
     for id in effects {
-        let card = effects::find::<f64>(id).expect("an id of the catalogue").card();
+        let card = EffectKind::find(id).expect("an id of the catalogue").card();
         let wheel = (card.scope == model_core::effects::card::Scope::OneWheel).then_some(2);
         model.carry(Carried::typical(card, wheel));
     }
@@ -27,7 +27,7 @@ fn model(effects: &[&str]) -> Model<4> {
 }
 
 /// A run with steps and reversals, as a diagnosis would simulate it.
-fn run<T: Real>(plant: &Plant<4, T>, memory: &mut [T]) -> T {
+fn run<T: Real>(plant: &Plant<4, T>, memory: &mut [EffectState<T>]) -> T {
     let mut state = plant.start(T::zero(), Pose::default(), BodyTwist::default());
     let mut sum = T::zero();
     for k in 0..STEPS {
@@ -43,7 +43,7 @@ fn bench(c: &mut Criterion) {
     group.throughput(Throughput::Elements(STEPS as u64));
     let mut one = |name: &str, effects: &[&str]| {
         let plant = model(effects).plant();
-        let mut memory = vec![0.0; plant.memory_len()];
+        let mut memory = plant.memory().collect::<Vec<_>>();
         group.bench_function(name, |b| b.iter(|| black_box(run(black_box(&plant), &mut memory))));
     };
     one("plain", &[]);
@@ -56,7 +56,7 @@ fn bench(c: &mut Criterion) {
         &["motor_mismatch", "gear_efficiency", "coriolis"],
     );
     one("three heavy: dead_time, stribeck, wheel_slip", &["dead_time", "stribeck", "wheel_slip"]);
-    for effect in effects::catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         one(effect.card().id, &[effect.card().id]);
     }
     let plant = model(&[]).plant_with(|_, x| Dual::<8>::variable(x, 0));

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use host_tests::catalogue::page::{Promise, read_promises};
 use host_tests::catalogue::sessions::{HiddenCause, WHEELS, cases, truth};
-use model_core::effects;
+use model_core::effects::EffectKind;
 use omni_gap::report::{Report, Verdict, terminal};
 use omni_gap::simulate::Carried;
 use omni_gap::stage::{Stage, stage};
@@ -25,7 +25,7 @@ fn answers(page: &str) -> Vec<Vec<&str>> {
 fn the_page_speaks_of_every_effect_on_three_and_on_four_wheels_and_of_nothing_else() {
     let page = golden();
     let rows = answers(&page);
-    for effect in effects::catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         for wheels in WHEELS {
             let (name, wheels) = (format!("`{}`", effect.card().id), wheels.to_string());
             let speaks = |cells: &&Vec<&str>| cells[1] == wheels && cells[2].split(" on ").next() == Some(&name);
@@ -76,7 +76,7 @@ fn expect(report: &Report, verdict: Verdict, first: Option<&str>) {
 }
 
 fn hiding(id: &str, seed: u64) -> Stage {
-    let card = effects::find::<f64>(id).expect("an effect of the catalogue").card();
+    let card = EffectKind::find(id).expect("an effect of the catalogue").card();
     Stage { hidden: vec![Carried::typical(card, None)], seed, ..Stage::default() }
 }
 
@@ -92,7 +92,7 @@ fn an_effect_is_found_on_three_wheels() {
     let report = small(3, hiding("camera_latency", 3001));
     expect(&report, Verdict::Effect, Some("camera_latency"));
     let said = &report.cause("camera_latency").expect("it was found").parameters["latency_s"];
-    let truth = effects::find::<f64>("camera_latency").expect("it is known").card().params[0].typical;
+    let truth = EffectKind::find("camera_latency").expect("it is known").card().params[0].typical;
     // a tenth of the truth: the short runs' own uncertainty is about half of that
     assert!((said.value - truth).abs() < 0.1 * truth, "{said:?} and not {truth}");
 }

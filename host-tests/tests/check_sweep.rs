@@ -3,7 +3,7 @@
 //! The robots are staged, so their truth is known: whatever effect they have and however wrong their file is, their
 //! recordings are sound and raise nothing. Then faults of recordings are put in, and each must be found and named.
 
-use model_core::effects;
+use model_core::effects::EffectKind;
 use model_core::effects::card::{Role, Scope};
 use omni_gap::check::{Fault, check};
 use omni_gap::log::{Channel, Group, RobotFile, Run, Session};
@@ -30,7 +30,7 @@ fn words(faults: &[Fault]) -> Vec<String> {
 /// Every effect at `times` its typical size, on the robot, on all wheels and on single ones.
 fn effects_at(times: f64, wheels: usize) -> Vec<Carried> {
     let mut all = Vec::new();
-    for effect in effects::catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         let places = match card.scope {
             Scope::Robot => vec![None],
@@ -102,7 +102,7 @@ fn nothing_hidden_raises_nothing_at_any_rate_or_drive() {
 
 #[test]
 fn wheels_that_slip_in_one_run_of_a_session_are_not_swapped() {
-    let slip = effects::find::<f64>("wheel_slip").expect("the catalogue has it").card();
+    let slip = EffectKind::find("wheel_slip").expect("the catalogue has it").card();
     for (name, robot, _) in ROBOTS {
         let hidden = vec![Carried::typical(slip, None)];
         let plan = Stage { runs: 6, duration: 4.0, seed: 2008, hidden, ..plan() };

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use host_tests::catalogue::outcome::diagnose_case;
 use host_tests::catalogue::page::by_engine;
 use host_tests::catalogue::sessions::{short_cases, truth};
-use model_core::effects;
+use model_core::effects::EffectKind;
 use model_core::effects::card::Scope;
 use omni_gap::engine::findings::{ConsideredCause, EngineRecord, EstimatedBy};
 use omni_gap::engine::{Engine, Evidence, Findings, Knobs, Stepwise};
@@ -37,7 +37,7 @@ static NOTHING: LazyLock<Diagnosis> = LazyLock::new(|| found(&PLAN, Knobs::defau
 
 /// A robot with dead time in its bridges.
 static DEAD_TIME: LazyLock<Diagnosis> = LazyLock::new(|| {
-    let card = effects::find::<f64>("dead_time").expect("it is known").card();
+    let card = EffectKind::DeadTime.card();
     found(&Stage { hidden: vec![Carried::typical(card, None)], ..PLAN }, Knobs::default())
 });
 
@@ -53,7 +53,7 @@ fn findings_come_back_from_a_file_as_they_went_in() {
 #[test]
 fn every_cause_is_considered_at_every_place_where_it_can_sit() {
     let first: Vec<&ConsideredCause> = NOTHING.findings.considered.iter().filter(|c| c.round == 0).collect();
-    for effect in effects::catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         let mut places: Vec<Option<usize>> = if card.scope == Scope::OneWheel { vec![] } else { vec![None] };
         if card.scope != Scope::Robot {
@@ -96,7 +96,7 @@ fn a_hidden_effect_is_taken_up_with_its_size_and_its_score() {
     let first = taken.iter().find(|c| c.round == 0).expect("the first cause was taken up in the first round");
     assert_eq!((first.id.as_str(), first.wheel, first.estimated_by), ("dead_time", None, EstimatedBy::Fit));
     assert!(first.gain.is_some_and(|gain| gain > 100.0), "{:?}", first.gain);
-    let card = effects::find::<f64>("dead_time").expect("it is known").card();
+    let card = EffectKind::DeadTime.card();
     let number = first.numbers.iter().find(|n| n.key == card.params[0].key).expect("its size");
     let (value, std) = (number.value.expect("fitted"), number.std.expect("fitted"));
     assert!((value - card.params[0].typical).abs() < 5.0 * std, "{value} ± {std}");
@@ -120,7 +120,7 @@ fn a_report_says_which_engine_made_it_with_which_knobs() {
 fn a_knob_that_is_turned_changes_the_answer() {
     let mut deaf = Knobs::default();
     deaf.screen.promising = f64::MAX;
-    let card = effects::find::<f64>("dead_time").expect("it is known").card();
+    let card = EffectKind::DeadTime.card();
     let plan = Stage { hidden: vec![Carried::typical(card, None)], ..PLAN };
     assert_eq!(found(&plan, deaf).report.causes, [""; 0]);
 }

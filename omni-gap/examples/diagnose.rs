@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use model_core::effects::find;
+use model_core::effects::EffectKind;
 use omni_gap::api::{Diagnosis, Error, Options, Session, known_effects};
 use omni_gap::simulate::Carried;
 use omni_gap::stage::{Stage, stage};
@@ -27,7 +27,7 @@ pub fn main() -> Result<(), Error> {
 
 fn recorded() -> Result<Session, Error> {
     let robot = include_str!("../../examples/feup-4w/robot.toml");
-    let hidden = find::<f64>("dead_time").map(|effect| Carried::typical(effect.card(), None));
-    let plan = Stage { hidden: hidden.into_iter().collect(), runs: 8, duration: 3.0, rate: 200.0, ..Stage::default() };
+    let hidden = Carried::typical(EffectKind::DeadTime.card(), None);
+    let plan = Stage { hidden: vec![hidden], runs: 8, duration: 3.0, rate: 200.0, ..Stage::default() };
     stage(robot, &plan, &known_effects())
 }

@@ -1,10 +1,13 @@
 //! What robot files may name, as the catalogue's cards say.
 
-use model_core::effects;
+use model_core::effects::EffectKind;
 use model_core::effects::active::MAX_EFFECTS;
 use model_core::effects::card::Role;
 
 use crate::log::{Catalogue, KnownEffect, KnownParam};
+
+/// The most effects that a file may name: a diagnosis needs room for those that it adds.
+const MOST_IN_A_FILE: usize = MAX_EFFECTS - 4;
 
 /// The effects that this program knows.
 pub fn known_effects() -> Catalogue {
@@ -22,8 +25,5 @@ pub fn known_effects() -> Catalogue {
             })
             .collect(),
     };
-    Catalogue {
-        effects: effects::catalogue::<f64>().iter().map(|e| effect(e.card())).collect(),
-        most_at_once: MAX_EFFECTS,
-    }
+    Catalogue { effects: EffectKind::ALL.iter().map(|e| effect(e.card())).collect(), most_at_once: MOST_IN_A_FILE }
 }

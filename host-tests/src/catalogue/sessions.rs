@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use model_core::effects;
+use model_core::effects::EffectKind;
 use model_core::effects::card::Scope;
 use omni_gap::error::Result;
 use omni_gap::known_effects;
@@ -117,7 +117,7 @@ pub fn short_cases() -> Vec<BenchmarkCase> {
 }
 
 fn numbered(first_seed: u64, nothing_each: usize, length: Length) -> Vec<BenchmarkCase> {
-    let effects = effects::catalogue::<f64>().iter().map(|effect| {
+    let effects = EffectKind::ALL.iter().map(|effect| {
         let card = effect.card();
         HiddenCause::Effect(Carried::typical(card, (card.scope == Scope::OneWheel).then_some(ODD_WHEEL)))
     });
@@ -181,7 +181,7 @@ mod tests {
     fn there_are_as_many_sessions_as_the_promise_speaks_of_each_with_its_own_seed() {
         let all = cases();
         let count = |of: fn(&HiddenCause) -> bool| all.iter().filter(|case| of(&case.hidden)).count();
-        assert_eq!(count(|h| matches!(h, HiddenCause::Effect(_))), 2 * effects::catalogue::<f64>().len());
+        assert_eq!(count(|h| matches!(h, HiddenCause::Effect(_))), 2 * EffectKind::ALL.len());
         assert_eq!(count(|h| matches!(h, HiddenCause::Nothing)), 10);
         assert_eq!(count(|h| matches!(h, HiddenCause::Parameter(_))), 6);
         assert!(all.windows(2).all(|pair| pair[1].seed == pair[0].seed + 1));

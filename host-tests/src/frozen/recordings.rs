@@ -145,7 +145,7 @@ fn reduced(case: BenchmarkCase) -> FrozenCase {
 }
 
 fn card(id: &str) -> &'static model_core::effects::card::Card {
-    model_core::effects::find::<f64>(id).expect("the catalogue has it").card()
+    model_core::effects::EffectKind::find(id).expect("the catalogue has it").card()
 }
 
 #[cfg(test)]

@@ -7,8 +7,8 @@
 
 use std::path::{Path, PathBuf};
 
+use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
-use model_core::effects::catalogue;
 use model_core::geometry::frames::BodyTwist;
 use model_core::plant::robot::Robot;
 use omni_gap::log::{RobotFile, Session, write_whole, write_whole_with};
@@ -158,8 +158,8 @@ fn drive<B: BoardProgram, const N: usize>(
     let file_read = RobotFile::load(file, &known_effects()).expect("a robot file");
     let block = export(&file_read, file).expect("a robot file that can be exported");
     let mut effects = Effects::default();
-    let effect = catalogue::<f64>().iter().find(|effect| effect.card().id == hidden.id).expect("an effect's id");
-    effects.add(*effect, hidden.wheel, hidden.params).expect("parameters of its card");
+    let effect = EffectKind::find(hidden.id).expect("an effect's id");
+    effects.add(effect, hidden.wheel, hidden.params).expect("parameters of its card");
     let board = VirtualBoard::new(BoardSetup::new(robot, effects, seed));
     let mut run = ClosedLoopRun::new(program, board);
     run.send_bytes_of_block(&block.bytes);

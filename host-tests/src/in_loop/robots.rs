@@ -13,7 +13,7 @@
 //! truth = belief·e^(σ·n), n ~ N(0, 1). Besides, the battery sags, the converters have offsets and noise, and the hall
 //! switches sit up to 5° (electrical) off their places.
 
-use model_core::effects;
+use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
 use model_core::geometry::kinematics::Wheels;
 use model_core::link::block::{Block, BlockEffects, ControlMode, Limits, Parameters};
@@ -116,7 +116,6 @@ pub fn perturbed<const N: usize>(believed: &Robot<N, f64>, seed: u64) -> Robot<N
 /// A board with a robot that is off, on a battery that sags.
 pub fn board<const N: usize>(believed: &Robot<N, f64>, seed: u64) -> BoardSetup<N> {
     let mut besides = Effects::default();
-    let sag = effects::find("supply_sag").expect("an effect of the catalogue");
-    besides.add(sag, None, &[SAG, 0.0]).expect("room for one");
+    besides.add(EffectKind::SupplySag, None, &[SAG, 0.0]).expect("room for one");
     BoardSetup { hall_spread: HALL_SPREAD, ..BoardSetup::new(perturbed(believed, seed), besides, seed) }
 }

@@ -20,6 +20,8 @@ use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
 use model_core::effects::active::{ActiveEffect, Effects};
 use model_core::effects::card::Seam;
+use model_core::effects::electrical::supply_sag::SupplySag;
+use model_core::effects::{Effect, EffectSet, EffectState};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant, State};
@@ -28,7 +30,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::adc::{AdcChannel, FULL_SCALE};
 use super::battery::Battery;
-use super::faults::{BLOCKED, InjectedFault};
+use super::faults::{InjectedFault, OnBoard};
 use super::halls::HallSwitches;
 use super::machine::{BridgeLegs, LegLoss, Machine, PeriodResult, RotorFlux, Vector, phases};
 
@@ -115,10 +117,10 @@ struct BoardMotor {
 pub struct VirtualBoard<const N: usize> {
     setup: BoardSetup<N>,
     /// The effects that the plant carries
-    plant_effects: Effects<N, f64>,
-    plant: Plant<N, f64>,
+    plant_effects: Effects<N, f64, OnBoard>,
+    plant: Plant<N, f64, OnBoard>,
     state: State<N, f64>,
-    memory: Vec<f64>,
+    memory: Vec<EffectState<f64>>,
     motors: [BoardMotor; N],
     battery: Battery,
     bus: f64,
@@ -144,20 +146,21 @@ impl<const N: usize> VirtualBoard<N> {
         let motors = std::array::from_fn(|j| BoardMotor::new(&setup, j, &mut rng));
         let mut battery = Battery { open_circuit: setup.robot.supply, resistance: 0.0 };
         for sag in setup.effects.at(Seam::Supply) {
-            if let [resistance, open_circuit] = *sag.params() {
-                battery.resistance = resistance;
-                battery.open_circuit = if open_circuit > 0.0 { open_circuit } else { battery.open_circuit };
+            if let Effect::SupplySag(SupplySag { internal_resistance, open_circuit_voltage: open }) = sag.effect {
+                battery.resistance = internal_resistance;
+                battery.open_circuit = if open > 0.0 { open } else { battery.open_circuit };
             }
         }
-        let delayed = setup.effects.iter().any(|active| active.effect.card().id == "actuation_delay");
+        let delayed = setup.effects.iter().any(|active| matches!(active.effect, Effect::ActuationDelay(_)));
         assert!(!delayed, "actuation_delay has no place on the board: send the commands late");
-        let mut carried = Effects::default();
+        let mut carried = Effects::none();
         for active in setup.effects.iter().filter(|active| in_plant(active)) {
-            carried.add(active.effect, active.wheel, active.params()).expect("it was in a set of the same size");
+            let effect = OnBoard::Effect(active.effect);
+            carried.put(effect, active.wheel).expect("it was in a set of the same size");
         }
         let plant = Plant::new(setup.robot, carried);
         let state = plant.start(0.0, pose, twist);
-        let mut memory = vec![0.0; plant.memory_len()];
+        let mut memory = plant.memory().collect::<Vec<_>>();
         plant.restart(&state, &mut memory);
         Self {
             plant_effects: carried,
@@ -253,7 +256,7 @@ impl<const N: usize> VirtualBoard<N> {
         let mut effects = self.plant_effects;
         for fault in &self.faults {
             if let InjectedFault::Blocked { motor } = *fault {
-                effects.add(&BLOCKED, Some(motor), &[]).expect("room for a blocked wheel");
+                effects.put(OnBoard::BlockedWheel, Some(motor)).expect("room for a blocked wheel");
             }
         }
         self.plant = Plant::new(self.setup.robot, effects);
@@ -310,17 +313,18 @@ impl BoardMotor {
     /// Motor `j` with its mismatch, dead time and whatever is drawn.
     fn new<const N: usize>(setup: &BoardSetup<N>, j: usize, rng: &mut ChaCha8Rng) -> Self {
         let motor = setup.robot.motor;
-        let params = |id: &str| {
-            let on = |active: &&ActiveEffect<f64>| active.effect.card().id == id && active.on(j);
-            setup.effects.iter().find(on).map_or(Vec::new(), |active| active.params().to_vec())
-        };
-        let (k, rho) = if let [k, rho] = params("motor_mismatch")[..] { (k, rho) } else { (1.0, 1.0) };
+        let (mut k, mut rho, mut loss, mut sensor_offset) = (1.0, 1.0, None, 0.0);
+        for active in setup.effects.iter().filter(|active| active.on(j)) {
+            match active.effect {
+                Effect::MotorMismatch(odd) => (k, rho) = (odd.torque_constant_ratio, odd.resistance_ratio),
+                Effect::DeadTime(d) => loss = Some(LegLoss::dc_equivalent(d.voltage_loss, d.smoothing_current)),
+                Effect::CurrentSensorOffset(sensor) => sensor_offset = sensor.offset,
+                _ => {}
+            }
+        }
         let mut machine =
             Machine::dc_equivalent(rho * motor.resistance, setup.inductance, k * motor.emf_constant, setup.pole_pairs);
-        if let [voltage, smoothing] = params("dead_time")[..] {
-            machine.loss = Some(LegLoss::dc_equivalent(voltage, smoothing));
-        }
-        let sensor_offset = if let [offset] = params("current_sensor_offset")[..] { offset } else { 0.0 };
+        machine.loss = loss;
         let mut within = |most: f64| most * rng.random_range(-1.0..=1.0);
         let channels = [(); 3].map(|()| AdcChannel {
             step: setup.amps_per_count,
@@ -344,7 +348,7 @@ impl BoardMotor {
 }
 
 /// True for an effect that acts where the plant is: all but those of battery and bridge.
-fn in_plant(active: &ActiveEffect<f64>) -> bool {
+fn in_plant(active: &ActiveEffect<Effect<f64>>) -> bool {
     active.effect.card().seams.iter().any(|seam| !matches!(seam, Seam::Supply | Seam::Bridge))
 }
 

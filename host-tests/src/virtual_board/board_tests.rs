@@ -1,7 +1,7 @@
 //! The board against the plant of the core under the same voltages, and what its faults do to the codes.
 
 use super::*;
-use model_core::effects::find;
+use model_core::effects::EffectKind;
 use model_core::plant::paper::{four_wheels, three_wheels};
 
 /// What a program that knows the rotor's angle and the nominal supply would write, DC-equivalent voltages [V] in the
@@ -24,7 +24,8 @@ fn driven<const N: usize>(board: &VirtualBoard<N>, voltage: [f64; N]) -> Outputs
 fn effects<const N: usize>(wanted: &[(&str, Option<usize>, &[f64])]) -> Effects<N, f64> {
     let mut all = Effects::default();
     for (id, wheel, params) in wanted {
-        all.add(find(id).expect("in the catalogue"), *wheel, params).expect("a seat that its card allows");
+        all.add(EffectKind::find(id).expect("in the catalogue"), *wheel, params)
+            .expect("a placement that its card allows");
     }
     all
 }
@@ -34,7 +35,7 @@ fn alike<const N: usize>(robot: Robot<N, f64>, effects: Effects<N, f64>, voltage
     let mut board = VirtualBoard::new(BoardSetup::new(robot, effects, 3).ideal());
     let plant = Plant::new(robot, effects);
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
-    let mut memory = vec![0.0; plant.memory_len()];
+    let mut memory = plant.memory().collect::<Vec<_>>();
     for _ in 0..1500 {
         let mut mean = [0.0; N];
         for _ in 0..20 {
@@ -61,7 +62,7 @@ fn apart<const N: usize>(robot: Robot<N, f64>, effects: Effects<N, f64>, voltage
     let run = |effects: Effects<N, f64>| {
         let plant = Plant::new(robot, effects);
         let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
-        let mut memory = vec![0.0; plant.memory_len()];
+        let mut memory = plant.memory().collect::<Vec<_>>();
         (0..1500).map(move |_| {
             plant.step(&mut state, &mut memory, &Input::Voltage(voltage), 1e-3);
             (state.twist.to_array(), state.current)
@@ -97,7 +98,7 @@ fn every_effect_is_where_it_belongs() {
         // sinusoidal currents round the corner of the loss, and the loss has a d part: a fifth of 0.3 V is 0.015 m/s
         ("dead_time", None, &[0.3, 0.05], 0.015),
     ] {
-        let card = find::<f64>(id).expect("in the catalogue").card();
+        let card = EffectKind::find(id).expect("in the catalogue").card();
         assert_eq!(card.params.len(), params.len(), "{id}");
         let with = effects(&[(id, wheel, params)]);
         assert!(apart(four_wheels(), with, voltage) > 2.0 * tolerance, "{id} would not be missed");
@@ -217,9 +218,9 @@ fn a_blocked_wheel_stands_while_its_motor_pulls() {
 #[test]
 fn a_blocked_wheel_that_can_slip_is_dragged_along() {
     let mut effects = Effects::default();
-    effects.add(find("wheel_slip").unwrap(), None, &[0.3, 30.0, 1.0]).unwrap();
+    effects.add(EffectKind::WheelSlip, None, &[0.3, 30.0, 1.0]).unwrap();
     // a current alone gives a wheel that spins no speed; its inertia does
-    effects.add(find("rotor_inertia").unwrap(), None, &[1.0e-4]).unwrap();
+    effects.add(EffectKind::RotorInertia, None, &[1.0e-4]).unwrap();
     let mut board = VirtualBoard::new(BoardSetup::new(four_wheels(), effects, 2).ideal());
     board.inject(InjectedFault::Blocked { motor: 1 });
     for _ in 0..4000 {

@@ -2,9 +2,9 @@
 //!
 //! Faults are injected one by one and stay until they are healed.
 
-use model_core::effects::Effect;
 use model_core::effects::card::{Card, Physics, Scope, Seam, Undone};
-use model_core::effects::seams::{EffectContext, Gear};
+use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
+use model_core::effects::{Effect, EffectSet, EffectState};
 
 /// Something that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,13 +47,6 @@ pub enum InjectedFault {
 /// 10⁻⁸ rad/s. A dry friction would do for wheels that roll, but the plant spends it as if no wheel could slip.
 const HELD: f64 = 1.0e9;
 
-/// A wheel that does not turn, as an effect of the plant: it may still be dragged over the floor.
-#[derive(Debug)]
-pub struct BlockedWheel;
-
-/// The effect that blocks a wheel.
-pub static BLOCKED: BlockedWheel = BlockedWheel;
-
 static CARD: Card = Card {
     id: "blocked_wheel",
     title: "Blocked wheel",
@@ -63,7 +56,6 @@ static CARD: Card = Card {
     seams: &[Seam::Gear],
     scope: Scope::OneWheel,
     params: &[],
-    memory: 0,
     needs_current: false,
     signature: "the wheel stands, whatever its current",
     look_alikes: &[],
@@ -72,12 +64,73 @@ static CARD: Card = Card {
     physics: Physics::PASSIVE,
 };
 
-impl Effect<f64> for BlockedWheel {
+/// What the plant of a board carries.
+#[derive(Clone, Copy, Debug)]
+pub enum OnBoard {
+    /// An effect of the catalogue.
+    Effect(Effect<f64>),
+    /// A wheel that does not turn: it may still be dragged over the floor.
+    BlockedWheel,
+}
+
+macro_rules! passed_on {
+    ($($hook:ident, $Seam:ident;)*) => {
+        $(fn $hook(&self, s: &[Self::State], at: &EffectContext<f64>, x: &mut $Seam<f64>) {
+            if let OnBoard::Effect(effect) = self {
+                effect.$hook(s, at, x);
+            }
+        })*
+    };
+}
+
+impl EffectSet<f64> for OnBoard {
+    type State = EffectState<f64>;
+
     fn card(&self) -> &'static Card {
-        &CARD
+        match self {
+            OnBoard::Effect(effect) => effect.card(),
+            OnBoard::BlockedWheel => &CARD,
+        }
     }
 
-    fn gear(&self, _: &[f64], _: &[f64], _: &EffectContext<f64>, x: &mut Gear<f64>) {
-        x.damping += HELD;
+    fn start(&self) -> Option<Self::State> {
+        match self {
+            OnBoard::Effect(effect) => effect.start(),
+            OnBoard::BlockedWheel => None,
+        }
+    }
+
+    passed_on! {
+        supply, Supply;
+        bridge, Bridge;
+        winding, Winding;
+        contact, Contact;
+        body, Body;
+        sense, Sense;
+    }
+
+    fn gear(&self, s: &[Self::State], at: &EffectContext<f64>, x: &mut Gear<f64>) {
+        match self {
+            OnBoard::Effect(effect) => effect.gear(s, at, x),
+            OnBoard::BlockedWheel => x.damping += HELD,
+        }
+    }
+
+    fn invert_sensing(&self, at: &EffectContext<f64>, x: &mut Sense<f64>) {
+        if let OnBoard::Effect(effect) = self {
+            effect.invert_sensing(at, x);
+        }
+    }
+
+    fn restart(&self, s: &mut [Self::State], at: &EffectContext<f64>) {
+        if let OnBoard::Effect(effect) = self {
+            effect.restart(s, at);
+        }
+    }
+
+    fn advance(&self, s: &mut [Self::State], at: &EffectContext<f64>, done: &StepOutcome<f64>) {
+        if let OnBoard::Effect(effect) = self {
+            effect.advance(s, at, done);
+        }
     }
 }

@@ -5,9 +5,9 @@
 //! nature (see the page of `dual`), and differences straddle a kink. For the same reason the two delays are taken a
 //! little longer than typical: at a whole number of steps they have a kink.
 
+use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Role, Seam};
-use model_core::effects::catalogue;
 use model_core::geometry::frames::BodyTwist;
 use model_core::number::dual::Dual;
 use model_core::number::scalar::Real;
@@ -134,12 +134,13 @@ fn derivatives_by_nominal_values_are_those_of_differences() {
 
 fn effects<const N: usize>(robot: (Robot<N, f64>, Robot<N, D>), mean: [f64; 3]) {
     let drive = Drive::along(&robot.0, mean);
-    for (effect, effect_d) in catalogue::<f64>().iter().zip(catalogue::<D>()) {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         let placement = usual_placement(card);
         let mut params = typical(card);
-        if ["actuation_delay", "camera_latency"].contains(&card.id) {
-            params[0] += 0.3e-3;
+        // a time that is a whole number of steps stands at a corner
+        for (value, _) in params.iter_mut().zip(card.params).filter(|(_, p)| p.unit == "s") {
+            *value += 0.3e-3;
         }
         let free: Vec<usize> = (0..params.len()).filter(|k| card.params[*k].role != Role::Fixed).collect();
         let at: Vec<f64> = free.iter().map(|k| params[*k]).collect();
@@ -147,14 +148,14 @@ fn effects<const N: usize>(robot: (Robot<N, f64>, Robot<N, D>), mean: [f64; 3]) 
             let mut all: Vec<D> = params.iter().map(|p| D::constant(*p)).collect();
             free.iter().zip(x).for_each(|(k, x)| all[*k] = *x);
             let mut set = Effects::default();
-            set.add(*effect_d, placement, &all).expect("a seat that the card allows");
+            set.add(*effect, placement, &all).expect("a placement that the card allows");
             Plant::new(robot.1, set)
         };
         let number = |x: &[f64]| {
             let mut all = params.clone();
             free.iter().zip(x).for_each(|(k, x)| all[*k] = *x);
             let mut set = Effects::default();
-            set.add(*effect, placement, &all).expect("a seat that the card allows");
+            set.add(*effect, placement, &all).expect("a placement that the card allows");
             Plant::new(robot.0, set)
         };
         agree(card.id, &drive, &at, &at, dual, number);
@@ -170,25 +171,22 @@ fn derivatives_by_effects_parameters_are_those_of_differences() {
 #[test]
 fn derivatives_at_the_absent_value_are_those_of_differences_to_the_side() {
     let drive = Drive::along(&four(), MEAN.1);
-    for (effect, effect_d) in catalogue::<f64>().iter().zip(catalogue::<D>()) {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         for (k, p) in card.params.iter().enumerate().filter(|(_, p)| p.role == Role::Size) {
-            // a coefficient of friction of zero stands for an infinite one: there is no derivative. Dry friction on a
-            // shaft and a contact that creeps are left out by the plant while there is none: their derivative begins
-            // with the first bit of it, and a fit has to start there
-            if ["wheel_slip", "creep", "gear_efficiency", "stribeck"].contains(&card.id) {
+            if card.physics.corner_at_absent {
                 continue;
             }
             let absent = crate::fixture::absent(card);
             let mut variables: Vec<D> = absent.iter().map(|p| D::constant(*p)).collect();
             variables[k] = D::variable(absent[k], 0);
             let mut set = Effects::default();
-            set.add(*effect_d, usual_placement(card), &variables).expect("a seat that the card allows");
+            set.add(*effect, usual_placement(card), &variables).expect("a placement that the card allows");
             let exact = drive.end(Plant::new(four(), set));
             let near = |part: f64| {
                 let mut params = absent.clone();
                 params[k] += part * (p.typical - p.absent);
-                drive.end(crate::fixture::with_effect(four(), *effect, usual_placement(card), &params))
+                drive.end(crate::fixture::with_effect(four::<f64>(), *effect, usual_placement(card), &params))
             };
             let (none, little) = (near(0.0), near(1e-6));
             for (row, d) in exact.iter().enumerate() {

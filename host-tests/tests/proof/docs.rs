@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Role, Scope, Undone};
-use model_core::effects::catalogue;
 
 use crate::golden;
 
@@ -74,14 +74,14 @@ fn the_page_of_effects_is_made_from_the_cards() {
     page += "What the plain model leaves out, in the order of the signal path. This page is made from the cards in\n";
     page += "`model-core/src/effects` by `host-tests/tests/proof/docs.rs`; `BLESS=1 cargo test -p host-tests` rewrites it.\n\n";
     page += "| effect | stage | sits on | parameters that size it |\n|---|---|---|---|\n";
-    for effect in catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         let sizes: Vec<_> =
             card.params.iter().filter(|p| p.role == Role::Size).map(|p| format!("`{}`", p.key)).collect();
         let sizes = if sizes.is_empty() { "none is fitted".to_string() } else { sizes.join(", ") };
         let _ = writeln!(page, "| `{}` | {} | {} | {sizes} |", card.id, card.stage().name(), scope_of(card));
     }
-    for effect in catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         page.push('\n');
         page += &section(effect.card());
     }

@@ -4,23 +4,22 @@ use host_tests::excitation::{SeededRng, voltages};
 use host_tests::paper::FOUR_WHEELS;
 use host_tests::reference::Reference;
 use model_core::effects::active::Effects;
-use model_core::effects::catalogue;
+use model_core::effects::{EffectKind, Numbers};
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant, Reading};
 
 use crate::fixture::{Run, four, gap, plain, three, typical, usual_placement, with_effect};
 
-/// Every effect alone at its typical size, none, and the most that fit together.
+/// Every effect alone at its typical size, none, and all together.
 fn models<const N: usize, T: Real>(robot: Robot<N, T>) -> Vec<(String, Plant<N, T>)> {
     let mut all = vec![("nothing".to_string(), plain(robot))];
     let mut together = Effects::default();
-    for effect in catalogue::<T>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         all.push((card.id.to_string(), with_effect(robot, *effect, usual_placement(card), &typical(card))));
         let params: Vec<T> = typical(card).into_iter().map(T::lit).collect();
-        // the thirteenth finds no room
-        let _ = together.add(*effect, usual_placement(card), &params);
+        together.add(*effect, usual_placement(card), &params).expect("room for one of each");
     }
     all.push(("all together".to_string(), Plant::new(robot, together)));
     all
@@ -37,7 +36,9 @@ fn finite<const N: usize, T: Real>(run: &Run<N, T>, reading: &Reading<N, T>) -> 
     {
         all.extend(wheels);
     }
-    all.extend(&run.memory);
+    for mut state in run.memory.iter().copied() {
+        state.for_each_mut(|number| all.push(*number));
+    }
     all.into_iter().all(Real::is_finite)
 }
 

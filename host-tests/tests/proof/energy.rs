@@ -1,9 +1,9 @@
 //! Energy: friction takes it and never gives it, turning forces do no work, and what sticks stays.
 
 use host_tests::excitation::voltages;
+use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Card, Role, Scope, Seam, Stage};
-use model_core::effects::{CARDS, catalogue};
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
@@ -26,7 +26,7 @@ fn energy<const N: usize, T: Real + Into<f64>>(run: &Run<N, T>, inertia: f64) ->
 /// add to a wheel [kg·m²].
 fn everything<const N: usize, T: Real>(of: impl Fn(&Card) -> bool) -> (Effects<N, T>, f64) {
     let (mut all, mut inertia) = (Effects::default(), 0.0);
-    for effect in catalogue::<T>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         if card.scope != Scope::OneWheel && of(card) {
             let params = typical(card);
@@ -40,7 +40,7 @@ fn everything<const N: usize, T: Real>(of: impl Fn(&Card) -> bool) -> (Effects<N
 
 /// Each friction-like effect at several sizes, and all at once.
 fn friction_like<const N: usize>(robot: Robot<N, f64>, check: impl Fn(&str, Plant<N, f64>, f64)) {
-    for effect in catalogue::<f64>().iter().filter(|e| e.card().physics.passive) {
+    for effect in EffectKind::ALL.iter().filter(|e| e.card().physics.passive) {
         let card = effect.card();
         for placement in placements(card, N).into_iter().take(2) {
             for part in [0.1, 0.5, 1.0] {
@@ -130,7 +130,7 @@ fn gained<const N: usize>(plant: Plant<N, f64>, inertia: f64, steps: u32) -> f64
 fn driven_or_not_friction_adds_nothing_to_the_motors_work() {
     let robot = four::<f64>();
     // on the shafts: what is in bridge and winding does not turn, and what a contact loses is not the motors' work
-    for e in catalogue::<f64>().iter().filter(|e| e.card().seams == [Seam::Gear] && e.card().physics.passive) {
+    for e in EffectKind::ALL.iter().filter(|e| e.card().seams == [Seam::Gear] && e.card().physics.passive) {
         let id = e.card().id;
         for placement in [None, Some(2)] {
             let inertia = e.card().physics.inertia.map_or(0.0, |k| typical(e.card())[k]);
@@ -197,7 +197,11 @@ fn a_robot_on_a_floor_tilted_too_little_stays_exactly_where_it_is() {
 #[test]
 fn a_robot_with_friction_on_its_shafts_stays_exactly_where_it_is() {
     for theta in [0.0, 0.5, 1.3, -2.0] {
-        for card in CARDS.into_iter().filter(|card| card.seams == [Seam::Gear] && card.scope != Scope::OneWheel) {
+        for card in EffectKind::ALL
+            .map(EffectKind::card)
+            .into_iter()
+            .filter(|card| card.seams == [Seam::Gear] && card.scope != Scope::OneWheel)
+        {
             let alone = |other: &Card| other.id == card.id;
             assert!(!moves(three::<f64>(), 0.08, everything(alone).0, theta), "three wheels, {}, {theta}", card.id);
             assert!(!moves(four::<f64>(), 0.08, everything(alone).0, theta), "four wheels, {}, {theta}", card.id);

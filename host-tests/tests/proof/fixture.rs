@@ -5,7 +5,7 @@ use host_tests::matrices::GenericRobot;
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Card, Scope};
-use model_core::effects::{Effect, find};
+use model_core::effects::{Effect, EffectKind, EffectSet};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::geometry::kinematics::{Wheel, Wheels};
 use model_core::number::scalar::Real;
@@ -50,8 +50,8 @@ pub fn four<T: Real>() -> Robot<4, T> {
 }
 
 /// An effect by its id.
-pub fn effect<T: Real>(id: &str) -> &'static dyn Effect<T> {
-    find::<T>(id).unwrap_or_else(|| panic!("{id} is not in the catalogue"))
+pub fn effect(id: &str) -> EffectKind {
+    EffectKind::find(id).unwrap_or_else(|| panic!("{id} is not in the catalogue"))
 }
 
 /// Parameters at which a card says that the effect is typical.
@@ -82,13 +82,24 @@ pub fn usual_placement(card: &Card) -> Option<usize> {
 /// A plant with one effect.
 pub fn with_effect<const N: usize, T: Real>(
     robot: Robot<N, T>,
-    effect: &'static dyn Effect<T>,
+    effect: EffectKind,
     wheel: Option<usize>,
     params: &[f64],
 ) -> Plant<N, T> {
     let mut effects = Effects::default();
     let params: Vec<T> = params.iter().map(|p| T::lit(*p)).collect();
-    effects.add(effect, wheel, &params).expect("a seat that the card allows");
+    effects.add(effect, wheel, &params).expect("a placement that the card allows");
+    Plant::new(robot, effects)
+}
+
+/// A plant with one effect that the catalogue does not have.
+pub fn with_invented<const N: usize, E: EffectSet<f64>>(
+    robot: Robot<N, f64>,
+    effect: E,
+    wheel: Option<usize>,
+) -> Plant<N, f64, E> {
+    let mut effects = Effects::none();
+    effects.put(effect, wheel).expect("a placement that the card allows");
     Plant::new(robot, effects)
 }
 
@@ -99,26 +110,26 @@ pub fn plain<const N: usize, T: Real>(robot: Robot<N, T>) -> Plant<N, T> {
 
 /// A run of a plant.
 #[derive(Clone, Debug)]
-pub struct Run<const N: usize, T: Real> {
+pub struct Run<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     /// The model.
-    pub plant: Plant<N, T>,
+    pub plant: Plant<N, T, E>,
     /// Where it is.
     pub state: State<N, T>,
     /// What its effects remember.
-    pub memory: Vec<T>,
+    pub memory: Vec<E::State>,
 }
 
-impl<const N: usize, T: Real> Run<N, T> {
+impl<const N: usize, T: Real, E: EffectSet<T>> Run<N, T, E> {
     /// From rest in the origin.
-    pub fn new(plant: Plant<N, T>) -> Self {
+    pub fn new(plant: Plant<N, T, E>) -> Self {
         Self::from(plant, [0.0; 3], [0.0; 3])
     }
 
     /// From a pose [m, m, rad] and a twist [m/s, m/s, rad/s].
-    pub fn from(plant: Plant<N, T>, pose: [f64; 3], twist: [f64; 3]) -> Self {
+    pub fn from(plant: Plant<N, T, E>, pose: [f64; 3], twist: [f64; 3]) -> Self {
         let [x, y, theta] = pose.map(T::lit);
         let state = plant.start(T::zero(), Pose { x, y, theta }, BodyTwist::from_array(twist.map(T::lit)));
-        let memory = vec![T::zero(); plant.memory_len()];
+        let memory = plant.memory().collect::<Vec<_>>();
         Self { plant, state, memory }
     }
 

@@ -1,7 +1,7 @@
 //! Absent means absent: at its absent value an effect leaves a whole run bit for bit as it was without it.
 
 use host_tests::excitation::voltages;
-use model_core::effects::catalogue;
+use model_core::effects::EffectKind;
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Plant, Reading, State};
@@ -55,7 +55,7 @@ fn ways_to_be_absent(card: &model_core::effects::card::Card) -> Vec<Vec<f64>> {
 
 fn every_effect_can_be_absent<const N: usize, T: Bits>(robot: Robot<N, T>) {
     let without = run(plain(robot));
-    for effect in catalogue::<T>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         for placement in placements(card, N) {
             for params in ways_to_be_absent(card) {
@@ -98,7 +98,7 @@ fn absent_effects_leave_imposed_currents_and_speeds_bit_for_bit() {
             .collect::<Vec<_>>()
     };
     let without = run(plain(four()));
-    for effect in catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let placement = crate::fixture::usual_placement(effect.card());
         let with = run(with_effect(four(), *effect, placement, &absent(effect.card())));
         assert!(with == without, "{}", effect.card().id);
@@ -108,10 +108,10 @@ fn absent_effects_leave_imposed_currents_and_speeds_bit_for_bit() {
 #[test]
 fn typical_effects_are_seen() {
     let without = run(plain(four::<f64>()));
-    for effect in catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         for placement in placements(card, 4) {
-            let with = run(with_effect(four(), *effect, placement, &typical(card)));
+            let with = run(with_effect(four::<f64>(), *effect, placement, &typical(card)));
             assert!(with != without, "{} on {placement:?} changes nothing", card.id);
         }
     }

@@ -5,8 +5,8 @@
 use std::fmt::Write;
 
 use host_tests::excitation::{VoltageHold, voltages};
+use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
-use model_core::effects::catalogue;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Plant, Reading};
 
@@ -72,7 +72,7 @@ fn differences<const N: usize>(a: &[Seen<N>], b: &[Seen<N>]) -> [f64; 5] {
 
 fn models<const N: usize>(robot: Robot<N, f64>) -> Vec<(&'static str, Plant<N, f64>)> {
     let mut all = vec![("nothing", plain(robot))];
-    for effect in catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         all.push((card.id, with_effect(robot, *effect, usual_placement(card), &typical(card))));
     }
@@ -84,7 +84,7 @@ fn models<const N: usize>(robot: Robot<N, f64>) -> Vec<(&'static str, Plant<N, f
     ] {
         let mut effects = Effects::default();
         for id in ids {
-            let effect = effect::<f64>(id);
+            let effect = effect(id);
             effects.add(effect, None, &typical(effect.card())).expect("room");
         }
         all.push((name, Plant::new(robot, effects)));

@@ -2,10 +2,11 @@
 
 use std::cell::RefCell;
 
-use model_core::effects::Effect;
+use model_core::effect_set;
 use model_core::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use model_core::effects::electrical::supply_sag::{self, SupplySag};
 use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
-use model_core::number::scalar::Real;
+use model_core::effects::{Hooks, Numbers, State};
 
 const PARAM: Param =
     Param { key: "x", symbol: "x", unit: "1", absent: 0.0, typical: 1.0, within: (0.0, 1e3), role: Role::Size };
@@ -19,7 +20,6 @@ const BLANK: Card = Card {
     seams: &[],
     scope: Scope::Wheels,
     params: &[PARAM],
-    memory: 0,
     needs_current: false,
     signature: "",
     look_alikes: &[],
@@ -28,102 +28,136 @@ const BLANK: Card = Card {
     physics: Physics::PASSIVE,
 };
 
-/// Teeth of the motor that pull the wheel into 18 places a turn: τ += x·sin(18·angle).
-pub struct Cogging;
+/// A number that is kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kept(pub f64);
 
-impl<T: Real> Effect<T> for Cogging {
-    fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Gear], ..BLANK } }
+impl Numbers<f64> for Kept {
+    fn for_each_mut(&mut self, mut visit: impl FnMut(&mut f64)) {
+        visit(&mut self.0);
     }
-    fn gear(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Gear<T>) {
-        x.torque += p[0] * (T::lit(18.0) * at.wheel_angle).sin_cos().0;
+}
+
+impl State<f64> for Kept {
+    fn start() -> Self {
+        Self(0.0)
+    }
+}
+
+effect_set! {
+    /// The effects invented here, and one of the catalogue to go along with them.
+    pub enum Invented, InventedState [] [f64] {
+        Cogging(Cogging, &const { Card { seams: &[Seam::Gear], ..BLANK } }),
+        Carpet(Carpet, &const { Card { seams: &[Seam::Body], scope: Scope::Robot, ..BLANK } }),
+        Wind(Wind, &const { Card { seams: &[Seam::Body], scope: Scope::Robot, ..BLANK } }),
+        Heating(Heating, &const { Card { seams: &[Seam::Winding], ..BLANK } }),
+        Inductance(Inductance, &const { Card { seams: &[Seam::Winding], ..BLANK } }),
+        Emptying(Emptying, &const { Card { seams: &[Seam::Supply], scope: Scope::Robot, ..BLANK } }),
+        Limit(Limit, &const { Card { seams: &[Seam::Bridge], ..BLANK } }),
+        LargeWheel(LargeWheel, &const { Card { seams: &[Seam::Contact], ..BLANK } }),
+        Eccentric(Eccentric, &const { Card { seams: &[Seam::Sense], ..BLANK } }),
+        WheelSpy(WheelSpy, &const { Card { seams: &[Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Contact, Seam::Sense], ..BLANK } }),
+        RobotSpy(RobotSpy, &const { Card { seams: &[Seam::Supply, Seam::Body, Seam::Sense], scope: Scope::Robot, ..BLANK } }),
+        SupplySag(SupplySag<f64>, &supply_sag::CARD),
+    }
+}
+
+/// Teeth of the motor that pull the wheel into 18 places a turn: τ += x·sin(18·angle).
+#[derive(Clone, Copy, Debug)]
+pub struct Cogging(pub f64);
+
+impl Hooks<f64> for Cogging {
+    type State = ();
+
+    fn gear(&self, _: &(), at: &EffectContext<f64>, x: &mut Gear<f64>) {
+        x.torque += self.0 * (18.0 * at.wheel_angle).sin_cos().0;
     }
 }
 
 /// A carpet on the half of the floor beyond x = 0.2 m, where the body's Coulomb friction is (1 + x) times as large.
-pub struct Carpet;
+#[derive(Clone, Copy, Debug)]
+pub struct Carpet(pub f64);
 
-impl<T: Real> Effect<T> for Carpet {
-    fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Body], scope: Scope::Robot, ..BLANK } }
-    }
-    fn body(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Body<T>) {
-        if at.pose.x > T::lit(0.2) {
-            x.budget = x.budget.map(|b| b * (T::one() + p[0]));
+impl Hooks<f64> for Carpet {
+    type State = ();
+
+    fn body(&self, _: &(), at: &EffectContext<f64>, x: &mut Body<f64>) {
+        if at.pose.x > 0.2 {
+            x.budget = x.budget.map(|b| b * (1.0 + self.0));
         }
     }
 }
 
 /// A wind along the world's x axis: a force of x [N].
-pub struct Wind;
+#[derive(Clone, Copy, Debug)]
+pub struct Wind(pub f64);
 
-impl<T: Real> Effect<T> for Wind {
-    fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Body], scope: Scope::Robot, ..BLANK } }
-    }
-    fn body(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Body<T>) {
+impl Hooks<f64> for Wind {
+    type State = ();
+
+    fn body(&self, _: &(), at: &EffectContext<f64>, x: &mut Body<f64>) {
         let (sin, cos) = at.pose.theta.sin_cos();
-        x.force[0] += p[0] * cos;
-        x.force[1] -= p[0] * sin;
+        x.force[0] += self.0 * cos;
+        x.force[1] -= self.0 * sin;
     }
 }
 
 /// A winding that warms up: R·(1 + x·s), where s rises with i² and falls with 1 s.
-pub struct Heating;
+#[derive(Clone, Copy, Debug)]
+pub struct Heating(pub f64);
 
-impl<T: Real> Effect<T> for Heating {
-    fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Winding], memory: 1, ..BLANK } }
+impl Hooks<f64> for Heating {
+    type State = Kept;
+
+    fn winding(&self, s: &Kept, _: &EffectContext<f64>, x: &mut Winding<f64>) {
+        x.resistance *= 1.0 + self.0 * s.0;
     }
-    fn winding(&self, p: &[T], s: &[T], _: &EffectContext<T>, x: &mut Winding<T>) {
-        x.resistance *= T::one() + p[0] * s[0];
+    fn advance(&self, s: &mut Kept, at: &EffectContext<f64>, done: &StepOutcome<f64>) {
+        s.0 += at.dt * (done.current * done.current - s.0);
     }
-    fn advance(&self, _: &[T], s: &mut [T], at: &EffectContext<T>, done: &StepOutcome<T>) {
-        s[0] += at.dt * (done.current * done.current - s[0]);
-    }
-    fn restart(&self, _: &[T], s: &mut [T], at: &EffectContext<T>) {
+    fn restart(&self, s: &mut Kept, at: &EffectContext<f64>) {
         // as if it had run at this speed for long
-        s[0] = at.wheel_speed.abs();
+        s.0 = at.wheel_speed.abs();
     }
 }
 
 /// A winding with an inductance of x [mH].
-pub struct Inductance;
+#[derive(Clone, Copy, Debug)]
+pub struct Inductance(pub f64);
 
-impl<T: Real> Effect<T> for Inductance {
-    fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Winding], ..BLANK } }
-    }
-    fn winding(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Winding<T>) {
-        x.inductance += T::lit(1e-3) * p[0];
+impl Hooks<f64> for Inductance {
+    type State = ();
+
+    fn winding(&self, _: &(), _: &EffectContext<f64>, x: &mut Winding<f64>) {
+        x.inductance += 1e-3 * self.0;
     }
 }
 
 /// A battery that empties: its voltage has fallen by x for every ampere-second drawn [V/(A·s)].
-pub struct Emptying;
+#[derive(Clone, Copy, Debug)]
+pub struct Emptying(pub f64);
 
-impl<T: Real> Effect<T> for Emptying {
-    fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Supply], scope: Scope::Robot, memory: 1, ..BLANK } }
+impl Hooks<f64> for Emptying {
+    type State = Kept;
+
+    fn supply(&self, s: &Kept, _: &EffectContext<f64>, x: &mut Supply<f64>) {
+        x.voltage -= self.0 * s.0;
     }
-    fn supply(&self, p: &[T], s: &[T], _: &EffectContext<T>, x: &mut Supply<T>) {
-        x.voltage -= p[0] * s[0];
-    }
-    fn advance(&self, _: &[T], s: &mut [T], at: &EffectContext<T>, done: &StepOutcome<T>) {
-        s[0] += at.dt * done.bus_current;
+    fn advance(&self, s: &mut Kept, at: &EffectContext<f64>, done: &StepOutcome<f64>) {
+        s.0 += at.dt * done.bus_current;
     }
 }
 
 /// A bridge that is cut at a part x of the bus voltage, from 20 ms on.
-pub struct Limit;
+#[derive(Clone, Copy, Debug)]
+pub struct Limit(pub f64);
 
-impl<T: Real> Effect<T> for Limit {
-    fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Bridge], ..BLANK } }
-    }
-    fn bridge(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Bridge<T>) {
-        if at.time > T::lit(0.0195) {
-            let most = p[0] * x.bus;
+impl Hooks<f64> for Limit {
+    type State = ();
+
+    fn bridge(&self, _: &(), at: &EffectContext<f64>, x: &mut Bridge<f64>) {
+        if at.time > 0.0195 {
+            let most = self.0 * x.bus;
             x.voltage = x.voltage.clamp(-most, most);
             x.sampled = x.sampled.clamp(-most, most);
         }
@@ -131,26 +165,26 @@ impl<T: Real> Effect<T> for Limit {
 }
 
 /// A wheel whose radius is larger by the part x.
-pub struct LargeWheel;
+#[derive(Clone, Copy, Debug)]
+pub struct LargeWheel(pub f64);
 
-impl<T: Real> Effect<T> for LargeWheel {
-    fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Contact], ..BLANK } }
-    }
-    fn contact(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Contact<T>) {
-        x.radius *= T::one() + p[0];
+impl Hooks<f64> for LargeWheel {
+    type State = ();
+
+    fn contact(&self, _: &(), _: &EffectContext<f64>, x: &mut Contact<f64>) {
+        x.radius *= 1.0 + self.0;
     }
 }
 
 /// An encoder that reads x times the wheel's angle on top of its speed.
-pub struct Eccentric;
+#[derive(Clone, Copy, Debug)]
+pub struct Eccentric(pub f64);
 
-impl<T: Real> Effect<T> for Eccentric {
-    fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Sense], ..BLANK } }
-    }
-    fn sense(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Sense<T>) {
-        x.wheel_speed += p[0] * at.wheel_angle;
+impl Hooks<f64> for Eccentric {
+    type State = ();
+
+    fn sense(&self, _: &(), at: &EffectContext<f64>, x: &mut Sense<f64>) {
+        x.wheel_speed += self.0 * at.wheel_angle;
     }
 }
 
@@ -164,50 +198,49 @@ fn record_hook(hook: &'static str, at: &EffectContext<f64>) {
 }
 
 /// A spy on wheels: it changes nothing, and remembers what it is told.
+#[derive(Clone, Copy, Debug)]
 pub struct WheelSpy;
 
-impl Effect<f64> for WheelSpy {
-    fn card(&self) -> &'static Card {
-        const SEAMS: &[Seam] = &[Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Contact, Seam::Sense];
-        &const { Card { seams: SEAMS, memory: 1, ..BLANK } }
-    }
-    fn bridge(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Bridge<f64>) {
+impl Hooks<f64> for WheelSpy {
+    type State = Kept;
+
+    fn bridge(&self, _: &Kept, at: &EffectContext<f64>, _: &mut Bridge<f64>) {
         record_hook("drive", at);
     }
-    fn winding(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Winding<f64>) {
+    fn winding(&self, _: &Kept, at: &EffectContext<f64>, _: &mut Winding<f64>) {
         record_hook("winding", at);
     }
-    fn gear(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Gear<f64>) {
+    fn gear(&self, _: &Kept, at: &EffectContext<f64>, _: &mut Gear<f64>) {
         record_hook("gear", at);
     }
-    fn contact(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Contact<f64>) {
+    fn contact(&self, _: &Kept, at: &EffectContext<f64>, _: &mut Contact<f64>) {
         record_hook("contact", at);
     }
-    fn sense(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Sense<f64>) {
+    fn sense(&self, _: &Kept, at: &EffectContext<f64>, _: &mut Sense<f64>) {
         record_hook("sense", at);
     }
-    fn advance(&self, _: &[f64], _: &mut [f64], at: &EffectContext<f64>, _: &StepOutcome<f64>) {
+    fn advance(&self, _: &mut Kept, at: &EffectContext<f64>, _: &StepOutcome<f64>) {
         record_hook("advance", at);
     }
 }
 
 /// A spy on the robot.
+#[derive(Clone, Copy, Debug)]
 pub struct RobotSpy;
 
-impl Effect<f64> for RobotSpy {
-    fn card(&self) -> &'static Card {
-        &const { Card { seams: &[Seam::Supply, Seam::Body, Seam::Sense], scope: Scope::Robot, memory: 1, ..BLANK } }
-    }
-    fn supply(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Supply<f64>) {
+impl Hooks<f64> for RobotSpy {
+    type State = Kept;
+
+    fn supply(&self, _: &Kept, at: &EffectContext<f64>, _: &mut Supply<f64>) {
         record_hook("supply", at);
     }
-    fn body(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Body<f64>) {
+    fn body(&self, _: &Kept, at: &EffectContext<f64>, _: &mut Body<f64>) {
         record_hook("body", at);
     }
-    fn sense(&self, _: &[f64], _: &[f64], at: &EffectContext<f64>, _: &mut Sense<f64>) {
+    fn sense(&self, _: &Kept, at: &EffectContext<f64>, _: &mut Sense<f64>) {
         record_hook("sense", at);
     }
-    fn advance(&self, _: &[f64], _: &mut [f64], at: &EffectContext<f64>, _: &StepOutcome<f64>) {
+    fn advance(&self, _: &mut Kept, at: &EffectContext<f64>, _: &StepOutcome<f64>) {
         record_hook("advance", at);
     }
 }

@@ -1,15 +1,16 @@
 //! The mechanism carries effects with memory, by wheel angle, heading, world position, battery and time, on one wheel
 //! and on all.
 
-use model_core::effects::Effect;
 use model_core::effects::active::Effects;
+use model_core::effects::electrical::supply_sag::SupplySag;
 use model_core::effects::seams::EffectContext;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
 
-use crate::fixture::{Run, effect, four, gap, larger, plain, three, with_effect};
+use crate::fixture::{Run, effect, four, gap, larger, plain, three, with_effect, with_invented};
 use crate::invented::{
-    Carpet, Cogging, Eccentric, Emptying, Heating, Inductance, LargeWheel, Limit, RobotSpy, SEEN, WheelSpy, Wind,
+    Carpet, Cogging, Eccentric, Emptying, Heating, Inductance, Invented, InventedState, Kept, LargeWheel, Limit,
+    RobotSpy, SEEN, WheelSpy, Wind,
 };
 
 /// The paper's four wheels with so much friction that nothing moves: currents can then be told in closed form.
@@ -25,7 +26,11 @@ const R: f64 = 4.3111;
 #[test]
 fn an_effect_by_wheel_angle_sits_on_all_wheels_or_on_one() {
     for wheel in [None, Some(2)] {
-        let mut cogs = Run::from(with_effect(four::<f64>(), &Cogging, wheel, &[0.05]), [0.0; 3], [0.5, -0.3, 3.0]);
+        let mut cogs = Run::from(
+            with_invented(four::<f64>(), Invented::Cogging(Cogging(0.05)), wheel),
+            [0.0; 3],
+            [0.5, -0.3, 3.0],
+        );
         let mut twin = Run::from(plain(four::<f64>()), [0.0; 3], [0.5, -0.3, 3.0]);
         let (kt, mut angle) = (four::<f64>().motor.wheel_torque_constant(), [0.0; 4]);
         let current = [1.2, -0.8, 0.4, 1.0];
@@ -51,9 +56,9 @@ fn an_effect_by_wheel_angle_sits_on_all_wheels_or_on_one() {
 
 #[test]
 fn an_effect_by_world_position_begins_where_it_lies() {
-    let start = |plant| Run::from(plant, [0.0, 0.0, 2.0], [-1.0, -1.0, 0.0]);
-    let mut carpet = start(with_effect(four::<f64>(), &Carpet, None, &[1.0]));
-    let mut bare = start(plain(four::<f64>()));
+    let start = ([0.0, 0.0, 2.0], [-1.0, -1.0, 0.0]);
+    let mut carpet = Run::from(with_invented(four::<f64>(), Invented::Carpet(Carpet(1.0)), None), start.0, start.1);
+    let mut bare = Run::from(plain(four::<f64>()), start.0, start.1);
     let mut crossed = 0;
     for _ in 0..400 {
         let on_it = carpet.state.pose.x > 0.2;
@@ -77,7 +82,8 @@ fn an_effect_by_world_position_begins_where_it_lies() {
 fn an_effect_by_heading_is_fixed_in_the_world() {
     let tilt = 0.05_f64;
     let force = four::<f64>().mass * model_core::effects::seams::STANDARD_GRAVITY * tilt.sin();
-    let mut wind = Run::from(with_effect(four::<f64>(), &Wind, None, &[force]), [0.0; 3], [0.5, 0.0, 4.0]);
+    let mut wind =
+        Run::from(with_invented(four::<f64>(), Invented::Wind(Wind(force)), None), [0.0; 3], [0.5, 0.0, 4.0]);
     let mut tilted =
         Run::from(with_effect(four::<f64>(), effect("floor_tilt"), None, &[tilt, 0.0]), [0.0; 3], [0.5, 0.0, 4.0]);
     for _ in 0..1000 {
@@ -91,7 +97,7 @@ fn an_effect_by_heading_is_fixed_in_the_world() {
 #[test]
 fn every_wheel_has_its_own_memory() {
     for wheel in [None, Some(1)] {
-        let mut run = Run::new(with_effect(locked(), &Heating, wheel, &[0.2]));
+        let mut run = Run::new(with_invented(locked(), Invented::Heating(Heating(0.2)), wheel));
         assert_eq!(run.memory.len(), if wheel.is_some() { 1 } else { 4 });
         let (u, mut warm) = ([3.0, 6.0, -9.0, 0.0], [0.0; 4]);
         for _ in 0..2000 {
@@ -108,15 +114,23 @@ fn every_wheel_has_its_own_memory() {
     }
 }
 
+/// What windings that warm up remember.
+fn warmth(memory: &[InventedState]) -> Vec<f64> {
+    let of = |state: &InventedState| if let InventedState::Heating(Kept(s)) = state { *s } else { f64::NAN };
+    memory.iter().map(of).collect()
+}
+
 #[test]
 fn a_restart_reaches_every_wheels_memory() {
-    let mut run = Run::from(with_effect(four::<f64>(), &Heating, None, &[0.2]), [0.0; 3], [0.5, -0.3, 3.0]);
+    let mut run =
+        Run::from(with_invented(four::<f64>(), Invented::Heating(Heating(0.2)), None), [0.0; 3], [0.5, -0.3, 3.0]);
     run.plant.restart(&run.state, &mut run.memory);
     let wanted = run.state.wheel_speed.map(f64::abs);
-    assert_eq!(run.memory, wanted);
-    let mut one = Run::from(with_effect(four::<f64>(), &Heating, Some(2), &[0.2]), [0.0; 3], [0.5, -0.3, 3.0]);
+    assert_eq!(warmth(&run.memory), wanted);
+    let mut one =
+        Run::from(with_invented(four::<f64>(), Invented::Heating(Heating(0.2)), Some(2)), [0.0; 3], [0.5, -0.3, 3.0]);
     one.plant.restart(&one.state, &mut one.memory);
-    assert_eq!(one.memory, wanted[2..3]);
+    assert_eq!(warmth(&one.memory), wanted[2..3]);
 }
 
 #[test]
@@ -124,7 +138,7 @@ fn a_winding_with_inductance_follows_the_exponential() {
     let u = [3.0, -6.0, 9.0, 0.5];
     for (dt, milli_henry) in [(1e-3, 1.0), (1e-4, 1.0), (1e-3, 20.0), (1e-2, 0.1)] {
         for wheel in [None, Some(3)] {
-            let mut run = Run::new(with_effect(locked(), &Inductance, wheel, &[milli_henry]));
+            let mut run = Run::new(with_invented(locked(), Invented::Inductance(Inductance(milli_henry)), wheel));
             for k in 0..30 {
                 let read = run.drive(u, dt);
                 // i(t) = u/R·(1 − e^(−t·R/L)); a wheel without inductance is there at once
@@ -141,7 +155,7 @@ fn a_winding_with_inductance_follows_the_exponential() {
 #[test]
 fn a_moving_robot_with_inductance_is_stepped_well() {
     let run = |steps: u32| {
-        let mut run = Run::new(with_effect(four::<f64>(), &Inductance, None, &[1.0]));
+        let mut run = Run::new(with_invented(four::<f64>(), Invented::Inductance(Inductance(1.0)), None));
         let holds = host_tests::excitation::voltages::<4>(4, 15, 9.0);
         let mut all = Vec::new();
         let mut k = 0;
@@ -161,9 +175,9 @@ fn a_moving_robot_with_inductance_is_stepped_well() {
 
 #[test]
 fn an_effect_of_the_battery_remembers_and_a_bridge_sees_the_bus() {
-    let mut effects = Effects::default();
-    effects.add(&Emptying, None, &[0.5]).expect("room");
-    effects.add(&Limit, Some(2), &[0.5]).expect("room");
+    let mut effects = Effects::none();
+    effects.put(Invented::Emptying(Emptying(0.5)), None).expect("room");
+    effects.put(Invented::Limit(Limit(0.5)), Some(2)).expect("room");
     let mut run = Run::new(Plant::new(locked(), effects));
     let (u, mut drawn) = ([3.0, -6.0, 9.0, 0.5], 0.0);
     for k in 0..1000 {
@@ -217,13 +231,15 @@ fn a_larger_wheel_drives_further_whatever_drives_it() {
     let large = |input: &Input<4, f64>| {
         let mut wide = four::<f64>();
         wide.wheels = wide.wheels.scaled(1.1, 1.0);
-        let mut runs = [Run::new(with_effect(four::<f64>(), &LargeWheel, None, &[0.1])), Run::new(plain(wide))];
-        for run in &mut runs {
-            for _ in 0..200 {
-                run.step(input, 1e-3);
-            }
+        let mut runs = (
+            Run::new(with_invented(four::<f64>(), Invented::LargeWheel(LargeWheel(0.1)), None)),
+            Run::new(plain(wide)),
+        );
+        for _ in 0..200 {
+            runs.0.step(input, 1e-3);
+            runs.1.step(input, 1e-3);
         }
-        gap(runs[0].twist(), runs[1].twist())
+        gap(runs.0.twist(), runs.1.twist())
     };
     for input in [Input::Voltage([1.0, -4.0, 2.0, 5.0]), Input::Current([1.0; 4]), Input::Speed([3.0, 1.0, 2.0, 4.0])] {
         // rounding
@@ -233,7 +249,7 @@ fn a_larger_wheel_drives_further_whatever_drives_it() {
 
 #[test]
 fn a_reading_knows_its_wheel_and_its_time() {
-    let mut run = Run::new(with_effect(three::<f64>(), &Eccentric, Some(1), &[0.1]));
+    let mut run = Run::new(with_invented(three::<f64>(), Invented::Eccentric(Eccentric(0.1)), Some(1)));
     for _ in 0..100 {
         let angle = run.state.wheel_angle;
         let speed = run.plant.robot().wheels.wheel_speeds(run.state.twist);
@@ -261,15 +277,16 @@ fn a_wheel_with_inertia_that_slips_is_read_before_it_moves() {
     }
 }
 
+/// A hook, and what it was told.
+type Call = (&'static str, EffectContext<f64>);
+
 /// One step with a spy, and what it was told.
-fn recorded_hooks(
-    spy: &'static dyn Effect<f64>,
-    wheel: Option<usize>,
-) -> (Run<4, f64>, Vec<(&'static str, EffectContext<f64>)>) {
-    let mut effects = Effects::default();
+fn recorded_hooks(spy: Invented, wheel: Option<usize>) -> (Run<4, f64, Invented>, Vec<Call>) {
+    let mut effects = Effects::none();
     // a supply effect makes the plant ask twice
-    effects.add(effect("supply_sag"), None, &[0.15, 0.0]).expect("room");
-    effects.add(spy, wheel, &[1.0]).expect("room");
+    let sag = SupplySag { internal_resistance: 0.15, open_circuit_voltage: 0.0 };
+    effects.put(Invented::SupplySag(sag), None).expect("room");
+    effects.put(spy, wheel).expect("room");
     let mut run = Run::from(Plant::new(four(), effects), [0.3, -0.2, 0.7], [0.5, -0.3, 3.0]);
     for _ in 0..3 {
         run.drive([3.0, -2.0, 1.0, 4.0], 1e-3);
@@ -283,7 +300,7 @@ fn recorded_hooks(
 #[test]
 fn an_effect_of_wheels_is_told_its_wheel_at_every_hook() {
     for wheel in [None, Some(2)] {
-        let (run, seen) = recorded_hooks(&WheelSpy, wheel);
+        let (run, seen) = recorded_hooks(Invented::WheelSpy(WheelSpy), wheel);
         let rim = run.plant.robot().wheels.rim_speeds(run.state.twist);
         let speed = run.plant.robot().wheels.wheel_speeds(run.state.twist);
         for hook in ["drive", "winding", "gear", "contact", "sense", "advance"] {
@@ -305,7 +322,7 @@ fn an_effect_of_wheels_is_told_its_wheel_at_every_hook() {
 
 #[test]
 fn an_effect_of_the_robot_is_told_where_the_robot_is() {
-    let (run, seen) = recorded_hooks(&RobotSpy, None);
+    let (run, seen) = recorded_hooks(Invented::RobotSpy(RobotSpy), None);
     for hook in ["supply", "body", "sense", "advance"] {
         let calls: Vec<_> = seen.iter().filter(|(h, _)| *h == hook).collect();
         assert!(!calls.is_empty(), "{hook} is not called");

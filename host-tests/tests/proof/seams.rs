@@ -3,7 +3,7 @@
 use host_tests::excitation::SeededRng;
 use model_core::effects::card::Seam;
 use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
-use model_core::effects::{Effect, catalogue};
+use model_core::effects::{Effect, EffectKind, EffectSet, EffectState};
 use model_core::geometry::frames::{BodyTwist, Pose};
 
 use crate::fixture::typical;
@@ -147,9 +147,9 @@ fn touches<D: Described>(seed: u64, hook: impl Fn(&EffectContext<f64>, &mut D)) 
 }
 
 /// A memory as it is after some steps.
-fn remembered(effect: &dyn Effect<f64>, p: &[f64], rng: &mut SeededRng) -> Vec<f64> {
-    let mut s = vec![0.0; effect.card().memory];
-    effect.restart(p, &mut s, &EffectContext { time: -0.1, ..at(rng) });
+fn remembered(effect: &Effect<f64>, rng: &mut SeededRng) -> Vec<EffectState<f64>> {
+    let mut s: Vec<_> = effect.start().into_iter().collect();
+    effect.restart(&mut s, &EffectContext { time: -0.1, ..at(rng) });
     for k in 0..40 {
         let done = StepOutcome {
             command: rng.between(-9.0, 9.0),
@@ -158,30 +158,30 @@ fn remembered(effect: &dyn Effect<f64>, p: &[f64], rng: &mut SeededRng) -> Vec<f
             bus_current: rng.between(-1.0, 9.0),
             bus: 12.0,
         };
-        effect.advance(p, &mut s, &EffectContext { time: -0.1 + 2.5e-3 * f64::from(k), ..at(rng) }, &done);
+        effect.advance(&mut s, &EffectContext { time: -0.1 + 2.5e-3 * f64::from(k), ..at(rng) }, &done);
     }
     s
 }
 
 #[test]
 fn hooks_that_a_card_does_not_list_change_nothing_and_those_it_lists_do() {
-    for (k, effect) in catalogue::<f64>().iter().enumerate() {
+    for (k, effect) in EffectKind::ALL.iter().enumerate() {
         let card = effect.card();
         let mut rng = SeededRng::new(k as u64);
-        let p = typical(card);
-        let s = remembered(*effect, &p, &mut rng);
+        let effect = effect.with(&typical(card)).expect("as many as on the card");
+        let s = remembered(&effect, &mut rng);
         let seed = rng.bits();
         // the description is asked just after what is remembered
         let now = |at: &EffectContext<f64>| EffectContext { time: 0.0, ..*at };
         for seam in Seam::ALL {
             let touched = match seam {
-                Seam::Supply => touches(seed, |at, x| effect.supply(&p, &s, &now(at), x)),
-                Seam::Bridge => touches(seed, |at, x| effect.bridge(&p, &s, &now(at), x)),
-                Seam::Winding => touches(seed, |at, x| effect.winding(&p, &s, &now(at), x)),
-                Seam::Gear => touches(seed, |at, x| effect.gear(&p, &s, &now(at), x)),
-                Seam::Contact => touches(seed, |at, x| effect.contact(&p, &s, &now(at), x)),
-                Seam::Body => touches(seed, |at, x| effect.body(&p, &s, &now(at), x)),
-                Seam::Sense => touches(seed, |at, x| effect.sense(&p, &s, &now(at), x)),
+                Seam::Supply => touches(seed, |at, x| effect.supply(&s, &now(at), x)),
+                Seam::Bridge => touches(seed, |at, x| effect.bridge(&s, &now(at), x)),
+                Seam::Winding => touches(seed, |at, x| effect.winding(&s, &now(at), x)),
+                Seam::Gear => touches(seed, |at, x| effect.gear(&s, &now(at), x)),
+                Seam::Contact => touches(seed, |at, x| effect.contact(&s, &now(at), x)),
+                Seam::Body => touches(seed, |at, x| effect.body(&s, &now(at), x)),
+                Seam::Sense => touches(seed, |at, x| effect.sense(&s, &now(at), x)),
             };
             let listed = card.seams.contains(&seam);
             assert_eq!(touched, listed, "{} at {seam:?}: touches it? {touched}; its card lists it? {listed}", card.id);
@@ -191,19 +191,19 @@ fn hooks_that_a_card_does_not_list_change_nothing_and_those_it_lists_do() {
 
 #[test]
 fn a_hook_is_a_pure_function_of_what_it_is_given() {
-    for effect in catalogue::<f64>() {
-        let p = typical(effect.card());
-        let s = remembered(*effect, &p, &mut SeededRng::new(1));
+    for effect in &EffectKind::ALL {
+        let effect = effect.with(&typical(effect.card())).expect("as many as on the card");
+        let s = remembered(&effect, &mut SeededRng::new(1));
         let twice: Vec<_> = (0..2)
             .map(|_| {
                 let mut rng = SeededRng::new(4);
                 let at = at(&mut rng);
                 let (mut drive, mut gear) = (Bridge::random(&mut rng), Gear::random(&mut rng));
                 let (mut contact, mut sense) = (Contact::random(&mut rng), Sense::random(&mut rng));
-                effect.bridge(&p, &s, &at, &mut drive);
-                effect.gear(&p, &s, &at, &mut gear);
-                effect.contact(&p, &s, &at, &mut contact);
-                effect.sense(&p, &s, &at, &mut sense);
+                effect.bridge(&s, &at, &mut drive);
+                effect.gear(&s, &at, &mut gear);
+                effect.contact(&s, &at, &mut contact);
+                effect.sense(&s, &at, &mut sense);
                 [drive.numbers(), gear.numbers(), contact.numbers(), sense.numbers()].concat()
             })
             .collect();
@@ -213,19 +213,19 @@ fn a_hook_is_a_pure_function_of_what_it_is_given() {
 
 #[test]
 fn only_a_law_that_says_so_looks_at_the_current() {
-    for effect in catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
-        let p = typical(card);
-        let s = remembered(*effect, &p, &mut SeededRng::new(2));
+        let effect = effect.with(&typical(card)).expect("as many as on the card");
+        let s = remembered(&effect, &mut SeededRng::new(2));
         let mut rng = SeededRng::new(6);
         let looks = (0..50).any(|_| {
             let at = EffectContext { time: 0.0, ..at(&mut rng) };
             let (mut a, mut b) = (Bridge::random(&mut rng), Winding::random(&mut rng));
             let (mut c, mut d) = (Bridge { current: -a.current, ..a }, Winding { current: -b.current, ..b });
-            effect.bridge(&p, &s, &at, &mut a);
-            effect.bridge(&p, &s, &at, &mut c);
-            effect.winding(&p, &s, &at, &mut b);
-            effect.winding(&p, &s, &at, &mut d);
+            effect.bridge(&s, &at, &mut a);
+            effect.bridge(&s, &at, &mut c);
+            effect.winding(&s, &at, &mut b);
+            effect.winding(&s, &at, &mut d);
             a.voltage != c.voltage || b.resistance != d.resistance || b.torque_constant != d.torque_constant
         });
         assert_eq!(looks, card.needs_current, "{}: looks at the current? {looks}", card.id);
@@ -234,19 +234,19 @@ fn only_a_law_that_says_so_looks_at_the_current() {
 
 #[test]
 fn sensing_and_its_way_back_undo_each_other() {
-    for effect in catalogue::<f64>().iter().filter(|effect| effect.card().seams.contains(&Seam::Sense)) {
-        let p = typical(effect.card());
+    for effect in EffectKind::ALL.iter().filter(|effect| effect.card().seams.contains(&Seam::Sense)) {
+        let effect = effect.with(&typical(effect.card())).expect("as many as on the card");
         let mut rng = SeededRng::new(3);
         for _ in 0..50 {
             // constant velocity, straight on: the way back of a delay is exact there
             let mut here = at(&mut rng);
             here.twist.w = 0.0;
-            let mut s = vec![0.0; effect.card().memory];
-            effect.restart(&p, &mut s, &here);
+            let mut s: Vec<_> = effect.start().into_iter().collect();
+            effect.restart(&mut s, &here);
             let truth = Sense { pose: here.pose, ..Sense::random(&mut rng) };
             let mut x = truth;
-            effect.sense(&p, &s, &here, &mut x);
-            effect.invert_sensing(&p, &here, &mut x);
+            effect.sense(&s, &here, &mut x);
+            effect.invert_sensing(&here, &mut x);
             let off = truth.numbers().iter().zip(x.numbers()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             // roundings of numbers up to 60
             assert!(off < 1e-12, "{}: {off:e}", effect.card().id);

@@ -5,9 +5,9 @@
 //! one viscosity for both; ω keeps its own.
 
 use host_tests::excitation::{VoltageHold, voltages};
+use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Card, Physics, Scope};
-use model_core::effects::catalogue;
 use model_core::plant::Plant;
 use model_core::plant::robot::Robot;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -24,7 +24,7 @@ fn each<const N: usize>(
     check: impl Fn(&str, f64, Plant<N, f64>, Plant<N, f64>),
 ) {
     check("nothing", apart(None), plain(robot.0), plain(robot.1));
-    for effect in catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         for placement in crate::fixture::placements(card, N).into_iter().take(2) {
             let params = typical(card);
@@ -202,7 +202,7 @@ fn a_run_somewhere_else_in_the_world_is_the_same_run() {
 fn all_effects_together_keep_the_symmetry_of_four_wheels() {
     let robot = four::<f64>();
     // every one that looks the same from all sides
-    let all: Vec<_> = catalogue::<f64>().iter().filter(|e| e.card().scope != Scope::OneWheel).collect();
+    let all: Vec<_> = EffectKind::ALL.iter().filter(|e| e.card().scope != Scope::OneWheel).collect();
     let all: Vec<_> = all.into_iter().filter(|e| e.card().physics.direction.is_none()).collect();
     let together = || {
         let mut effects = Effects::default();

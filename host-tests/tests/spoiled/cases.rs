@@ -171,15 +171,17 @@ pub const ALL: [Spoiled; 47] = [
             "[[effects.wheel_slip]]\nfriction_coefficient = 0.4\n[[effects.wheel_slip]]\nwheel = 1\nfriction_coefficient = 0.4\n",
         );
     }),
-    spoiled("thirteen effects", Refused("room for 12 effects"), |f| {
-        for wheel in 0..4 {
-            append(f, &format!("[[effects.wheel_slip]]\nwheel = {wheel}\nfriction_coefficient = 0.4\n"));
-        }
-        for wheel in 0..4 {
-            append(f, &format!("[[effects.motor_mismatch]]\nwheel = {wheel}\ntorque_constant_ratio = 0.9\n"));
-        }
-        for wheel in 0..4 {
-            append(f, &format!("[[effects.creep]]\nwheel = {wheel}\ncreep_m_s_per_N = 0.01\n"));
+    spoiled("twenty-one effects", Refused("room for 20 effects"), |f| {
+        for (id, size) in [
+            ("wheel_slip", "friction_coefficient = 0.4"),
+            ("motor_mismatch", "torque_constant_ratio = 0.9"),
+            ("creep", "creep_m_s_per_N = 0.01"),
+            ("gear_efficiency", "efficiency = 0.9"),
+            ("dead_time", "voltage_loss_V = 0.2"),
+        ] {
+            for wheel in 0..4 {
+                append(f, &format!("[[effects.{id}]]\nwheel = {wheel}\n{size}\n"));
+            }
         }
         append(f, "[effects.coriolis]\n");
     }),

@@ -24,7 +24,7 @@
 //!
 //! How to get the numbers: `omni-gap diagnose`, which writes them into `corrected_robot.toml`.
 
-use crate::effects::CARDS;
+use crate::effects::EffectKind;
 use crate::effects::body::{coriolis, floor_tilt};
 use crate::effects::card::Card;
 use crate::effects::contact::creep;
@@ -190,8 +190,8 @@ impl<const N: usize, T: Real> Compensation<N, T> {
                 put(&mut self.current_offset, none.current_offset, wheel, offset)?;
             }
             _ => {
-                let card = CARDS.into_iter().find(|card| card.id == id).ok_or(NotCompensable::Unknown)?;
-                return Err(NotCompensable::Effect(card.undone.words()));
+                let kind = EffectKind::find(id).ok_or(NotCompensable::Unknown)?;
+                return Err(NotCompensable::Effect(kind.card().undone.words()));
             }
         }
         Ok(self)

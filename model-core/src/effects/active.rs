@@ -3,49 +3,33 @@
 //! A model is a robot and a set of effects. The set has room for [`MAX_EFFECTS`], needs no allocation, and knows for
 //! every seam which of its effects act there, so that a seam without effects costs nothing.
 
+use core::marker::PhantomData;
 use core::ops::Range;
 
-use crate::effects::Effect;
-use crate::effects::card::{MAX_PARAMS, Scope, Seam};
+use crate::effects::card::{Scope, Seam};
+use crate::effects::{Effect, EffectKind, EffectSet};
 use crate::number::scalar::Real;
 
 /// The most effects that one model may carry.
-pub const MAX_EFFECTS: usize = 12;
+pub const MAX_EFFECTS: usize = 24;
 
 /// An effect in a model.
-#[derive(Clone, Copy)]
-pub struct ActiveEffect<T: Real> {
-    /// Which effect.
-    pub effect: &'static dyn Effect<T>,
+#[derive(Clone, Copy, Debug)]
+pub struct ActiveEffect<E> {
+    /// Which effect, with its parameters.
+    pub effect: E,
     /// On which wheel alone; `None`: on all, or on the robot.
     pub wheel: Option<usize>,
-    params: [T; MAX_PARAMS],
-    count: usize,
     memory_at: usize,
-    /// Numbers of memory from one wheel's block to the next; zero where there is but one
+    /// From one wheel's state to the next; zero where there is but one
     stride: usize,
+    /// One where it remembers something
     memory_len: usize,
     /// True for an effect of the robot.
     whole: bool,
 }
 
-impl<T: Real> core::fmt::Debug for ActiveEffect<T> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Active")
-            .field("id", &self.effect.card().id)
-            .field("wheel", &self.wheel)
-            .field("params", &self.params())
-            .finish()
-    }
-}
-
-impl<T: Real> ActiveEffect<T> {
-    /// The parameters, in the card's order.
-    #[inline]
-    pub fn params(&self) -> &[T] {
-        &self.params[..self.count]
-    }
-
+impl<E> ActiveEffect<E> {
     /// True if it sits on the robot as a whole, not on wheels.
     #[inline]
     pub fn whole(&self) -> bool {
@@ -58,7 +42,7 @@ impl<T: Real> ActiveEffect<T> {
         self.wheel.is_none_or(|w| w == wheel)
     }
 
-    /// Its memory for this wheel; for an effect of the robot the wheel does not matter.
+    /// Where its state for this wheel stands in a run's memory; for an effect of the robot the wheel does not matter.
     #[inline]
     pub fn memory(&self, wheel: usize) -> Range<usize> {
         let start = self.memory_at + wheel * self.stride;
@@ -77,20 +61,39 @@ pub enum EffectError {
     Parameters,
 }
 
-/// The effects of a model.
+/// The effects of a model: those of the catalogue, or others that somebody has written.
 #[derive(Clone, Copy, Debug)]
-pub struct Effects<const N: usize, T: Real> {
-    items: [Option<ActiveEffect<T>>; MAX_EFFECTS],
+pub struct Effects<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
+    items: [Option<ActiveEffect<E>>; MAX_EFFECTS],
     len: usize,
     memory: usize,
-    at_seam: [u16; Seam::ALL.len()],
-    on_wheel: [u16; N],
-    with_memory: u16,
+    at_seam: [u32; Seam::ALL.len()],
+    on_wheel: [u32; N],
+    with_memory: u32,
     needs_current: bool,
+    number: PhantomData<T>,
 }
 
 impl<const N: usize, T: Real> Default for Effects<N, T> {
+    /// No effect of the catalogue.
     fn default() -> Self {
+        Self::none()
+    }
+}
+
+impl<const N: usize, T: Real> Effects<N, T> {
+    /// Adds an effect of the catalogue; `params` in its card's order.
+    ///
+    /// # Errors
+    /// [`EffectError`] says why; the set is then as it was.
+    pub fn add(&mut self, kind: EffectKind, wheel: Option<usize>, params: &[T]) -> Result<(), EffectError> {
+        self.put(kind.with(params).ok_or(EffectError::Parameters)?, wheel)
+    }
+}
+
+impl<const N: usize, T: Real, E: EffectSet<T>> Effects<N, T, E> {
+    /// No effect.
+    pub fn none() -> Self {
         Self {
             items: [None; MAX_EFFECTS],
             len: 0,
@@ -99,21 +102,15 @@ impl<const N: usize, T: Real> Default for Effects<N, T> {
             on_wheel: [0; N],
             with_memory: 0,
             needs_current: false,
+            number: PhantomData,
         }
     }
-}
 
-impl<const N: usize, T: Real> Effects<N, T> {
-    /// Adds an effect; `params` in the card's order.
+    /// Adds an effect with its parameters.
     ///
     /// # Errors
     /// [`EffectError`] says why; the set is then as it was.
-    pub fn add(
-        &mut self,
-        effect: &'static dyn Effect<T>,
-        wheel: Option<usize>,
-        params: &[T],
-    ) -> Result<(), EffectError> {
+    pub fn put(&mut self, effect: E, wheel: Option<usize>) -> Result<(), EffectError> {
         let card = effect.card();
         if self.len == MAX_EFFECTS {
             return Err(EffectError::Full);
@@ -121,31 +118,25 @@ impl<const N: usize, T: Real> Effects<N, T> {
         if !card.scope.admits(wheel, N) {
             return Err(EffectError::Wheel);
         }
-        if params.len() != card.params.len() || params.len() > MAX_PARAMS {
-            return Err(EffectError::Parameters);
-        }
-        let mut held = [T::zero(); MAX_PARAMS];
-        held[..params.len()].copy_from_slice(params);
+        let remembers = usize::from(effect.start().is_some());
         let one = card.scope == Scope::Robot || wheel.is_some();
-        let (blocks, stride) = if one { (1, 0) } else { (N, card.memory) };
+        let (blocks, stride) = if one { (1, 0) } else { (N, remembers) };
         self.items[self.len] = Some(ActiveEffect {
             effect,
             wheel,
-            params: held,
-            count: params.len(),
             memory_at: self.memory,
             stride,
-            memory_len: card.memory,
+            memory_len: remembers,
             whole: card.scope == Scope::Robot,
         });
-        self.memory += blocks * card.memory;
+        self.memory += blocks * remembers;
         for seam in card.seams {
             self.at_seam[*seam as usize] |= 1 << self.len;
         }
         for j in (0..N).filter(|j| wheel.is_none_or(|w| w == *j)) {
             self.on_wheel[j] |= 1 << self.len;
         }
-        if card.memory > 0 {
+        if remembers > 0 {
             self.with_memory |= 1 << self.len;
         }
         self.needs_current |= card.needs_current;
@@ -153,9 +144,17 @@ impl<const N: usize, T: Real> Effects<N, T> {
         Ok(())
     }
 
-    /// How many numbers of memory the effects keep together.
+    /// How many states the effects keep together.
     pub fn memory_len(&self) -> usize {
         self.memory
+    }
+
+    /// The states that a run begins with: of every effect that remembers, one for each wheel that it sits on.
+    pub fn memory(&self) -> impl Iterator<Item = E::State> {
+        self.with_memory().flat_map(|active| {
+            let wheels = if active.stride == 0 { 1 } else { N };
+            (0..wheels).filter_map(|_| active.effect.start())
+        })
     }
 
     /// True if there is none.
@@ -177,19 +176,19 @@ impl<const N: usize, T: Real> Effects<N, T> {
     }
 
     /// All of them, in the order in which they were added.
-    pub fn iter(&self) -> impl Iterator<Item = &ActiveEffect<T>> {
-        self.pick((1 << self.len) - 1)
+    pub fn iter(&self) -> impl Iterator<Item = &ActiveEffect<E>> {
+        self.items.iter().flatten()
     }
 
     /// Those at a seam.
     #[inline]
-    pub fn at(&self, seam: Seam) -> impl Iterator<Item = &ActiveEffect<T>> {
+    pub fn at(&self, seam: Seam) -> impl Iterator<Item = &ActiveEffect<E>> {
         self.pick(self.at_seam[seam as usize])
     }
 
     /// Those at a seam that act on a wheel.
     #[inline]
-    pub fn on(&self, seam: Seam, wheel: usize) -> impl Iterator<Item = &ActiveEffect<T>> {
+    pub fn on(&self, seam: Seam, wheel: usize) -> impl Iterator<Item = &ActiveEffect<E>> {
         self.pick(self.at_seam[seam as usize] & self.on_wheel[wheel])
     }
 
@@ -201,12 +200,12 @@ impl<const N: usize, T: Real> Effects<N, T> {
 
     /// Those that remember.
     #[inline]
-    pub fn with_memory(&self) -> impl Iterator<Item = &ActiveEffect<T>> {
+    pub fn with_memory(&self) -> impl Iterator<Item = &ActiveEffect<E>> {
         self.pick(self.with_memory)
     }
 
     #[inline]
-    fn pick(&self, mut mask: u16) -> impl Iterator<Item = &ActiveEffect<T>> {
+    fn pick(&self, mut mask: u32) -> impl Iterator<Item = &ActiveEffect<E>> {
         core::iter::from_fn(move || {
             while mask != 0 {
                 let k = mask.trailing_zeros() as usize;

@@ -166,13 +166,18 @@ pub struct Physics {
     pub mirrored: &'static [usize],
     /// The parameter that is a direction in the world [rad].
     pub direction: Option<usize>,
+    /// True if the model has a corner where the effect is absent, so that a fit has to start elsewhere: a coefficient of
+    /// friction of zero stands for an infinite one, and the plant leaves out a shaft's dry friction or a contact's creep
+    /// while there is none.
+    pub corner_at_absent: bool,
     /// How far two runs of some seconds may part that symmetry makes one: of velocities and poses, in SI units.
     pub apart: f64,
 }
 
 impl Physics {
     /// An effect that takes energy and looks the same in a mirror, up to rounding, which friction keeps small.
-    pub const PASSIVE: Self = Self { passive: true, inertia: None, mirrored: &[], direction: None, apart: 1e-9 };
+    pub const PASSIVE: Self =
+        Self { passive: true, inertia: None, mirrored: &[], direction: None, corner_at_absent: false, apart: 1e-9 };
 }
 
 /// An effect's page as data.
@@ -194,8 +199,6 @@ pub struct Card {
     pub scope: Scope,
     /// Its parameters, in the order in which the hooks receive them; at most [`MAX_PARAMS`].
     pub params: &'static [Param],
-    /// Numbers of memory that one instance keeps; on an effect of wheels, for every wheel.
-    pub memory: usize,
     /// True if its drive hook looks at the current, which then has to be solved for.
     pub needs_current: bool,
     /// Where it shows in a recording.

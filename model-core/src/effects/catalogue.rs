@@ -1,53 +1,24 @@
-//! The list of all effects.
-//!
-//! Its order is the order in which effects act at a seam that they share.
+//! What can be looked up in the catalogue: effects by id or number, and causes of either kind.
 
+use super::EffectKind;
 use super::card::{Card, Stage};
 use super::nominal::{NOMINAL, NominalCard};
-use super::{Effect, body, contact, drivetrain, electrical, sensing};
-use crate::number::scalar::Real;
 
-/// Every effect there is.
-pub fn catalogue<T: Real>() -> &'static [&'static dyn Effect<T>] {
-    const {
-        &[
-            &electrical::actuation_delay::ActuationDelay,
-            &electrical::supply_sag::SupplySag,
-            &electrical::dead_time::DeadTime,
-            &electrical::motor_mismatch::MotorMismatch,
-            &drivetrain::gear_efficiency::GearEfficiency,
-            &drivetrain::stribeck::Stribeck,
-            &drivetrain::rotor_inertia::RotorInertia,
-            &contact::wheel_slip::WheelSlip,
-            &contact::creep::Creep,
-            &body::coriolis::Coriolis,
-            &body::floor_tilt::FloorTilt,
-            &sensing::camera_latency::CameraLatency,
-            &sensing::current_sensor_offset::CurrentSensorOffset,
-        ]
+impl EffectKind {
+    /// The name that files use.
+    pub const fn id(self) -> &'static str {
+        self.card().id
     }
-}
 
-/// The cards of all effects, in the same order.
-pub const CARDS: [&Card; 13] = [
-    &electrical::actuation_delay::CARD,
-    &electrical::supply_sag::CARD,
-    &electrical::dead_time::CARD,
-    &electrical::motor_mismatch::CARD,
-    &drivetrain::gear_efficiency::CARD,
-    &drivetrain::stribeck::CARD,
-    &drivetrain::rotor_inertia::CARD,
-    &contact::wheel_slip::CARD,
-    &contact::creep::CARD,
-    &body::coriolis::CARD,
-    &body::floor_tilt::CARD,
-    &sensing::camera_latency::CARD,
-    &sensing::current_sensor_offset::CARD,
-];
+    /// Its number in a robot's parameter block.
+    pub const fn code(self) -> u8 {
+        self.card().code
+    }
 
-/// The effect of this id.
-pub fn find<T: Real>(id: &str) -> Option<&'static dyn Effect<T>> {
-    catalogue::<T>().iter().copied().find(|e| e.card().id == id)
+    /// The effect of this id.
+    pub fn find(id: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.id() == id)
+    }
 }
 
 /// Anything that a gap can come from: its page as data.
@@ -87,7 +58,7 @@ impl CauseCard {
 
 /// Every cause that there is: the effects, then the nominal parameters.
 pub fn causes() -> impl Iterator<Item = CauseCard> {
-    let effects = CARDS.into_iter().map(CauseCard::Effect);
+    let effects = EffectKind::ALL.into_iter().map(|kind| CauseCard::Effect(kind.card()));
     effects.chain(NOMINAL.into_iter().map(CauseCard::Nominal))
 }
 

@@ -1,37 +1,120 @@
-//! What an effect can do: one hook a seam, and the memory it keeps.
+//! What an effect can do: one hook a seam, and what it keeps from step to step.
+
+use core::fmt::Debug;
 
 use super::card::Card;
 use super::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
 use crate::number::scalar::Real;
 
-/// An effect: a card and the hooks at its seams.
+/// Something that holds numbers, beside whatever else it counts with.
+pub trait Numbers<T>: Copy + Debug {
+    /// Visits every number.
+    fn for_each_mut(&mut self, visit: impl FnMut(&mut T));
+}
+
+/// What an effect remembers of a run: a type of its own. `()` is that of an effect that remembers nothing.
+pub trait State<T>: Numbers<T> {
+    /// Before anything has happened.
+    fn start() -> Self;
+
+    /// This state in what a run keeps for the effect: none is needed for one that is empty.
+    #[inline]
+    fn in_slot<'a, S>(slot: &'a [S], own: impl FnOnce(&'a S) -> Option<&'a Self>) -> Option<&'a Self> {
+        own(slot.first()?)
+    }
+}
+
+impl<T> Numbers<T> for () {
+    fn for_each_mut(&mut self, _: impl FnMut(&mut T)) {}
+}
+
+impl<T> State<T> for () {
+    fn start() -> Self {}
+
+    #[inline]
+    fn in_slot<'a, S>(_: &'a [S], _: impl FnOnce(&'a S) -> Option<&'a Self>) -> Option<&'a Self> {
+        Some(&())
+    }
+}
+
+/// An effect with its parameters: the hooks at its seams.
 ///
-/// `p` holds the parameters in the card's order. `s` is the effect's own memory, as long as the card says, zero at the
-/// start of a run; on an effect of wheels it is that wheel's part. A hook is a pure function of what it is given: the
-/// plant may call it several times within a step while it solves for a current, and only [`Effect::advance`], called
-/// once a step, may write the memory. Parameters at their absent value leave every description bit for bit as it was.
+/// `s` is what the effect remembers; on an effect of wheels it is that wheel's. A hook is a pure function of what it is
+/// given: the plant may call it several times within a step while it solves for a current, and only [`Hooks::advance`],
+/// called once a step, may change what is remembered. Parameters at their absent value leave every description bit for
+/// bit as it was.
 #[allow(unused_variables)]
-pub trait Effect<T: Real>: Sync {
-    /// The effect's page as data.
-    fn card(&self) -> &'static Card;
+pub trait Hooks<T: Real>: Copy + Debug {
+    /// What it remembers.
+    type State: State<T>;
+
     /// Battery: bus current → bus voltage.
-    fn supply(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Supply<T>) {}
+    #[inline]
+    fn supply(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Supply<T>) {}
     /// Bridge: commanded voltage → terminal voltage.
-    fn bridge(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Bridge<T>) {}
+    #[inline]
+    fn bridge(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Bridge<T>) {}
     /// Winding: terminal voltage → current → torque.
-    fn winding(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Winding<T>) {}
+    #[inline]
+    fn winding(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Winding<T>) {}
     /// Gear: motor torque → wheel torque.
-    fn gear(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Gear<T>) {}
+    #[inline]
+    fn gear(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Gear<T>) {}
     /// Contact: wheel torque → force on the floor.
-    fn contact(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Contact<T>) {}
+    #[inline]
+    fn contact(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Contact<T>) {}
     /// Body: forces → acceleration.
-    fn body(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Body<T>) {}
+    #[inline]
+    fn body(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Body<T>) {}
     /// Sensors: truth → reading.
-    fn sense(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Sense<T>) {}
+    #[inline]
+    fn sense(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Sense<T>) {}
     /// Sensors backwards: a smoothed reading → the truth that a prediction starts from.
-    fn invert_sensing(&self, p: &[T], at: &EffectContext<T>, x: &mut Sense<T>) {}
-    /// The memory at a start: as if the robot had come to `at.pose` with the constant velocity `at.twist`.
-    fn restart(&self, p: &[T], s: &mut [T], at: &EffectContext<T>) {}
-    /// The memory after a step.
-    fn advance(&self, p: &[T], s: &mut [T], at: &EffectContext<T>, done: &StepOutcome<T>) {}
+    #[inline]
+    fn invert_sensing(&self, at: &EffectContext<T>, x: &mut Sense<T>) {}
+    /// What is remembered at a start: as if the robot had come to `at.pose` with the constant velocity `at.twist`.
+    #[inline]
+    fn restart(&self, s: &mut Self::State, at: &EffectContext<T>) {}
+    /// What is remembered after a step.
+    #[inline]
+    fn advance(&self, s: &mut Self::State, at: &EffectContext<T>, done: &StepOutcome<T>) {}
+}
+
+/// An effect of the catalogue.
+pub trait Catalogued<T>: Sized {
+    /// The effect with these parameters, in the card's order; `None` where they are not as many.
+    fn of(params: &[T]) -> Option<Self>;
+}
+
+/// One effect of several kinds that a model may carry, as [`effect_set!`](crate::effect_set) makes it.
+///
+/// The hooks are those of [`Hooks`]; what a run keeps for the effect is a slice of one state, or of none.
+pub trait EffectSet<T: Real>: Copy + Debug {
+    /// What one of them remembers.
+    type State: Numbers<T>;
+
+    /// Its page as data.
+    fn card(&self) -> &'static Card;
+    /// What it remembers before anything has happened; `None` if it never remembers anything.
+    fn start(&self) -> Option<Self::State>;
+    /// [`Hooks::supply`]
+    fn supply(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Supply<T>);
+    /// [`Hooks::bridge`]
+    fn bridge(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Bridge<T>);
+    /// [`Hooks::winding`]
+    fn winding(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Winding<T>);
+    /// [`Hooks::gear`]
+    fn gear(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Gear<T>);
+    /// [`Hooks::contact`]
+    fn contact(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Contact<T>);
+    /// [`Hooks::body`]
+    fn body(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Body<T>);
+    /// [`Hooks::sense`]
+    fn sense(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Sense<T>);
+    /// [`Hooks::invert_sensing`]
+    fn invert_sensing(&self, at: &EffectContext<T>, x: &mut Sense<T>);
+    /// [`Hooks::restart`]
+    fn restart(&self, s: &mut [Self::State], at: &EffectContext<T>);
+    /// [`Hooks::advance`]
+    fn advance(&self, s: &mut [Self::State], at: &EffectContext<T>, done: &StepOutcome<T>);
 }

@@ -1,11 +1,11 @@
 //! # The catalogue of effects
 //!
 //! What the plain model leaves out, one effect a file, in the folder of its stage. To add one: write its file (page,
-//! card, law, hooks, tests), add its `mod` line in the stage's `mod.rs` and its entry in [`catalogue`]. Everything else
-//! (files, ranking, pages, tests) finds it there; a test compares the folders with the list.
+//! card, parameters, law, hooks, tests), and name it here twice: its `mod` line and its line in the list. Everything else
+//! (files, blocks, ranking, pages, tests) is made of the list; a test compares the folders with it.
 //!
-//! An effect's page as data is its [`card`], what it sees and may change are the [`seams`], how it acts there is
-//! [`Effect`], and the effects of one model, with their parameters and their memory, are in [`active`].
+//! An effect's page as data is its [`card`], what it sees and may change are the [`seams`], how it acts there are its
+//! [`Hooks`], and the effects of one model are in [`active`].
 
 // What an effect is
 pub mod card;
@@ -13,24 +13,74 @@ pub mod card;
 pub mod seams;
 
 mod effect;
-pub use effect::Effect;
+pub use effect::{Catalogued, EffectSet, Hooks, Numbers, State};
 
-// The effects, by stage
-pub mod electrical;
+#[macro_use]
+mod generate;
+pub use crate::effect_set;
 
-pub mod drivetrain;
+/// Effects between the commanded voltage and the shaft torque.
+pub mod electrical {
+    pub mod actuation_delay;
+    pub mod dead_time;
+    pub mod motor_mismatch;
+    pub mod supply_sag;
+}
 
-pub mod contact;
+/// Effects between the shaft torque and the wheel.
+pub mod drivetrain {
+    pub mod gear_efficiency;
+    pub mod rotor_inertia;
+    pub mod stribeck;
+}
 
-pub mod body;
+/// Effects between the wheel and the floor.
+pub mod contact {
+    pub mod creep;
+    pub mod wheel_slip;
+}
 
-pub mod sensing;
+/// Effects between the forces and the motion of the body.
+pub mod body {
+    pub mod coriolis;
+    pub mod floor_tilt;
+}
+
+/// Effects between the truth and the reading.
+pub mod sensing {
+    pub mod camera_latency;
+    pub mod current_sensor_offset;
+}
+
+mod list {
+    use super::card::Card;
+    use super::{Catalogued, body, contact, drivetrain, electrical, sensing};
+    use crate::number::scalar::Real;
+
+    // In signal order, which is that in which effects act at a seam that they share
+    catalogue! {
+        electrical::actuation_delay::ActuationDelay,
+        electrical::supply_sag::SupplySag,
+        electrical::dead_time::DeadTime,
+        electrical::motor_mismatch::MotorMismatch,
+        drivetrain::gear_efficiency::GearEfficiency,
+        drivetrain::stribeck::Stribeck,
+        drivetrain::rotor_inertia::RotorInertia,
+        contact::wheel_slip::WheelSlip,
+        contact::creep::Creep,
+        body::coriolis::Coriolis,
+        body::floor_tilt::FloorTilt,
+        sensing::camera_latency::CameraLatency,
+        sensing::current_sensor_offset::CurrentSensorOffset,
+    }
+}
+pub use list::{Effect, EffectKind, EffectState};
 
 // The numbers that a robot file can have wrong
 pub mod nominal;
 
 mod catalogue;
-pub use catalogue::{CARDS, CauseCard, catalogue, cause, causes, find};
+pub use catalogue::{CauseCard, cause, causes};
 
 // The effects of one model
 pub mod active;

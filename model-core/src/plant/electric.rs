@@ -12,6 +12,7 @@
 use super::model::Plant;
 use super::state::State;
 use super::step::Source;
+use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Bridge, Contact, EffectContext, Supply, Winding};
 use crate::number::scalar::Real;
@@ -41,14 +42,14 @@ struct Look<T> {
     per_resistance: T,
 }
 
-impl<const N: usize, T: Real> Plant<N, T> {
+impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// The motor of wheel `j` at the wheel speed `at.wheel_speed`; `gain` is bus voltage over nominal.
     #[inline]
     pub(super) fn electric<const PLAIN: bool>(
         &self,
         at: &EffectContext<T>,
         state: &State<N, T>,
-        memory: &[T],
+        memory: &[E::State],
         source: &Source<'_, N, T>,
         j: usize,
         gain: T,
@@ -94,7 +95,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
                 let look = |current: T| {
                     let mut drive = Bridge { current, ..drive };
                     for active in self.effects.on(Seam::Bridge, j) {
-                        active.effect.bridge(active.params(), &memory[active.memory(j)], at, &mut drive);
+                        active.effect.bridge(&memory[active.memory(j)], at, &mut drive);
                     }
                     let winding = if turned { self.winding(at, memory, Winding { current, ..bare }) } else { bare };
                     let per_resistance = if turned { T::one() / winding.resistance } else { self.per_resistance };
@@ -121,9 +122,9 @@ impl<const N: usize, T: Real> Plant<N, T> {
         }
     }
 
-    fn winding(&self, at: &EffectContext<T>, memory: &[T], mut winding: Winding<T>) -> Winding<T> {
+    fn winding(&self, at: &EffectContext<T>, memory: &[E::State], mut winding: Winding<T>) -> Winding<T> {
         for active in self.effects.on(Seam::Winding, at.wheel) {
-            active.effect.winding(active.params(), &memory[active.memory(at.wheel)], at, &mut winding);
+            active.effect.winding(&memory[active.memory(at.wheel)], at, &mut winding);
         }
         winding
     }
@@ -176,7 +177,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
         &self,
         at: &EffectContext<T>,
         state: &State<N, T>,
-        memory: &[T],
+        memory: &[E::State],
         source: &Source<'_, N, T>,
         contact: &[Contact<T>; N],
         rim: &[T; N],
@@ -197,7 +198,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             }
             let mut supply = Supply { current: drawn, voltage: nominal };
             for active in self.effects.at(Seam::Supply) {
-                active.effect.supply(active.params(), &memory[active.memory(0)], at, &mut supply);
+                active.effect.supply(&memory[active.memory(0)], at, &mut supply);
             }
             (supply.voltage, ())
         };

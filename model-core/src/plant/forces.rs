@@ -3,19 +3,20 @@
 use super::model::Plant;
 use super::state::State;
 use super::step::Push;
+use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Body, EffectContext};
 use crate::number::scalar::Real;
 use crate::plant::body::{Mobility, apply_dry_friction};
 
-impl<const N: usize, T: Real> Plant<N, T> {
+impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// Everything that acts on the body, and the twist at the end of the step.
     #[inline]
     pub(super) fn move_body(
         &self,
         at: &EffectContext<T>,
         state: &State<N, T>,
-        memory: &[T],
+        memory: &[E::State],
         push: &Push<T>,
         held: &[([T; 3], T); N],
         dt: T,
@@ -36,7 +37,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             // a force that depends on the heading is taken in the middle of the step
             at.pose.theta += T::lit(0.5) * x[2] * dt;
             for active in self.effects.at(Seam::Body) {
-                active.effect.body(active.params(), &memory[active.memory(0)], &at, &mut body);
+                active.effect.body(&memory[active.memory(0)], &at, &mut body);
             }
         }
         // H = M + ½·Δt·A

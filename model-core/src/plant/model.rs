@@ -5,15 +5,16 @@ use super::state::State;
 use crate::effects::active::Effects;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Contact, EffectContext, STANDARD_GRAVITY};
+use crate::effects::{Effect, EffectSet};
 use crate::geometry::frames::{BodyTwist, Pose};
 use crate::number::linalg::{accumulate_outer, dot};
 use crate::number::scalar::Real;
 
 /// A model ready to run: a robot and the effects that it carries.
 #[derive(Clone, Copy, Debug)]
-pub struct Plant<const N: usize, T: Real> {
+pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     pub(super) robot: Robot<N, T>,
-    pub(super) effects: Effects<N, T>,
+    pub(super) effects: Effects<N, T, E>,
     /// True if no effect stands between the command and the wheels' forces
     pub(super) plain: bool,
     /// l·K_v [V·s]
@@ -30,9 +31,9 @@ pub struct Plant<const N: usize, T: Real> {
     pub(super) plain_rate: [[T; 3]; 3],
 }
 
-impl<const N: usize, T: Real> Plant<N, T> {
+impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// A model of this robot with these effects.
-    pub fn new(robot: Robot<N, T>, effects: Effects<N, T>) -> Self {
+    pub fn new(robot: Robot<N, T>, effects: Effects<N, T, E>) -> Self {
         let rows = robot.wheels.rows();
         let zero = T::zero();
         let load = robot.mass * T::lit(STANDARD_GRAVITY) / T::lit(N as f64);
@@ -71,13 +72,18 @@ impl<const N: usize, T: Real> Plant<N, T> {
     }
 
     /// The effects.
-    pub fn effects(&self) -> &Effects<N, T> {
+    pub fn effects(&self) -> &Effects<N, T, E> {
         &self.effects
     }
 
-    /// How many numbers of memory a run needs: zero without effects that remember. They start at zero.
+    /// How many states of effects a run keeps: none without effects that remember.
     pub fn memory_len(&self) -> usize {
         self.effects.memory_len()
+    }
+
+    /// The states of effects that a run begins with; a host keeps them in a list, and gives them to every step.
+    pub fn memory(&self) -> impl Iterator<Item = E::State> {
+        self.effects.memory()
     }
 
     /// A state with this pose and velocity, the wheels rolling without slip and the motors without current.
@@ -94,16 +100,16 @@ impl<const N: usize, T: Real> Plant<N, T> {
     }
 
     /// Tells the effects with memory that the motion goes on from this state.
-    pub fn restart(&self, state: &State<N, T>, memory: &mut [T]) {
+    pub fn restart(&self, state: &State<N, T>, memory: &mut [E::State]) {
         let at = self.at(state, T::zero());
         for active in self.effects.with_memory() {
             if active.whole() {
-                active.effect.restart(active.params(), &mut memory[active.memory(0)], &at);
+                active.effect.restart(&mut memory[active.memory(0)], &at);
                 continue;
             }
             for j in (0..N).filter(|j| active.on(*j)) {
                 let at = self.at_wheel(&at, state, j, state.wheel_speed[j]);
-                active.effect.restart(active.params(), &mut memory[active.memory(j)], &at);
+                active.effect.restart(&mut memory[active.memory(j)], &at);
             }
         }
     }

@@ -3,26 +3,27 @@
 use super::model::Plant;
 use super::state::{Reading, State};
 use super::step::Source;
+use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
 
-impl<const N: usize, T: Real> Plant<N, T> {
+impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// What the sensors make of the truth.
     #[inline(never)]
     pub(super) fn read(
         &self,
         at: &EffectContext<T>,
         state: &State<N, T>,
-        memory: &[T],
+        memory: &[E::State],
         truth: Reading<N, T>,
     ) -> Reading<N, T> {
         let mut reading = truth;
         for active in self.effects.at(Seam::Sense) {
             if active.whole() {
                 let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
-                active.effect.sense(active.params(), &memory[active.memory(0)], at, &mut x);
+                active.effect.sense(&memory[active.memory(0)], at, &mut x);
                 (reading.pose, reading.gyro) = (x.pose, x.gyro);
                 continue;
             }
@@ -30,7 +31,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
                 let at = self.at_wheel(at, state, j, truth.wheel_speed[j]);
                 let mut x =
                     Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
-                active.effect.sense(active.params(), &memory[active.memory(j)], &at, &mut x);
+                active.effect.sense(&memory[active.memory(j)], &at, &mut x);
                 (reading.current[j], reading.wheel_speed[j]) = (x.current, x.wheel_speed);
             }
         }
@@ -49,7 +50,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
         for active in self.effects.at(Seam::Sense) {
             if active.whole() {
                 let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
-                active.effect.invert_sensing(active.params(), &at, &mut x);
+                active.effect.invert_sensing(&at, &mut x);
                 (reading.pose, reading.gyro) = (x.pose, x.gyro);
                 continue;
             }
@@ -57,7 +58,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
                 let at = EffectContext { wheel: j, ..at };
                 let mut x =
                     Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
-                active.effect.invert_sensing(active.params(), &at, &mut x);
+                active.effect.invert_sensing(&at, &mut x);
                 (reading.current[j], reading.wheel_speed[j]) = (x.current, x.wheel_speed);
             }
         }
@@ -67,7 +68,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     pub(super) fn remember(
         &self,
         state: &State<N, T>,
-        memory: &mut [T],
+        memory: &mut [E::State],
         truth: &Reading<N, T>,
         source: &Source<'_, N, T>,
         bus: T,
@@ -81,7 +82,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
                     drawn += source.command(j) / self.robot.supply * truth.current[j];
                 }
                 let done = StepOutcome { bus, bus_current: drawn, ..StepOutcome::default() };
-                active.effect.advance(active.params(), &mut memory[active.memory(0)], &at, &done);
+                active.effect.advance(&mut memory[active.memory(0)], &at, &done);
                 continue;
             }
             for j in (0..N).filter(|j| active.on(*j)) {
@@ -93,7 +94,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
                     bus,
                     ..StepOutcome::default()
                 };
-                active.effect.advance(active.params(), &mut memory[active.memory(j)], &at, &done);
+                active.effect.advance(&mut memory[active.memory(j)], &at, &done);
             }
         }
     }

@@ -7,15 +7,16 @@ use super::model::Plant;
 use super::state::{Reading, State};
 use super::step::{Push, Source};
 use super::traction::floor_force;
+use crate::effects::EffectSet;
 use crate::geometry::frames::BodyTwist;
 use crate::number::linalg::{accumulate_outer, dot};
 use crate::number::scalar::Real;
 
-impl<const N: usize, T: Real> Plant<N, T> {
+impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     pub(super) fn step_speed_driven(
         &self,
         state: &mut State<N, T>,
-        memory: &mut [T],
+        memory: &mut [E::State],
         speed: &[T; N],
         dt: T,
     ) -> Reading<N, T> {

@@ -2,6 +2,7 @@
 
 use super::model::Plant;
 use super::state::{Input, Reading, State};
+use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Contact, EffectContext, Gear};
 use crate::geometry::frames::BodyTwist;
@@ -37,12 +38,12 @@ impl<const N: usize, T: Real> Source<'_, N, T> {
     }
 }
 
-impl<const N: usize, T: Real> Plant<N, T> {
+impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// Takes one step of `dt` [s] with the input held, and returns the reading at its beginning.
     ///
     /// `memory` is [`Plant::memory_len`] long.
     #[inline]
-    pub fn step(&self, state: &mut State<N, T>, memory: &mut [T], input: &Input<N, T>, dt: T) -> Reading<N, T> {
+    pub fn step(&self, state: &mut State<N, T>, memory: &mut [E::State], input: &Input<N, T>, dt: T) -> Reading<N, T> {
         match input {
             Input::Voltage(command) if self.plain => {
                 self.step_forces::<true>(state, memory, Source::Voltage(command), dt)
@@ -59,7 +60,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     fn step_forces<const PLAIN: bool>(
         &self,
         state: &mut State<N, T>,
-        memory: &mut [T],
+        memory: &mut [E::State],
         source: Source<'_, N, T>,
         dt: T,
     ) -> Reading<N, T> {
@@ -135,7 +136,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     pub(super) fn finish(
         &self,
         state: &mut State<N, T>,
-        memory: &mut [T],
+        memory: &mut [E::State],
         truth: Reading<N, T>,
         next: [T; 3],
         contact: &[Contact<T>; N],
@@ -165,12 +166,12 @@ impl<const N: usize, T: Real> Plant<N, T> {
     }
 
     #[inline]
-    pub(super) fn contacts(&self, at: &EffectContext<T>, state: &State<N, T>, memory: &[T]) -> [Contact<T>; N] {
+    pub(super) fn contacts(&self, at: &EffectContext<T>, state: &State<N, T>, memory: &[E::State]) -> [Contact<T>; N] {
         let mut contact = self.contact;
         for active in self.effects.at(Seam::Contact) {
             for j in (0..N).filter(|j| active.on(*j)) {
                 let at = self.at_wheel(at, state, j, state.wheel_speed[j]);
-                active.effect.contact(active.params(), &memory[active.memory(j)], &at, &mut contact[j]);
+                active.effect.contact(&memory[active.memory(j)], &at, &mut contact[j]);
             }
         }
         for c in &mut contact {
@@ -180,7 +181,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
     }
 
     #[inline]
-    pub(super) fn gear(&self, at: &EffectContext<T>, memory: &[T], torque: T) -> Gear<T> {
+    pub(super) fn gear(&self, at: &EffectContext<T>, memory: &[E::State], torque: T) -> Gear<T> {
         let zero = T::zero();
         let mut gear = Gear {
             motor_torque: torque,
@@ -191,7 +192,7 @@ impl<const N: usize, T: Real> Plant<N, T> {
             inertia: zero,
         };
         for active in self.effects.on(Seam::Gear, at.wheel) {
-            active.effect.gear(active.params(), &memory[active.memory(at.wheel)], at, &mut gear);
+            active.effect.gear(&memory[active.memory(at.wheel)], at, &mut gear);
         }
         gear
     }

@@ -13,6 +13,7 @@ use super::electric::Electric;
 use super::model::Plant;
 use super::state::State;
 use super::step::Source;
+use crate::effects::EffectSet;
 use crate::effects::contact::wheel_slip::traction;
 use crate::effects::seams::{Contact, EffectContext, Gear};
 use crate::number::scalar::Real;
@@ -43,14 +44,14 @@ pub(super) fn floor_force<T: Real>(c: &Contact<T>, slip: T) -> (T, T) {
     traction(limit, stiffness, c.shape, slip)
 }
 
-impl<const N: usize, T: Real> Plant<N, T> {
+impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// Solves a wheel whose contact gives way; leaves the motor and gear as they are at the solution.
     #[allow(clippy::too_many_arguments)]
     pub(super) fn grip(
         &self,
         at: &mut EffectContext<T>,
         state: &State<N, T>,
-        memory: &[T],
+        memory: &[E::State],
         source: &Source<'_, N, T>,
         c: &Contact<T>,
         gain: T,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use model_core::effects;
+use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Role, Scope};
 use model_core::effects::nominal::{NOMINAL, NominalCard};
 use omni_gap::log::nearest;
@@ -21,7 +21,7 @@ pub struct Explain {
 }
 
 fn cards() -> impl Iterator<Item = &'static Card> {
-    effects::catalogue::<f64>().iter().map(|e| e.card())
+    EffectKind::ALL.iter().map(|e| e.card())
 }
 
 impl Explain {

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use model_core::effects::{EffectState, Numbers};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::dual::Dual;
 
@@ -71,7 +72,9 @@ pub(super) fn pass<const N: usize, const LANES: usize>(
         (pose, BodyTwist { v: lane(0, v), vn: lane(1, vn), w: lane(2, w) })
     };
     // what the memory holds does not depend on the start of this window
-    let enter = |memory: &mut [Dual<LANES>]| memory.iter_mut().for_each(|m| m.eps[..own].fill(0.0));
+    let enter = |memory: &mut [EffectState<Dual<LANES>>]| {
+        memory.iter_mut().for_each(|state| state.for_each_mut(|number| number.eps[..own].fill(0.0)));
+    };
     let count = Recorded::<N>::channels().count();
     let per_sigma = run.sigma.map(|sigma| 1.0 / sigma);
     let mut white = (Whitener::<LANES>::of(run), Whitener::<4>::of(run));

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use model_core::effects::EffectState;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::Plant;
@@ -119,7 +120,7 @@ pub fn run_windows<const N: usize, T: Real>(
     run: &Recorded<N>,
     windows: &Windows,
     start: impl Fn(usize) -> (Pose<T>, BodyTwist<T>),
-    enter: impl Fn(&mut [T]),
+    enter: impl Fn(&mut [EffectState<T>]),
     each: impl FnMut(usize, usize, &[T; MAX_CHANNELS]),
 ) {
     run_some_windows(plant, run, windows, 0..windows.len(), start, enter, each);
@@ -134,7 +135,7 @@ pub(super) fn run_some_windows<const N: usize, T: Real>(
     windows: &Windows,
     which: Range<usize>,
     start: impl Fn(usize) -> (Pose<T>, BodyTwist<T>),
-    enter: impl Fn(&mut [T]),
+    enter: impl Fn(&mut [EffectState<T>]),
     mut each: impl FnMut(usize, usize, &[T; MAX_CHANNELS]),
 ) {
     let mut on_the_way = FreeRun::new(plant, run);

@@ -33,7 +33,7 @@ pub struct KnownEffect {
 pub struct Catalogue {
     /// The effects, in any order.
     pub effects: Vec<KnownEffect>,
-    /// How many tables of effects one robot file may have: what a model has room for.
+    /// How many tables of effects one robot file may have: what a model has room for, beside what a diagnosis adds.
     pub most_at_once: usize,
 }
 

@@ -39,7 +39,7 @@ impl Floor {
 /// Where the centre of a robot goes that is just what its model says.
 pub fn floor_of<const N: usize>(model: &Model<N>, script: &Script<N>) -> Floor {
     let plant = model.plant();
-    let mut memory = vec![0.0; plant.memory_len()];
+    let mut memory = plant.memory().collect::<Vec<_>>();
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
     let mut floor = Floor::default();
     for (row, input) in script.inputs().enumerate() {

@@ -2,6 +2,7 @@
 //!
 //! Pose and velocity restart; what is hidden (wheel angles, delay lines, currents) runs on from the start of the run.
 
+use model_core::effects::EffectState;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::{Input, Plant, Reading, State};
@@ -16,7 +17,7 @@ pub struct FreeRun<'a, const N: usize, T: Real> {
     plant: &'a Plant<N, T>,
     run: &'a Recorded<N>,
     state: State<N, T>,
-    memory: Vec<T>,
+    memory: Vec<EffectState<T>>,
     steps_taken: u64,
 }
 
@@ -33,7 +34,7 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
     /// At rest where the world begins, with nothing remembered.
     pub fn new(plant: &'a Plant<N, T>, run: &'a Recorded<N>) -> Self {
         let state = plant.start(T::zero(), Pose::default(), BodyTwist::default());
-        Self { plant, run, state, memory: vec![T::zero(); plant.memory_len()], steps_taken: 0 }
+        Self { plant, run, state, memory: plant.memory().collect(), steps_taken: 0 }
     }
 
     /// Where it is.
@@ -51,7 +52,13 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
     /// Goes on with another pose and velocity at the beginning of a row; what is hidden stays, but for what `enter` does
     /// to the memory.
     #[inline]
-    pub fn restart_with(&mut self, row: usize, pose: Pose<T>, twist: BodyTwist<T>, enter: impl Fn(&mut [T])) {
+    pub fn restart_with(
+        &mut self,
+        row: usize,
+        pose: Pose<T>,
+        twist: BodyTwist<T>,
+        enter: impl Fn(&mut [EffectState<T>]),
+    ) {
         let mut state = self.plant.start(T::lit(self.run.t[row]), pose, twist);
         (state.wheel_angle, state.current, state.bus) = (self.state.wheel_angle, self.state.current, self.state.bus);
         enter(&mut self.memory);

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use model_core::effects;
-use model_core::effects::active::{EffectError, Effects};
+use model_core::effects::EffectKind;
+use model_core::effects::active::Effects;
 use model_core::effects::card::Card;
 use model_core::geometry::kinematics::{Wheel, Wheels};
 use model_core::number::scalar::Real;
@@ -32,7 +32,7 @@ impl Carried {
 
     /// Its page.
     pub fn card(&self) -> &'static Card {
-        effects::find::<f64>(self.id).expect("the id of a carried effect is one of the catalogue").card()
+        EffectKind::find(self.id).expect("the id of a carried effect is one of the catalogue").card()
     }
 }
 
@@ -90,7 +90,7 @@ impl<const N: usize> Model<N> {
         let mut model =
             Self { file: Arc::new(file.clone()), robot, factor: [1.0; Nominal::COUNT], effects: Vec::new() };
         for entry in &file.effects {
-            let Some(effect) = effects::find::<f64>(&entry.id) else { continue };
+            let Some(effect) = EffectKind::find(&entry.id) else { continue };
             let card = effect.card();
             let params = card.params.iter().map(|p| entry.params.get(p.key).copied().unwrap_or(p.typical)).collect();
             model.carry(Carried { id: card.id, wheel: entry.wheel, params });
@@ -105,7 +105,7 @@ impl<const N: usize> Model<N> {
 
     /// Adds an effect at its place in the order of the catalogue, and returns that place.
     pub fn carry(&mut self, effect: Carried) -> usize {
-        let order = |id: &str| effects::catalogue::<f64>().iter().position(|e| e.card().id == id);
+        let order = |id: &str| EffectKind::ALL.iter().position(|e| e.id() == id);
         let at = self.effects.partition_point(|e| order(e.id) <= order(effect.id));
         self.effects.insert(at, effect);
         at
@@ -139,12 +139,10 @@ impl<const N: usize> Model<N> {
         let mut carried = Effects::default();
         for (at, effect) in self.effects.iter().enumerate() {
             let params: Vec<T> = effect.params.iter().enumerate().map(|(p, x)| lift(Slot::Param(at, p), *x)).collect();
-            let hooks = effects::find::<T>(effect.id).expect("the id of a carried effect is one of the catalogue");
-            match carried.add(hooks, effect.wheel, &params) {
-                Ok(()) => {}
-                Err(EffectError::Full) => break,
-                Err(why) => unreachable!("{} was checked when its file was read: {why:?}", effect.id),
-            }
+            let kind = EffectKind::find(effect.id).expect("the id of a carried effect is one of the catalogue");
+            // a file is refused that leaves no room for what a diagnosis adds
+            let added = carried.add(kind, effect.wheel, &params);
+            added.unwrap_or_else(|why| unreachable!("{} was checked when its file was read: {why:?}", effect.id));
         }
         Plant::new(robot, carried)
     }

@@ -72,7 +72,7 @@ pub fn record<const N: usize>(
         sigma * x
     };
     let mut gaps = ChaCha8Rng::seed_from_u64(seed ^ 0x9e37_79b9_7f4a_7c15);
-    let mut memory = vec![0.0; plant.memory_len()];
+    let mut memory = plant.memory().collect::<Vec<_>>();
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
     let rows = t.len();
     let step = if rows > 1 { (t[rows - 1] - t[0]) / (rows - 1) as f64 } else { 0.0 };

@@ -11,6 +11,7 @@
 //! the number. The derivatives are those of the plant's own steps, carried along by dual numbers; the instant at which an
 //! effect switches counts as fixed.
 
+use model_core::effects::EffectState;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::dual::Dual;
 use model_core::number::scalar::Real;
@@ -202,7 +203,7 @@ struct Ride<'a, const N: usize> {
     axis: usize,
     input: Input<N, D>,
     state: State<N, D>,
-    memory: Vec<D>,
+    memory: Vec<EffectState<D>>,
     distance: D,
 }
 
@@ -210,7 +211,7 @@ impl<'a, const N: usize> Ride<'a, N> {
     fn new(plant: &'a Plant<N, D>, axis: usize, motors: [f64; N]) -> Self {
         let zero = D::zero();
         let state = plant.start(zero, Pose::default(), BodyTwist::default());
-        let mut memory = vec![zero; plant.memory_len()];
+        let mut memory = plant.memory().collect::<Vec<_>>();
         plant.restart(&state, &mut memory);
         Self { plant, axis, input: Input::Voltage(motors.map(D::constant)), state, memory, distance: zero }
     }

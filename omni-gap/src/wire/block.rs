@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use model_core::control::compensation::Compensation;
-use model_core::effects;
+use model_core::effects::EffectKind;
 use model_core::geometry::kinematics::{Wheel, Wheels};
 use model_core::link::block::{
     Block, BlockEffect, BlockEffects, BlockError, BoundedField, ControlMode, EffectCode, Limits, MAX_BYTES,
@@ -141,7 +141,7 @@ fn effects_of<const N: usize>(file: &RobotFile, path: &Path, block: &mut Block<N
 
 /// The parameters of an effect in the order of its card.
 fn params(entry: &EffectEntry) -> Vec<f32> {
-    let card = effects::find::<f64>(&entry.id).map(|effect| effect.card());
+    let card = EffectKind::find(&entry.id).map(|effect| effect.card());
     let fields = EffectCode::by_id(&entry.id).map(EffectCode::fields).unwrap_or_default();
     let given = |key: &str| entry.params.get(key).copied();
     let typical = |key: &str| card.and_then(|card| Some(card.params[card.param(key)?].typical));

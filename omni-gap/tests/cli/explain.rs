@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use model_core::effects;
+use model_core::effects::EffectKind;
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
 
@@ -12,7 +12,7 @@ use crate::bench::{Bench, ROBOT};
 fn every_effect_is_listed_and_explained_and_its_table_can_be_pasted() {
     let bench = Bench::empty();
     let list = bench.done(&["explain"]).out;
-    for effect in effects::catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         assert!(list.contains(&format!("  {} ", card.id)) && list.contains(card.title), "{}", card.id);
         let page = bench.done(&["explain", card.id]).out;

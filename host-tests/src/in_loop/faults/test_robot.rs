@@ -1,7 +1,7 @@
 //! The robots that faults are done to: the paper's, on wheels that can slip.
 
+use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
-use model_core::effects::find;
 use model_core::link::block::{Block, ControlMode, Limits, Parameters};
 use model_core::plant::paper::{four_wheels, three_wheels};
 use model_core::plant::robot::Robot;
@@ -44,10 +44,8 @@ pub fn block<const N: usize>(robot: Robot<N, f32>, mode: ControlMode) -> Block<N
 
 fn board<const N: usize>(robot: Robot<N, f64>) -> VirtualBoard<N> {
     let mut effects = Effects::default();
-    let slip = find("wheel_slip").expect("the catalogue has it");
-    effects.add(slip, None, &SLIP).expect("there is room for one");
-    let rotor = find("rotor_inertia").expect("the catalogue has it");
-    effects.add(rotor, None, &ROTOR).expect("there is room for two");
+    effects.add(EffectKind::WheelSlip, None, &SLIP).expect("there is room for one");
+    effects.add(EffectKind::RotorInertia, None, &ROTOR).expect("there is room for two");
     VirtualBoard::new(BoardSetup::new(robot, effects, SEED))
 }
 

@@ -1,6 +1,5 @@
 use super::*;
 use crate::effects::card::{Scope, Undone};
-use crate::effects::{catalogue, find};
 
 /// On a wheel where the effect needs one, on all otherwise.
 fn wheel_of(card: &Card) -> Option<usize> {
@@ -17,7 +16,7 @@ fn typical(card: &Card) -> ([f64; 4], usize) {
 
 #[test]
 fn every_effect_of_the_catalogue_is_undone_or_refused_with_its_own_reason() {
-    for effect in catalogue::<f64>() {
+    for effect in EffectKind::ALL {
         let card = effect.card();
         let (params, count) = typical(card);
         let mut compensation = Compensation::<4, f64>::none();
@@ -58,7 +57,7 @@ fn an_effect_may_sit_on_two_wheels_but_not_twice_on_one() {
 
 #[test]
 fn an_absent_effect_is_nothing_to_undo() {
-    for effect in catalogue::<f64>() {
+    for effect in EffectKind::ALL {
         let card = effect.card();
         let (mut params, count) = typical(card);
         for (x, param) in params.iter_mut().zip(card.params) {
@@ -71,5 +70,5 @@ fn an_absent_effect_is_nothing_to_undo() {
             assert_eq!(compensation.add(card.id, wheel_of(card), &params[..count]), Ok(()), "{}", card.id);
         }
     }
-    assert!(find::<f64>("coriolis").is_some());
+    assert!(EffectKind::find("coriolis").is_some());
 }

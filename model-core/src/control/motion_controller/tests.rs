@@ -1,6 +1,6 @@
 use super::*;
+use crate::effects::EffectKind;
 use crate::effects::active::Effects;
-use crate::effects::find;
 use crate::geometry::frames::Pose;
 use crate::plant::paper;
 use crate::plant::{Input, Plant};

@@ -20,9 +20,9 @@
 //! How to measure it: drive a curve at constant heading speed: v and vn swing in quadrature.
 //! Source: derivative of a vector in a turning frame; catalogue note B1.
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, EffectContext};
+use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
 
@@ -44,7 +44,6 @@ pub const CARD: Card = Card {
         within: (0.0, 2.0),
         role: Role::Fixed,
     }],
-    memory: 0,
     needs_current: false,
     signature: "force missing in step with ω·vn on v and with −ω·v on vn; nothing in runs along one axis",
     look_alikes: &[],
@@ -66,16 +65,24 @@ pub fn force<T: Real>(factor: T, mass: T, twist: BodyTwist<T>) -> [T; 2] {
 }
 
 /// Coriolis terms.
-#[derive(Debug)]
-pub struct Coriolis;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coriolis<T> {
+    /// k, 1 in nature, 0 in the paper's model [1]
+    pub factor: T,
+}
 
-impl<T: Real> Effect<T> for Coriolis {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for Coriolis<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[factor] = params else { return None };
+        Some(Self { factor })
     }
+}
 
-    fn body(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Body<T>) {
-        let &[factor] = p else { return };
+impl<T: Real> Hooks<T> for Coriolis<T> {
+    type State = ();
+
+    fn body(&self, _: &(), at: &EffectContext<T>, x: &mut Body<T>) {
+        let Self { factor } = *self;
         let [v, vn] = force(factor, x.mass, at.twist);
         // 0 − a, taken away: a term that is absent then keeps even the sign of a zero
         let add = |sum: &mut T, a: T| *sum -= T::zero() - a;
@@ -106,7 +113,7 @@ mod tests {
             rate: [[0.5, 0.0, -0.0], [-0.0, 0.7, 0.0], [0.0, 0.0, 0.014]],
             budget: [1.9, 2.2, 0.14],
         };
-        Coriolis.body(&[factor], &[], &at, &mut x);
+        Coriolis { factor }.body(&(), &at, &mut x);
         x
     }
 

@@ -23,9 +23,9 @@
 //! How to measure it: lay a spirit level on the floor; or drive the same way in both directions and compare.
 //! Source: gravity on an inclined plane; size from catalogue note B5 (0.2–2°).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, EffectContext, STANDARD_GRAVITY};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -57,7 +57,6 @@ pub const CARD: Card = Card {
             role: Role::Shape,
         },
     ],
-    memory: 0,
     needs_current: false,
     signature: "a constant force in the world frame, at rest too; in the body frame it turns with the heading",
     look_alikes: &[],
@@ -96,16 +95,26 @@ pub fn pull<T: Real>(tilt: T, bearing: T) -> [T; 2] {
 }
 
 /// Tilt of the floor.
-#[derive(Debug)]
-pub struct FloorTilt;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloorTilt<T> {
+    /// β, steepest slope of the floor [rad]
+    pub tilt: T,
+    /// φ, where downhill lies in the world, from x towards y [rad]
+    pub direction: T,
+}
 
-impl<T: Real> Effect<T> for FloorTilt {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for FloorTilt<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[tilt, direction] = params else { return None };
+        Some(Self { tilt, direction })
     }
+}
 
-    fn body(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Body<T>) {
-        let &[tilt, direction] = p else { return };
+impl<T: Real> Hooks<T> for FloorTilt<T> {
+    type State = ();
+
+    fn body(&self, _: &(), at: &EffectContext<T>, x: &mut Body<T>) {
+        let Self { tilt, direction } = *self;
         let [v, vn] = pull(tilt, direction - at.pose.theta);
         // 0 − a, taken away: a force that is absent then keeps even the sign of a zero
         x.force[0] -= T::zero() - x.mass * v;
@@ -122,7 +131,7 @@ mod tests {
     fn pulled(p: [f64; 2], theta: f64, force: [f64; 3]) -> [f64; 3] {
         let at = EffectContext { pose: Pose { x: 0.4, y: -0.2, theta }, ..EffectContext::default() };
         let mut x = Body { mass: 2.34, inertia: 0.0228, force, rate: [[0.0; 3]; 3], budget: [0.0; 3] };
-        FloorTilt.body(&p, &[], &at, &mut x);
+        FloorTilt::of(&p).expect("as many as on the card").body(&(), &at, &mut x);
         x.force
     }
 

@@ -17,9 +17,9 @@
 //! How to measure it: pull the robot with a weight over a pulley at steady speed, and compare wheels with camera.
 //! Source: brush model at small slip; size from catalogue note C5 (0.005–0.05 (m/s)/N).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -40,7 +40,6 @@ pub const CARD: Card = Card {
         within: (0.0, 0.2),
         role: Role::Size,
     }],
-    memory: 0,
     needs_current: false,
     signature: "wheels lead the body while it speeds up and trail it while it brakes, in proportion to the force",
     look_alikes: &[LookAlike {
@@ -49,7 +48,7 @@ pub const CARD: Card = Card {
     }],
     code: 9,
     undone: Undone::By("the wheel turns faster than the floor passes by, by c·f/r"),
-    physics: Physics::PASSIVE,
+    physics: Physics { corner_at_absent: true, ..Physics::PASSIVE },
 };
 
 /// Speed of the rim over the floor [m/s].
@@ -60,16 +59,24 @@ pub fn slip<T: Real>(creep: T, traction: T) -> T {
 }
 
 /// Creep of the contact.
-#[derive(Debug)]
-pub struct Creep;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Creep<T> {
+    /// c, slip speed over traction [(m/s)/N]
+    pub creep: T,
+}
 
-impl<T: Real> Effect<T> for Creep {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for Creep<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[creep] = params else { return None };
+        Some(Self { creep })
     }
+}
 
-    fn contact(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Contact<T>) {
-        let &[creep] = p else { return };
+impl<T: Real> Hooks<T> for Creep<T> {
+    type State = ();
+
+    fn contact(&self, _: &(), _: &EffectContext<T>, x: &mut Contact<T>) {
+        let Self { creep } = *self;
         x.creep += creep;
     }
 }
@@ -90,7 +97,7 @@ mod tests {
             stiffness: 0.0,
             shape: 1.0,
         };
-        Creep.contact(&[creep], &[], &EffectContext::default(), &mut x);
+        Creep { creep }.contact(&(), &EffectContext::default(), &mut x);
         x.creep
     }
 

@@ -23,9 +23,9 @@
 //! How to measure it: hold the robot with a spring balance, raise the current until a wheel spins, divide by its load.
 //! Source: Pacejka, Tire and Vehicle Dynamics; size from catalogue notes C6 and C7 (μ 0.2–0.8).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -66,13 +66,12 @@ pub const CARD: Card = Card {
             role: Role::Fixed,
         },
     ],
-    memory: 0,
     needs_current: false,
     signature: "wheels faster than the body at high current; wheels disagree with each other; current itself right",
     look_alikes: &[LookAlike { with: "creep", settled_by: "drive gently: creep stays at small forces, slip does not" }],
     code: 8,
     undone: Undone::No("no current makes the floor hold more; lower the largest acceleration"),
-    physics: Physics::PASSIVE,
+    physics: Physics { corner_at_absent: true, ..Physics::PASSIVE },
 };
 
 /// Force on the floor [N] and its slope [N/(m/s)], of a contact that holds at most `limit` [N].
@@ -94,20 +93,32 @@ pub fn traction<T: Real>(limit: T, stiffness: T, shape: T, slip: T) -> (T, T) {
 }
 
 /// Slip of the wheels.
-#[derive(Debug)]
-pub struct WheelSlip;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelSlip<T> {
+    /// μ, largest force over normal force; 0 stands for no limit [1]
+    pub friction_coefficient: T,
+    /// B, slope at the origin over the limit, at C = 1 [1/(m/s)]
+    pub curve_stiffness: T,
+    /// C, 1 rises to the limit, above 1 falls after a peak [1]
+    pub curve_shape: T,
+}
 
-impl<T: Real> Effect<T> for WheelSlip {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for WheelSlip<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[friction_coefficient, curve_stiffness, curve_shape] = params else { return None };
+        Some(Self { friction_coefficient, curve_stiffness, curve_shape })
     }
+}
 
-    fn contact(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Contact<T>) {
-        let &[friction_coefficient, stiffness, shape] = p else { return };
+impl<T: Real> Hooks<T> for WheelSlip<T> {
+    type State = ();
+
+    fn contact(&self, _: &(), _: &EffectContext<T>, x: &mut Contact<T>) {
+        let Self { friction_coefficient, curve_stiffness, curve_shape } = *self;
         if friction_coefficient > T::zero() {
             x.grip = friction_coefficient;
-            x.stiffness = stiffness;
-            x.shape = shape;
+            x.stiffness = curve_stiffness;
+            x.shape = curve_shape;
         }
     }
 }
@@ -127,7 +138,7 @@ mod tests {
             stiffness: 0.0,
             shape: 1.0,
         };
-        WheelSlip.contact(&p, &[], &EffectContext::default(), &mut x);
+        WheelSlip::of(&p).expect("as many as on the card").contact(&(), &EffectContext::default(), &mut x);
         x
     }
 

@@ -22,9 +22,9 @@
 //! How to measure it: drive up to speed and brake with the same current: the two accelerations differ.
 //! Source: definition of efficiency in both directions; size from catalogue note D1 (0.75–0.95).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -45,7 +45,6 @@ pub const CARD: Card = Card {
         within: (0.4, 1.0),
         role: Role::Size,
     }],
-    memory: 0,
     needs_current: false,
     signature: "torque at the wheel short by a share of the current while driving, and too large while braking; current itself right",
     look_alikes: &[],
@@ -55,6 +54,7 @@ pub const CARD: Card = Card {
         // a wheel that sticks has a speed of ±1e-16, whose sign decides whether it counts as driven: a budget that differs
         // by 2.6 % of a torque of 0.2 N·m, 0.16 N at the rim of 2 kg, for some milliseconds each time
         apart: 2e-3,
+        corner_at_absent: true,
         ..Physics::PASSIVE
     },
 };
@@ -75,16 +75,24 @@ pub fn loss<T: Real>(efficiency: T, motor_torque: T, wheel_speed: T) -> T {
 }
 
 /// Efficiency of the gear.
-#[derive(Debug)]
-pub struct GearEfficiency;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GearEfficiency<T> {
+    /// η, power out over power in [1]
+    pub efficiency: T,
+}
 
-impl<T: Real> Effect<T> for GearEfficiency {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for GearEfficiency<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[efficiency] = params else { return None };
+        Some(Self { efficiency })
     }
+}
 
-    fn gear(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Gear<T>) {
-        let &[efficiency] = p else { return };
+impl<T: Real> Hooks<T> for GearEfficiency<T> {
+    type State = ();
+
+    fn gear(&self, _: &(), at: &EffectContext<T>, x: &mut Gear<T>) {
+        let Self { efficiency } = *self;
         x.budget += loss(efficiency, x.motor_torque, at.wheel_speed);
     }
 }
@@ -103,7 +111,7 @@ mod tests {
             damping: 1e-4,
             inertia: 2e-5,
         };
-        GearEfficiency.gear(&[efficiency], &[], &at, &mut x);
+        GearEfficiency { efficiency }.gear(&(), &at, &mut x);
         x.budget
     }
 

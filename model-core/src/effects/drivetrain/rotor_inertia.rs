@@ -9,20 +9,20 @@
 //! at the wheel shaft; with a gear it is often more than the wheel itself. Seen from the body it acts like more mass
 //! and more moment of inertia, but it takes no weight and no centrifugal force.
 //!
-//! symbol   code              unit    meaning
-//! -------  ----------------  ------  ---------------------------------------
-//! J_w      `inertia`         kg·m²   inertia of rotor, gear and wheel at the wheel shaft
-//! J_rotor  `rotor`           kg·m²   inertia of the rotor
-//! J_wheel  `wheel`           kg·m²   inertia of the wheel
-//! l        `gear_ratio`      1       motor speed over wheel speed
+//! symbol   code                unit    meaning
+//! -------  ------------------  ------  ---------------------------------------
+//! J_w      `inertia_at_wheel`  kg·m²   inertia of rotor, gear and wheel at the wheel shaft
+//! J_rotor  `rotor`             kg·m²   inertia of the rotor
+//! J_wheel  `wheel`             kg·m²   inertia of the wheel
+//! l        `gear_ratio`        1       motor speed over wheel speed
 //!
 //! Fails when: the gear is elastic or has play: then rotor and wheel move apart.
 //! How to measure it: lift the robot, step the voltage and time the run-up of the wheels.
 //! Source: kinetic energy of the turning parts; size from catalogue note D9 (3e-5 to 2e-4 kg·m²).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -43,7 +43,6 @@ pub const CARD: Card = Card {
         within: (0.0, 2e-3),
         role: Role::Size,
     }],
-    memory: 0,
     needs_current: false,
     signature: "torque missing in step with the wheels' acceleration, on all axes at once",
     look_alikes: &[
@@ -69,17 +68,25 @@ pub fn at_wheel<T: Real>(gear_ratio: T, rotor: T, wheel: T) -> T {
 }
 
 /// Inertia of rotors and wheels.
-#[derive(Debug)]
-pub struct RotorInertia;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RotorInertia<T> {
+    /// J_w, of rotor, gear and wheel at the wheel shaft [kg·m²]
+    pub inertia_at_wheel: T,
+}
 
-impl<T: Real> Effect<T> for RotorInertia {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for RotorInertia<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[inertia_at_wheel] = params else { return None };
+        Some(Self { inertia_at_wheel })
     }
+}
 
-    fn gear(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Gear<T>) {
-        let &[inertia] = p else { return };
-        x.inertia += inertia;
+impl<T: Real> Hooks<T> for RotorInertia<T> {
+    type State = ();
+
+    fn gear(&self, _: &(), _: &EffectContext<T>, x: &mut Gear<T>) {
+        let Self { inertia_at_wheel } = *self;
+        x.inertia += inertia_at_wheel;
     }
 }
 
@@ -90,7 +97,7 @@ mod tests {
     fn geared(inertia: f64) -> Gear<f64> {
         let mut x =
             Gear { motor_torque: 0.1, coulomb_share: 0.02, torque: 0.1, budget: 0.02, damping: 1e-4, inertia: 2e-5 };
-        RotorInertia.gear(&[inertia], &[], &EffectContext::default(), &mut x);
+        RotorInertia { inertia_at_wheel: inertia }.gear(&(), &EffectContext::default(), &mut x);
         x
     }
 

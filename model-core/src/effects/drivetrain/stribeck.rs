@@ -20,9 +20,9 @@
 //! How to measure it: raise the voltage slowly until the robot moves, lower it slowly until it stops: the two differ.
 //! Source: curve after Stribeck in the form of Bo and Pavelescu; sizes from catalogue note D3 (20–100 %, a = 1–2).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -63,7 +63,6 @@ pub const CARD: Card = Card {
             role: Role::Fixed,
         },
     ],
-    memory: 0,
     needs_current: false,
     signature: "torque short near zero speed, at starts and reversals; current itself right",
     look_alikes: &[],
@@ -73,6 +72,7 @@ pub const CARD: Card = Card {
         // budgets on the wheels' shafts couple the axes. The sweeps over them stop once nothing moves by more than
         // 1e-6 m/s, and go through the axes in their order, which a turned robot has otherwise
         apart: 1e-4,
+        corner_at_absent: true,
         ..Physics::PASSIVE
     },
 };
@@ -86,16 +86,28 @@ pub fn left<T: Real>(stribeck_speed: T, exponent: T, rim_speed: T) -> T {
 }
 
 /// Stribeck friction.
-#[derive(Debug)]
-pub struct Stribeck;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stribeck<T> {
+    /// e, static over kinetic friction, minus one [1]
+    pub static_excess: T,
+    /// v_s, rim speed at which the excess has fallen to 1/e¹ [m/s]
+    pub stribeck_speed: T,
+    /// a, how sharply it falls [1]
+    pub exponent: T,
+}
 
-impl<T: Real> Effect<T> for Stribeck {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for Stribeck<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[static_excess, stribeck_speed, exponent] = params else { return None };
+        Some(Self { static_excess, stribeck_speed, exponent })
     }
+}
 
-    fn gear(&self, p: &[T], _: &[T], at: &EffectContext<T>, x: &mut Gear<T>) {
-        let &[static_excess, stribeck_speed, exponent] = p else { return };
+impl<T: Real> Hooks<T> for Stribeck<T> {
+    type State = ();
+
+    fn gear(&self, _: &(), at: &EffectContext<T>, x: &mut Gear<T>) {
+        let Self { static_excess, stribeck_speed, exponent } = *self;
         x.budget += x.coulomb_share * static_excess * left(stribeck_speed, exponent, at.rim_speed);
     }
 }
@@ -108,7 +120,7 @@ mod tests {
         let at = EffectContext { rim_speed, ..EffectContext::default() };
         let mut x =
             Gear { motor_torque: 0.1, coulomb_share: 0.02, torque: 0.1, budget: 0.02, damping: 1e-4, inertia: 2e-5 };
-        Stribeck.gear(&p, &[], &at, &mut x);
+        Stribeck::of(&p).expect("as many as on the card").gear(&(), &at, &mut x);
         x.budget
     }
 

@@ -24,13 +24,13 @@
 //! How to measure it: step the voltage with the wheels locked and count the time until the current rises.
 //! Source: held input behind a pure delay; size from catalogue note E13 (1–10 ms over radio).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext, StepOutcome};
+use crate::effects::{Catalogued, Hooks, Numbers, State};
 use crate::number::scalar::Real;
 
 /// Changes of command that are remembered.
-const SLOTS: u8 = 32;
+const SLOTS: usize = 32;
 
 /// When the current is sampled: this part of the step after its beginning.
 const SAMPLED_AFTER: f64 = 0.01;
@@ -53,8 +53,6 @@ pub const CARD: Card = Card {
         within: (0.0, 0.05),
         role: Role::Size,
     }],
-    // the next slot, then (time, command) of each change
-    memory: 1 + 2 * SLOTS as usize,
     needs_current: false,
     signature: "current wrong for a moment after every change of voltage, and right in between; speed and pose late with it",
     look_alikes: &[],
@@ -88,46 +86,72 @@ pub fn outstanding<T: Real>(delay: T, at: &EffectContext<T>, command: T, past: i
     (if at.dt > T::zero() { mean } else { sampled }, sampled)
 }
 
-/// The remembered changes, newest first.
-fn newest_first<T: Real>(s: &[T]) -> impl Iterator<Item = [T; 2]> {
-    let (next, ring) = match s.split_first() {
-        Some((next, ring)) => (next.index(), ring),
-        None => (0, s),
-    };
-    let (slots, _) = ring.as_chunks::<2>();
-    let (after, before) = slots.split_at(next.min(slots.len()));
-    after.iter().rev().chain(before.iter().rev()).copied()
+/// The last changes of command.
+#[derive(Clone, Copy, Debug)]
+pub struct Changes<T> {
+    /// (time, command) of each; the oldest stands at `next`
+    ring: [[T; 2]; SLOTS],
+    /// Where the next one goes
+    next: u8,
+}
+
+impl<T: Real> Changes<T> {
+    /// (time, command), newest first.
+    fn newest_first(&self) -> impl Iterator<Item = [T; 2]> {
+        let (after, before) = self.ring.split_at(usize::from(self.next).min(SLOTS));
+        after.iter().rev().chain(before.iter().rev()).copied()
+    }
+
+    fn remember(&mut self, time: T, command: T) {
+        let Some(slot) = self.ring.get_mut(usize::from(self.next)) else { return };
+        *slot = [time, command];
+        self.next += 1;
+        if usize::from(self.next) >= SLOTS {
+            self.next = 0;
+        }
+    }
+}
+
+impl<T: Real> Numbers<T> for Changes<T> {
+    fn for_each_mut(&mut self, visit: impl FnMut(&mut T)) {
+        self.ring.as_flattened_mut().iter_mut().for_each(visit);
+    }
+}
+
+impl<T: Real> State<T> for Changes<T> {
+    fn start() -> Self {
+        Self { ring: [[T::zero(); 2]; SLOTS], next: 0 }
+    }
 }
 
 /// Delay of the command.
-#[derive(Debug)]
-pub struct ActuationDelay;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ActuationDelay<T> {
+    /// t_d, from the command to the bridge [s]
+    pub delay: T,
+}
 
-impl<T: Real> Effect<T> for ActuationDelay {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for ActuationDelay<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[delay] = params else { return None };
+        Some(Self { delay })
     }
+}
 
-    fn bridge(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Bridge<T>) {
-        let &[delay] = p else { return };
-        let (mean, sampled) = outstanding(delay.max(T::zero()), at, x.command, newest_first(s));
+impl<T: Real> Hooks<T> for ActuationDelay<T> {
+    type State = Changes<T>;
+
+    fn bridge(&self, s: &Changes<T>, at: &EffectContext<T>, x: &mut Bridge<T>) {
+        let (mean, sampled) = outstanding(self.delay.max(T::zero()), at, x.command, s.newest_first());
         let gain = x.bus / at.nominal_supply;
         x.voltage -= mean * gain;
         x.sampled -= sampled * gain;
     }
 
-    fn advance(&self, _: &[T], s: &mut [T], at: &EffectContext<T>, done: &StepOutcome<T>) {
-        let last = newest_first(s).next().map_or(T::zero(), |[_, command]| command);
-        if done.command == last {
-            return;
-        }
-        let Some((next, ring)) = s.split_first_mut() else { return };
-        let (slots, _) = ring.as_chunks_mut::<2>();
-        let Some(slot) = slots.get_mut(next.index()) else { return };
-        *slot = [at.time, done.command];
-        *next += T::one();
-        if *next >= T::lit(f64::from(SLOTS)) {
-            *next = T::zero();
+    fn advance(&self, s: &mut Changes<T>, at: &EffectContext<T>, done: &StepOutcome<T>) {
+        let last = s.newest_first().next().map_or(T::zero(), |[_, command]| command);
+        if done.command != last {
+            s.remember(at.time, done.command);
         }
     }
 }
@@ -139,10 +163,10 @@ mod tests {
     const NOMINAL: f64 = 12.0;
 
     /// The drive as the plant describes it, after the hook.
-    fn driven(s: &[f64], delay: f64, at: &EffectContext<f64>, command: f64, bus: f64) -> Bridge<f64> {
+    fn driven(s: &Changes<f64>, delay: f64, at: &EffectContext<f64>, command: f64, bus: f64) -> Bridge<f64> {
         let voltage = command * (bus / NOMINAL);
         let mut x = Bridge { command, bus, current: 0.3, voltage, sampled: voltage };
-        ActuationDelay.bridge(&[delay], s, at, &mut x);
+        ActuationDelay { delay }.bridge(s, at, &mut x);
         x
     }
 
@@ -150,13 +174,13 @@ mod tests {
         EffectContext { time, dt, nominal_supply: NOMINAL, ..EffectContext::default() }
     }
 
-    fn advance(s: &mut [f64], at: &EffectContext<f64>, command: f64) {
-        ActuationDelay.advance(&[], s, at, &StepOutcome { command, ..StepOutcome::default() });
+    fn advance(s: &mut Changes<f64>, at: &EffectContext<f64>, command: f64) {
+        ActuationDelay { delay: 0.0 }.advance(s, at, &StepOutcome { command, ..StepOutcome::default() });
     }
 
     #[test]
     fn without_delay_the_drive_is_left_bit_for_bit() {
-        let mut s = [0.0; CARD.memory];
+        let mut s = Changes::start();
         for (k, command) in [3.7, -0.0, 0.0, -8.1, 5.0].into_iter().enumerate() {
             let at = at(0.005 * k as f64, 0.005);
             let voltage = command * (11.3 / NOMINAL);
@@ -168,7 +192,7 @@ mod tests {
 
     #[test]
     fn a_delay_of_two_fifths_of_a_step_takes_two_fifths_of_the_first_step() {
-        let mut s = [0.0; CARD.memory];
+        let mut s = Changes::start();
         let x = driven(&s, 0.002, &at(0.0, 0.005), 10.0, NOMINAL);
         assert!((x.voltage - 6.0).abs() < 1e-12 && x.sampled == 0.0, "{x:?}");
         advance(&mut s, &at(0.0, 0.005), 10.0);
@@ -192,7 +216,7 @@ mod tests {
             u
         };
         for delay in [0.0004, 0.0073, 0.0251] {
-            let mut s = [0.0; CARD.memory];
+            let mut s = Changes::start();
             let mut time = 0.0;
             for (command, dt) in commands.into_iter().zip(lengths) {
                 let at = at(time, dt);
@@ -211,15 +235,15 @@ mod tests {
 
     #[test]
     fn a_delay_of_two_steps_is_sampled_two_steps_later_whatever_the_rounding() {
-        let mut s = [0.0_f32; CARD.memory];
+        let mut s = Changes::<f32>::start();
         let (mut time, mut before) = (0.0_f32, [0.0_f32; 2]);
         for k in 0_u8..=200 {
             let command = f32::from(k % 7);
             let at = EffectContext { time, dt: 0.005, nominal_supply: 12.0, ..EffectContext::default() };
             let mut x = Bridge { command, bus: 12.0, current: 0.0, voltage: command, sampled: command };
-            ActuationDelay.bridge(&[0.010], &s, &at, &mut x);
+            ActuationDelay { delay: 0.010 }.bridge(&s, &at, &mut x);
             assert_eq!(x.sampled, before[0]);
-            ActuationDelay.advance(&[0.010], &mut s, &at, &StepOutcome { command, ..StepOutcome::default() });
+            ActuationDelay { delay: 0.010 }.advance(&mut s, &at, &StepOutcome { command, ..StepOutcome::default() });
             before = [before[1], command];
             time += 0.005;
         }
@@ -227,7 +251,7 @@ mod tests {
 
     #[test]
     fn the_mean_bends_with_the_delay_from_zero_on() {
-        let s = [0.0; CARD.memory];
+        let s = Changes::start();
         // dū/dt_d = −Δu/Δt
         let x = driven(&s, 1e-7, &at(0.0, 0.005), 10.0, NOMINAL);
         assert!(((x.voltage - 10.0) / 1e-7 + 10.0 / 0.005).abs() < 1e-4);
@@ -235,7 +259,7 @@ mod tests {
 
     #[test]
     fn of_too_many_changes_the_oldest_known_stands() {
-        let mut s = [0.0; CARD.memory];
+        let mut s = Changes::start();
         for k in 0..100 {
             advance(&mut s, &at(0.001 * f64::from(k), 0.001), f64::from(k + 1));
         }
@@ -249,7 +273,7 @@ mod tests {
 
     #[test]
     fn it_never_gives_more_than_the_largest_command() {
-        let mut s = [0.0; CARD.memory];
+        let mut s = Changes::start();
         let mut largest = 0.0_f64;
         for k in 0..200 {
             let command = f64::from((k * 37) % 23) - 11.0;

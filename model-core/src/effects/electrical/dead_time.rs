@@ -18,9 +18,9 @@
 //! How to measure it: locked wheel, slow ramp of voltage: the current stays near zero up to V_d, then rises with 1/R.
 //! Source: size from catalogue note E2 (0.05–0.6 V); the paper sees it as part of R (section 5.4).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -52,7 +52,6 @@ pub const CARD: Card = Card {
             role: Role::Fixed,
         },
     ],
-    memory: 0,
     needs_current: true,
     signature: "current short of (u − K_v·ω)/R by V_d/R, against its own sign, at all speeds; wheels do not start at small voltages",
     look_alikes: &[
@@ -83,16 +82,26 @@ pub fn loss<T: Real>(voltage_loss: T, smoothing_current: T, current: T) -> T {
 }
 
 /// Dead time of the bridge.
-#[derive(Debug)]
-pub struct DeadTime;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeadTime<T> {
+    /// V_d, lost at currents well above the ripple [V]
+    pub voltage_loss: T,
+    /// i₀, amplitude of the ripple [A]
+    pub smoothing_current: T,
+}
 
-impl<T: Real> Effect<T> for DeadTime {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for DeadTime<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[voltage_loss, smoothing_current] = params else { return None };
+        Some(Self { voltage_loss, smoothing_current })
     }
+}
 
-    fn bridge(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Bridge<T>) {
-        let &[voltage_loss, smoothing_current] = p else { return };
+impl<T: Real> Hooks<T> for DeadTime<T> {
+    type State = ();
+
+    fn bridge(&self, _: &(), _: &EffectContext<T>, x: &mut Bridge<T>) {
+        let Self { voltage_loss, smoothing_current } = *self;
         let lost = loss(voltage_loss, smoothing_current, x.current);
         x.voltage -= lost;
         x.sampled -= lost;

@@ -20,9 +20,9 @@
 //! lock the wheels: it draws another current (ρ).
 //! Source: equations of the DC motor; sizes from catalogue notes E8 (−5 to −30 %) and E9 (+5 to +50 %).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Winding};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -54,7 +54,6 @@ pub const CARD: Card = Card {
             role: Role::Shape,
         },
     ],
-    memory: 0,
     needs_current: false,
     signature: "current and torque wrong on one wheel alone: in step with its speed (k) or with its current (ρ)",
     look_alikes: &[],
@@ -77,16 +76,26 @@ pub fn odd<T: Real>(torque_constant_ratio: T, resistance_ratio: T, x: Winding<T>
 }
 
 /// Mismatch of one motor.
-#[derive(Debug)]
-pub struct MotorMismatch;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotorMismatch<T> {
+    /// k, this motor's constants over those of the model [1]
+    pub torque_constant_ratio: T,
+    /// ρ, this motor's resistance over that of the model [1]
+    pub resistance_ratio: T,
+}
 
-impl<T: Real> Effect<T> for MotorMismatch {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for MotorMismatch<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[torque_constant_ratio, resistance_ratio] = params else { return None };
+        Some(Self { torque_constant_ratio, resistance_ratio })
     }
+}
 
-    fn winding(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Winding<T>) {
-        let &[torque_constant_ratio, resistance_ratio] = p else { return };
+impl<T: Real> Hooks<T> for MotorMismatch<T> {
+    type State = ();
+
+    fn winding(&self, _: &(), _: &EffectContext<T>, x: &mut Winding<T>) {
+        let Self { torque_constant_ratio, resistance_ratio } = *self;
         *x = odd(torque_constant_ratio, resistance_ratio, *x);
     }
 }
@@ -106,7 +115,7 @@ mod tests {
 
     fn wound(p: [f64; 2]) -> Winding<f64> {
         let mut x = PLAIN;
-        MotorMismatch.winding(&p, &[], &EffectContext::default(), &mut x);
+        MotorMismatch::of(&p).expect("as many as on the card").winding(&(), &EffectContext::default(), &mut x);
         x
     }
 

@@ -21,9 +21,9 @@
 //! How to measure it: read the bus voltage with all wheels at rest, and again with all of them held at full command.
 //! Source: voltage source behind a resistance; size from catalogue note E3 (0.05–0.3 Ω).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Supply};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -55,7 +55,6 @@ pub const CARD: Card = Card {
             role: Role::Fixed,
         },
     ],
-    memory: 0,
     needs_current: false,
     signature: "current short on all wheels at once, most while the other wheels pull; bus voltage falls with the total current",
     look_alikes: &[LookAlike {
@@ -75,16 +74,26 @@ pub fn bus<T: Real>(internal_resistance: T, open_circuit_voltage: T, current: T)
 }
 
 /// Sag of the supply.
-#[derive(Debug)]
-pub struct SupplySag;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SupplySag<T> {
+    /// R_b, of battery and wiring [Ω]
+    pub internal_resistance: T,
+    /// U_oc, without load; 0 stands for the nominal supply [V]
+    pub open_circuit_voltage: T,
+}
 
-impl<T: Real> Effect<T> for SupplySag {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for SupplySag<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[internal_resistance, open_circuit_voltage] = params else { return None };
+        Some(Self { internal_resistance, open_circuit_voltage })
     }
+}
 
-    fn supply(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Supply<T>) {
-        let &[internal_resistance, open_circuit_voltage] = p else { return };
+impl<T: Real> Hooks<T> for SupplySag<T> {
+    type State = ();
+
+    fn supply(&self, _: &(), _: &EffectContext<T>, x: &mut Supply<T>) {
+        let Self { internal_resistance, open_circuit_voltage } = *self;
         let open = if open_circuit_voltage > T::zero() { open_circuit_voltage } else { x.voltage };
         x.voltage = bus(internal_resistance, open, x.current);
     }
@@ -96,7 +105,7 @@ mod tests {
 
     fn supplied(p: [f64; 2], current: f64) -> f64 {
         let mut x = Supply { current, voltage: 12.3 };
-        SupplySag.supply(&p, &[], &EffectContext::default(), &mut x);
+        SupplySag::of(&p).expect("as many as on the card").supply(&(), &EffectContext::default(), &mut x);
         x.voltage
     }
 

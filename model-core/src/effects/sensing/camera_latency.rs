@@ -22,14 +22,14 @@
 //! How to measure it: spin the robot up and stop it: the camera sees the stop late by t_d.
 //! Source: pure delay; size from catalogue note S1 (20–90 ms; one camera frame is 40 ms).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
+use crate::effects::{Catalogued, Hooks, Numbers, State};
 use crate::geometry::frames::Pose;
 use crate::number::scalar::Real;
 
 /// Poses that are remembered.
-const SLOTS: u8 = 48;
+const SLOTS: usize = 48;
 
 /// Pieces into which a restart cuts the way that the robot came.
 const PIECES: u8 = 24;
@@ -55,8 +55,6 @@ pub const CARD: Card = Card {
         within: (0.0, 0.15),
         role: Role::Size,
     }],
-    // the next slot and the number of slots in use, then (time, x, y, θ) of each pose
-    memory: 2 + 4 * SLOTS as usize,
     needs_current: false,
     signature: "pose behind by velocity times latency, in x, y and heading alike; current and wheel speed right",
     look_alikes: &[],
@@ -88,63 +86,85 @@ pub fn delayed<T: Real>(latency: T, time: T, now: Pose<T>, past: impl Iterator<I
     newer
 }
 
-/// The remembered poses, newest first.
-fn newest_first<T: Real>(s: &[T]) -> impl Iterator<Item = [T; 4]> {
-    let (next, used, ring) = match s {
-        [next, used, ring @ ..] => (next.index(), used.index(), ring),
-        _ => (0, 0, s),
-    };
-    let (slots, _) = ring.as_chunks::<4>();
-    let (after, before) = slots.split_at(next.min(slots.len()));
-    after.iter().rev().chain(before.iter().rev()).take(used).copied()
+/// The last poses.
+#[derive(Clone, Copy, Debug)]
+pub struct Poses<T> {
+    /// (time, x, y, θ) of each; the oldest stands at `next`
+    ring: [[T; 4]; SLOTS],
+    /// Where the next one goes
+    next: u8,
+    /// How many there are
+    used: u8,
 }
 
-/// Remember a pose in the place of the oldest.
-fn remember<T: Real>(s: &mut [T], time: T, pose: Pose<T>) {
-    let [next, used, ring @ ..] = s else { return };
-    let (slots, _) = ring.as_chunks_mut::<4>();
-    let Some(slot) = slots.get_mut(next.index()) else { return };
-    *slot = [time, pose.x, pose.y, pose.theta];
-    let all = T::lit(f64::from(SLOTS));
-    *used = (*used + T::one()).min(all);
-    *next += T::one();
-    if *next >= all {
-        *next = T::zero();
+impl<T: Real> Poses<T> {
+    /// (time, x, y, θ), newest first.
+    fn newest_first(&self) -> impl Iterator<Item = [T; 4]> {
+        let (after, before) = self.ring.split_at(usize::from(self.next).min(SLOTS));
+        after.iter().rev().chain(before.iter().rev()).take(usize::from(self.used)).copied()
+    }
+
+    /// Remembers a pose in the place of the oldest.
+    fn remember(&mut self, time: T, pose: Pose<T>) {
+        let Some(slot) = self.ring.get_mut(usize::from(self.next)) else { return };
+        *slot = [time, pose.x, pose.y, pose.theta];
+        self.used = (self.used + 1).min(SLOTS as u8);
+        self.next += 1;
+        if usize::from(self.next) >= SLOTS {
+            self.next = 0;
+        }
+    }
+}
+
+impl<T: Real> Numbers<T> for Poses<T> {
+    fn for_each_mut(&mut self, visit: impl FnMut(&mut T)) {
+        self.ring.as_flattened_mut().iter_mut().for_each(visit);
+    }
+}
+
+impl<T: Real> State<T> for Poses<T> {
+    fn start() -> Self {
+        Self { ring: [[T::zero(); 4]; SLOTS], next: 0, used: 0 }
     }
 }
 
 /// Latency of the camera.
-#[derive(Debug)]
-pub struct CameraLatency;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraLatency<T> {
+    /// t_d, from the picture to its use [s]
+    pub latency: T,
+}
 
-impl<T: Real> Effect<T> for CameraLatency {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for CameraLatency<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[latency] = params else { return None };
+        Some(Self { latency })
+    }
+}
+
+impl<T: Real> Hooks<T> for CameraLatency<T> {
+    type State = Poses<T>;
+
+    fn sense(&self, s: &Poses<T>, at: &EffectContext<T>, x: &mut Sense<T>) {
+        x.pose = delayed(self.latency.max(T::zero()), at.time, x.pose, s.newest_first());
     }
 
-    fn sense(&self, p: &[T], s: &[T], at: &EffectContext<T>, x: &mut Sense<T>) {
-        let &[latency] = p else { return };
-        x.pose = delayed(latency.max(T::zero()), at.time, x.pose, newest_first(s));
+    fn invert_sensing(&self, at: &EffectContext<T>, x: &mut Sense<T>) {
+        x.pose = x.pose.moved(at.twist, self.latency.max(T::zero()));
     }
 
-    fn invert_sensing(&self, p: &[T], at: &EffectContext<T>, x: &mut Sense<T>) {
-        let &[latency] = p else { return };
-        x.pose = x.pose.moved(at.twist, latency.max(T::zero()));
-    }
-
-    fn restart(&self, p: &[T], s: &mut [T], at: &EffectContext<T>) {
-        let &[latency] = p else { return };
-        s.fill(T::zero());
+    fn restart(&self, s: &mut Poses<T>, at: &EffectContext<T>) {
+        *s = Poses::start();
         for k in (0..=PIECES).rev() {
-            let ago = latency.max(T::zero()) * T::lit(f64::from(k) / f64::from(PIECES));
-            remember(s, at.time - ago, at.pose.moved(at.twist, -ago));
+            let ago = self.latency.max(T::zero()) * T::lit(f64::from(k) / f64::from(PIECES));
+            s.remember(at.time - ago, at.pose.moved(at.twist, -ago));
         }
     }
 
-    fn advance(&self, _: &[T], s: &mut [T], at: &EffectContext<T>, _: &StepOutcome<T>) {
-        let recent = newest_first(s).next().is_some_and(|[time, ..]| at.time - time < T::lit(SPACING));
+    fn advance(&self, s: &mut Poses<T>, at: &EffectContext<T>, _: &StepOutcome<T>) {
+        let recent = s.newest_first().next().is_some_and(|[time, ..]| at.time - time < T::lit(SPACING));
         if !recent {
-            remember(s, at.time, at.pose);
+            s.remember(at.time, at.pose);
         }
     }
 }
@@ -173,9 +193,9 @@ mod tests {
         EffectContext { time, pose: truth(twist, time), twist, ..EffectContext::default() }
     }
 
-    fn read(latency: f64, s: &[f64], at: &EffectContext<f64>) -> Pose<f64> {
+    fn read(latency: f64, s: &Poses<f64>, at: &EffectContext<f64>) -> Pose<f64> {
         let mut x = Sense { pose: at.pose, ..Sense::default() };
-        CameraLatency.sense(&[latency], s, at, &mut x);
+        CameraLatency { latency }.sense(s, at, &mut x);
         x.pose
     }
 
@@ -189,10 +209,10 @@ mod tests {
 
     /// Drives from time zero, cold, in steps from a list over and over; the largest error once `latency` is over.
     fn worst(latency: f64, twist: BodyTwist<f64>, steps: &[f64], end: f64) -> f64 {
-        let mut s = [0.0; CARD.memory];
+        let mut s = Poses::start();
         let (mut time, mut worst) = (0.0, 0.0_f64);
         for dt in steps.iter().cycle() {
-            CameraLatency.advance(&[latency], &mut s, &at(twist, time), &StepOutcome::default());
+            CameraLatency { latency }.advance(&mut s, &at(twist, time), &StepOutcome::default());
             time += dt;
             if time > end {
                 break;
@@ -206,16 +226,16 @@ mod tests {
 
     #[test]
     fn without_latency_the_pose_is_the_truth_bit_for_bit() {
-        let mut s = [0.0; CARD.memory];
+        let mut s = Poses::start();
         assert_eq!(bits(read(0.0, &s, &at(CURVE, 0.0))), bits(truth(CURVE, 0.0)));
-        CameraLatency.restart(&[0.0], &mut s, &at(CURVE, 0.0));
+        CameraLatency { latency: 0.0 }.restart(&mut s, &at(CURVE, 0.0));
         for k in 0..100 {
             let here = at(CURVE, 0.005 * f64::from(k));
             assert_eq!(bits(read(0.0, &s, &here)), bits(here.pose));
             let mut x = Sense { pose: here.pose, ..Sense::default() };
-            CameraLatency.invert_sensing(&[0.0], &here, &mut x);
+            CameraLatency { latency: 0.0 }.invert_sensing(&here, &mut x);
             assert_eq!(bits(x.pose), bits(here.pose));
-            CameraLatency.advance(&[0.0], &mut s, &here, &StepOutcome::default());
+            CameraLatency { latency: 0.0 }.advance(&mut s, &here, &StepOutcome::default());
         }
         let zero = EffectContext { time: 0.6, pose: Pose { x: -0.0, y: 0.0, theta: -0.0 }, ..EffectContext::default() };
         assert_eq!(bits(read(0.0, &s, &zero)), bits(zero.pose));
@@ -242,9 +262,9 @@ mod tests {
 
     #[test]
     fn before_it_has_seen_anything_older_the_first_pose_stands() {
-        let mut s = [0.0; CARD.memory];
+        let mut s = Poses::start();
         assert_eq!(bits(read(0.040, &s, &at(STRAIGHT, 0.0))), bits(truth(STRAIGHT, 0.0)));
-        CameraLatency.advance(&[0.040], &mut s, &at(STRAIGHT, 0.0), &StepOutcome::default());
+        CameraLatency { latency: 0.040 }.advance(&mut s, &at(STRAIGHT, 0.0), &StepOutcome::default());
         assert_eq!(bits(read(0.040, &s, &at(STRAIGHT, 0.005))), bits(truth(STRAIGHT, 0.0)));
     }
 
@@ -255,10 +275,10 @@ mod tests {
                 let measured = Pose { x: 0.31, y: -1.2, theta: 2.8 };
                 let mut x = Sense { pose: measured, ..Sense::default() };
                 let mut here = EffectContext { time, twist: CURVE, ..EffectContext::default() };
-                CameraLatency.invert_sensing(&[latency], &here, &mut x);
+                CameraLatency { latency }.invert_sensing(&here, &mut x);
                 here.pose = x.pose;
-                let mut s = [7.0; CARD.memory];
-                CameraLatency.restart(&[latency], &mut s, &here);
+                let mut s = Poses { ring: [[7.0; 4]; SLOTS], next: 7, used: 9 };
+                CameraLatency { latency }.restart(&mut s, &here);
                 assert!(off(read(latency, &s, &here), measured) < 1e-12);
             }
         }
@@ -267,26 +287,26 @@ mod tests {
     #[test]
     fn from_a_restart_on_it_follows_the_way_the_robot_came() {
         for latency in [0.040, 0.15] {
-            let mut s = [0.0; CARD.memory];
+            let mut s = Poses::start();
             let start = 0.5;
-            CameraLatency.restart(&[latency], &mut s, &at(STRAIGHT, start));
+            CameraLatency { latency }.restart(&mut s, &at(STRAIGHT, start));
             for k in 0..200 {
                 let here = at(STRAIGHT, start + 0.004 * f64::from(k));
                 assert!(off(read(latency, &s, &here), truth(STRAIGHT, here.time - latency)) < 1e-12);
-                CameraLatency.advance(&[latency], &mut s, &here, &StepOutcome::default());
+                CameraLatency { latency }.advance(&mut s, &here, &StepOutcome::default());
             }
         }
     }
 
     #[test]
     fn a_robot_at_rest_is_seen_where_it_is_and_a_moving_one_behind_itself() {
-        let mut s = [0.0; CARD.memory];
-        CameraLatency.restart(&[0.040], &mut s, &at(BodyTwist::default(), 0.0));
+        let mut s = Poses::start();
+        CameraLatency { latency: 0.040 }.restart(&mut s, &at(BodyTwist::default(), 0.0));
         assert!(off(read(0.040, &s, &at(BodyTwist::default(), 0.0)), truth(STRAIGHT, 0.0)) == 0.0);
         let back = BodyTwist { v: -STRAIGHT.v, vn: -STRAIGHT.vn, w: 0.0 };
         let behind = |twist| {
-            let mut s = [0.0; CARD.memory];
-            CameraLatency.restart(&[0.040], &mut s, &at(twist, 0.0));
+            let mut s = Poses::start();
+            CameraLatency { latency: 0.040 }.restart(&mut s, &at(twist, 0.0));
             let seen = read(0.040, &s, &at(twist, 0.0));
             let here = truth(twist, 0.0);
             [seen.x - here.x, seen.y - here.y]

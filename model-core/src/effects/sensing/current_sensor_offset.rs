@@ -15,9 +15,9 @@
 //! How to measure it: read the current with the bridge off.
 //! Source: zero error of a shunt amplifier; size from catalogue note S9 (10–100 mA).
 
-use crate::effects::Effect;
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -38,7 +38,6 @@ pub const CARD: Card = Card {
         within: (-0.5, 0.5),
         role: Role::Size,
     }],
-    memory: 0,
     needs_current: false,
     signature: "a constant in the current, at rest too; speed and pose right",
     look_alikes: &[],
@@ -59,21 +58,29 @@ pub fn reading<T: Real>(offset: T, current: T) -> T {
 }
 
 /// Offset of the current sensor.
-#[derive(Debug)]
-pub struct CurrentSensorOffset;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurrentSensorOffset<T> {
+    /// o, reading at zero current [A]
+    pub offset: T,
+}
 
-impl<T: Real> Effect<T> for CurrentSensorOffset {
-    fn card(&self) -> &'static Card {
-        &CARD
+impl<T: Copy> Catalogued<T> for CurrentSensorOffset<T> {
+    fn of(params: &[T]) -> Option<Self> {
+        let &[offset] = params else { return None };
+        Some(Self { offset })
     }
+}
 
-    fn sense(&self, p: &[T], _: &[T], _: &EffectContext<T>, x: &mut Sense<T>) {
-        let &[offset] = p else { return };
+impl<T: Real> Hooks<T> for CurrentSensorOffset<T> {
+    type State = ();
+
+    fn sense(&self, _: &(), _: &EffectContext<T>, x: &mut Sense<T>) {
+        let Self { offset } = *self;
         x.current = reading(offset, x.current);
     }
 
-    fn invert_sensing(&self, p: &[T], _: &EffectContext<T>, x: &mut Sense<T>) {
-        let &[offset] = p else { return };
+    fn invert_sensing(&self, _: &EffectContext<T>, x: &mut Sense<T>) {
+        let Self { offset } = *self;
         x.current -= offset;
     }
 }
@@ -84,7 +91,7 @@ mod tests {
 
     fn sensed(offset: f64, current: f64) -> Sense<f64> {
         let mut x = Sense { current, wheel_speed: 3.0, ..Sense::default() };
-        CurrentSensorOffset.sense(&[offset], &[], &EffectContext::default(), &mut x);
+        CurrentSensorOffset { offset }.sense(&(), &EffectContext::default(), &mut x);
         x
     }
 
@@ -93,7 +100,7 @@ mod tests {
         for current in [0.0, -0.0, 0.7, -1.3] {
             let mut x = sensed(0.0, current);
             assert_eq!(x.current.to_bits(), current.to_bits());
-            CurrentSensorOffset.invert_sensing(&[0.0], &EffectContext::default(), &mut x);
+            CurrentSensorOffset { offset: 0.0 }.invert_sensing(&EffectContext::default(), &mut x);
             assert_eq!(x.current.to_bits(), current.to_bits());
         }
     }
@@ -108,7 +115,7 @@ mod tests {
     #[test]
     fn reading_backwards_gives_the_truth() {
         let mut x = sensed(0.05, 0.7);
-        CurrentSensorOffset.invert_sensing(&[0.05], &EffectContext::default(), &mut x);
+        CurrentSensorOffset { offset: 0.05 }.invert_sensing(&EffectContext::default(), &mut x);
         assert!((x.current - 0.7).abs() < 1e-15);
     }
 

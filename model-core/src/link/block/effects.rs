@@ -1,14 +1,18 @@
 //! The effects in a block: a number each, that never changes its meaning, and their parameters.
 
 use super::{BlockError, BlockErrorKind, BoundedField};
-use crate::effects::CARDS;
-use crate::effects::active::MAX_EFFECTS;
-use crate::effects::card::{Card, MAX_PARAMS, Scope};
+use crate::effects::EffectKind;
+use crate::effects::card::{MAX_PARAMS, Scope};
 use crate::link::bytes::Reader;
+
+/// The most effects that a block names.
+pub const MOST_EFFECTS: usize = 12;
 
 /// An effect that a block may name.
 #[derive(Clone, Copy, Debug)]
 pub struct EffectCode {
+    /// Which effect.
+    pub kind: EffectKind,
     /// Its number in a block.
     pub code: u8,
     /// Its id in the catalogue.
@@ -20,11 +24,11 @@ pub struct EffectCode {
 }
 
 /// Every effect with its number, as the cards say.
-pub static EFFECT_CODES: [EffectCode; CARDS.len()] = {
-    let mut codes = [EffectCode::of(CARDS[0]); CARDS.len()];
+pub static EFFECT_CODES: [EffectCode; EffectKind::ALL.len()] = {
+    let mut codes = [EffectCode::of(EffectKind::ALL[0]); EffectKind::ALL.len()];
     let mut k = 0;
     while k < codes.len() {
-        codes[k] = EffectCode::of(CARDS[k]);
+        codes[k] = EffectCode::of(EffectKind::ALL[k]);
         k += 1;
     }
     codes
@@ -32,7 +36,9 @@ pub static EFFECT_CODES: [EffectCode; CARDS.len()] = {
 
 impl EffectCode {
     /// What a block needs of a card, in single precision; made when the program is built.
-    const fn of(card: &Card) -> Self {
+    const fn of(kind: EffectKind) -> Self {
+        let card = kind.card();
+        assert!(card.params.len() <= MAX_PARAMS, "a block has no room for so many parameters");
         let mut fields = [BoundedField { key: "", within: (0.0, 0.0) }; MAX_PARAMS];
         let mut k = 0;
         while k < card.params.len() {
@@ -40,7 +46,7 @@ impl EffectCode {
             fields[k] = BoundedField { key: card.params[k].key, within: (low as f32, high as f32) };
             k += 1;
         }
-        Self { code: card.code, id: card.id, scope: card.scope, count: card.params.len(), fields }
+        Self { kind, code: card.code, id: card.id, scope: card.scope, count: card.params.len(), fields }
     }
 
     /// The effect of this number.
@@ -130,7 +136,7 @@ impl BlockEffect {
 /// The effects of a block.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BlockEffects {
-    items: [Option<BlockEffect>; MAX_EFFECTS],
+    items: [Option<BlockEffect>; MOST_EFFECTS],
     len: usize,
 }
 

@@ -1,6 +1,6 @@
 //! What can be the cause: every effect, on every wheel where it can sit on one, and every nominal parameter.
 
-use model_core::effects;
+use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Param, Role, Scope};
 use model_core::plant::robot::Nominal;
 
@@ -85,7 +85,7 @@ pub fn releases() -> Vec<Release> {
 /// Every effect that is not in the nominal model already.
 pub fn candidates<const N: usize>(present: &[Carried], knobs: &ScreenKnobs) -> Vec<Candidate> {
     let mut all = Vec::new();
-    for effect in effects::catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         let anywhere = card.scope != Scope::OneWheel;
         let places = anywhere

@@ -1,6 +1,6 @@
 //! What recordings could not have shown: signals that are not logged, and effects too small to move what is.
 
-use model_core::effects;
+use model_core::effects::EffectKind;
 
 use super::scored::Data;
 use super::search::Search;
@@ -26,7 +26,7 @@ pub(super) fn not_seen<const N: usize>(search: &Search<N>, data: &Data<'_, N>) -
     }
     let screened = &search.rounds[0].screened;
     let mut named: Vec<&str> = Vec::new();
-    for effect in effects::catalogue::<f64>() {
+    for effect in &EffectKind::ALL {
         let card = effect.card();
         let best = screened.iter().filter(|s| s.candidate.card.id == card.id).map(|s| s.visible).fold(0.0, f64::max);
         let tried = screened.iter().any(|s| s.candidate.card.id == card.id);

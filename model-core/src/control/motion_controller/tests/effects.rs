@@ -34,12 +34,11 @@ fn errors<const N: usize>(robot: Robot<N, f64>, cases: &[&Case], by_current: boo
     let mut effects = Effects::default();
     let mut compensation = Compensation::none();
     for case in cases {
-        effects.add(find(case.id).unwrap(), case.wheel, case.params).unwrap();
+        effects.add(EffectKind::find(case.id).unwrap(), case.wheel, case.params).unwrap();
         compensation.add(case.id, case.wheel, case.params).unwrap();
     }
     let plant = Plant::new(robot, effects);
-    let mut memory = [0.0; 8];
-    let memory = &mut memory[..plant.memory_len()];
+    assert_eq!(plant.memory_len(), 0, "what is undone here remembers nothing");
     [compensation, Compensation::none()].map(|compensation| {
         let controller = Controller::new(&Settings { compensation, dt: MOMENT, ..settings(robot) });
         let mut draw = Draw(3);
@@ -55,7 +54,7 @@ fn errors<const N: usize>(robot: Robot<N, f64>, cases: &[&Case], by_current: boo
             // a wheel that creeps is ahead already
             state.wheel_speed = demand.wheel_speed;
             let input = if by_current { Input::Current(demand.current) } else { Input::Voltage(demand.voltage) };
-            plant.step(&mut state, memory, &input, MOMENT);
+            plant.step(&mut state, &mut [], &input, MOMENT);
             let [x, a, next] = [x.to_array(), a.to_array(), state.twist.to_array()];
             for (k, scale) in [1.0, 1.0, 0.1].into_iter().enumerate() {
                 worst = worst.max(scale * ((next[k] - x[k]) / MOMENT - a[k]).abs());
@@ -112,7 +111,7 @@ fn a_robot_starts_from_rest_on_a_tilted_sticky_floor() {
     let cases = [&CASES[1], &CASES[2], &CASES[6], &CASES[9]];
     let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
     for case in cases {
-        effects.add(find(case.id).unwrap(), None, case.params).unwrap();
+        effects.add(EffectKind::find(case.id).unwrap(), None, case.params).unwrap();
         compensation.add(case.id, None, case.params).unwrap();
     }
     let plant = Plant::new(robot, effects);
@@ -146,7 +145,7 @@ fn the_wanted_speed_of_a_creeping_wheel_is_the_one_it_has() {
     let robot = paper::four_wheels::<f64>();
     let case = &CASES[10];
     let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
-    effects.add(find(case.id).unwrap(), None, case.params).unwrap();
+    effects.add(EffectKind::find(case.id).unwrap(), None, case.params).unwrap();
     compensation.add(case.id, None, case.params).unwrap();
     let plant = Plant::new(robot, effects);
     let controller = Controller::new(&Settings { compensation, ..settings(robot) });
@@ -163,7 +162,7 @@ fn the_wanted_speed_of_a_creeping_wheel_is_the_one_it_has() {
 fn a_loop_closed_on_a_sensor_with_an_offset_gives_the_current_wanted() {
     let robot = paper::four_wheels::<f64>();
     let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
-    effects.add(find("current_sensor_offset").unwrap(), Some(2), &[0.2]).unwrap();
+    effects.add(EffectKind::find("current_sensor_offset").unwrap(), Some(2), &[0.2]).unwrap();
     compensation.add("current_sensor_offset", Some(2), &[0.2]).unwrap();
     let plant = Plant::new(robot, effects);
     let (x, a) = (BodyTwist { v: 0.4, vn: -0.2, w: 1.0 }, BodyTwist { v: 2.0, vn: 1.0, w: -5.0 });

@@ -1,0 +1,154 @@
+//! What is made of the list of effects: enums whose hooks are found by `match`, so that nothing is called through a
+//! pointer and what an effect does not do costs nothing.
+
+/// Makes an enum of effects, an enum of their states, and the match that finds each one's hooks.
+///
+/// `pub enum Set, SetState [T: Real] [T] { Variant(Type, CARD), … }`: the parameters of the enums, the number, and for
+/// each kind its type, which has [`Hooks`](crate::effects::Hooks), and its card.
+#[macro_export]
+macro_rules! effect_set {
+    ($(#[$meta:meta])* $vis:vis enum $Set:ident, $State:ident [$($g:ident: $bound:path)?] [$n:ty]
+     { $($Variant:ident($Type:ty, $card:expr)),* $(,)? }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug)]
+        #[allow(missing_docs)]
+        $vis enum $Set<$($g: $bound)?> { $($Variant($Type)),* }
+
+        /// What one of these effects remembers.
+        #[derive(Clone, Copy, Debug)]
+        #[allow(missing_docs, clippy::large_enum_variant)]
+        $vis enum $State<$($g: $bound)?> { $($Variant(<$Type as $crate::effects::Hooks<$n>>::State)),* }
+
+        impl<$($g: $bound)?> $crate::effects::Numbers<$n> for $State<$($g)?> {
+            fn for_each_mut(&mut self, visit: impl FnMut(&mut $n)) {
+                match self { $($State::$Variant(s) => $crate::effects::Numbers::<$n>::for_each_mut(s, visit)),* }
+            }
+        }
+
+        impl<$($g: $bound)?> $crate::effects::EffectSet<$n> for $Set<$($g)?> {
+            type State = $State<$($g)?>;
+
+            fn card(&self) -> &'static $crate::effects::card::Card {
+                match self { $($Set::$Variant(_) => $card),* }
+            }
+
+            fn start(&self) -> Option<Self::State> {
+                match self {
+                    $($Set::$Variant(_) => {
+                        (size_of::<<$Type as $crate::effects::Hooks<$n>>::State>() > 0)
+                            .then(|| $State::$Variant($crate::effects::State::<$n>::start()))
+                    })*
+                }
+            }
+
+            $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], supply, Supply);
+            $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], bridge, Bridge);
+            $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], winding, Winding);
+            $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], gear, Gear);
+            $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], contact, Contact);
+            $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], body, Body);
+            $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], sense, Sense);
+
+            #[inline]
+            fn invert_sensing(
+                &self,
+                at: &$crate::effects::seams::EffectContext<$n>,
+                x: &mut $crate::effects::seams::Sense<$n>,
+            ) {
+                match self { $($Set::$Variant(e) => $crate::effects::Hooks::<$n>::invert_sensing(e, at, x)),* }
+            }
+
+            fn restart(&self, s: &mut [Self::State], at: &$crate::effects::seams::EffectContext<$n>) {
+                #[allow(unreachable_patterns)]
+                match (self, s) {
+                    $(($Set::$Variant(e), [$State::$Variant(s)]) => $crate::effects::Hooks::<$n>::restart(e, s, at),)*
+                    _ => {}
+                }
+            }
+
+            fn advance(
+                &self,
+                s: &mut [Self::State],
+                at: &$crate::effects::seams::EffectContext<$n>,
+                done: &$crate::effects::seams::StepOutcome<$n>,
+            ) {
+                #[allow(unreachable_patterns)]
+                match (self, s) {
+                    $(($Set::$Variant(e), [$State::$Variant(s)]) => {
+                        $crate::effects::Hooks::<$n>::advance(e, s, at, done);
+                    })*
+                    _ => {}
+                }
+            }
+        }
+    };
+    (@hook $Set:ident, $State:ident, [$n:ty], [$($Variant:ident, $Type:ty;)*], $hook:ident, $Seam:ident) => {
+        #[inline]
+        fn $hook(
+            &self,
+            s: &[Self::State],
+            at: &$crate::effects::seams::EffectContext<$n>,
+            x: &mut $crate::effects::seams::$Seam<$n>,
+        ) {
+            match self {
+                $($Set::$Variant(e) => {
+                    let own = $crate::effects::State::<$n>::in_slot(s, |s| match s {
+                        $State::$Variant(s) => Some(s),
+                        #[allow(unreachable_patterns)]
+                        _ => None,
+                    });
+                    if let Some(own) = own {
+                        $crate::effects::Hooks::<$n>::$hook(e, own, at, x);
+                    }
+                })*
+            }
+        }
+    };
+}
+
+/// Makes of the list of effects, in signal order: their kinds, their cards, and the effects with their parameters.
+macro_rules! catalogue {
+    ($($stage:ident::$file:ident::$Name:ident),* $(,)?) => {
+        /// Which effect, without its parameters.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[allow(missing_docs)]
+        pub enum EffectKind { $($Name),* }
+
+        impl EffectKind {
+            /// Every effect there is. Their order is that in which effects act at a seam that they share.
+            pub const ALL: [EffectKind; [$(stringify!($Name)),*].len()] = [$(EffectKind::$Name),*];
+
+            /// Its page as data.
+            pub const fn card(self) -> &'static Card {
+                match self { $(EffectKind::$Name => &$stage::$file::CARD),* }
+            }
+
+            /// The effect with these parameters, in the card's order; `None` where they are not as many.
+            pub fn with<T: Real>(self, params: &[T]) -> Option<Effect<T>> {
+                match self {
+                    $(EffectKind::$Name => $stage::$file::$Name::of(params).map(Effect::$Name)),*
+                }
+            }
+        }
+
+        effect_set! {
+            /// An effect with its parameters.
+            pub enum Effect, EffectState [T: Real] [T] {
+                $($Name($stage::$file::$Name<T>, &$stage::$file::CARD)),*
+            }
+        }
+
+        impl<T: Real> Effect<T> {
+            /// Which one it is.
+            pub const fn kind(&self) -> EffectKind {
+                match self { $(Effect::$Name(_) => EffectKind::$Name),* }
+            }
+        }
+
+        $(impl<T: Real> From<$stage::$file::$Name<T>> for Effect<T> {
+            fn from(effect: $stage::$file::$Name<T>) -> Self {
+                Effect::$Name(effect)
+            }
+        })*
+    };
+}
