@@ -21,8 +21,9 @@ use model_core::control::current_loop::{
 };
 use model_core::control::halls::{HallCode, HallDecoder};
 use model_core::control::motion_controller::{Controller, Demand, Measurement, Memory, Output, Settings};
+use model_core::effects::card::Scope;
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::{Block, Limits, Parameters};
+use model_core::link::block::{Block, EFFECT_CODES, Limits, Parameters};
 use model_core::plant::paper;
 use model_core::plant::robot::Robot;
 use panic_halt as _;
@@ -100,24 +101,15 @@ fn motion(watch: &mut Stopwatch) {
 }
 
 fn compensations(watch: &mut Stopwatch) {
-    let effects: [(&str, Option<usize>, &[f32]); 9] = [
-        ("coriolis", None, &[1.0]),
-        ("floor_tilt", None, &[0.0175, 0.5]),
-        ("stribeck", None, &[0.5, 0.05, 2.0]),
-        ("rotor_inertia", None, &[7.5e-5]),
-        ("gear_efficiency", None, &[0.85]),
-        ("motor_mismatch", Some(1), &[0.88, 1.1]),
-        ("dead_time", None, &[0.3, 0.05]),
-        ("creep", None, &[0.02]),
-        ("current_sensor_offset", None, &[0.05]),
-    ];
-    for (id, wheel, params) in effects {
-        let mut compensation = Compensation::none();
-        if compensation.add(black_box(id), black_box(wheel), black_box(params)).is_err() {
-            board::fail(format_args!("{id} cannot be undone"));
+    for known in EFFECT_CODES.iter().filter(|known| known.kind.undone()) {
+        let wheel = (known.scope == Scope::OneWheel).then_some(1);
+        let mut undo = Compensation::none();
+        let effect = known.kind.with(black_box(known.typical()));
+        if !effect.is_some_and(|effect| undo.add(effect, black_box(wheel)).is_ok()) {
+            board::fail(format_args!("{} cannot be undone", known.id));
         }
-        let settings = settings(paper::four_wheels(), compensation);
-        say("motion tick, 4 wheels, undoing ", id, tick_costs(watch, &settings, NEAR, 16.0));
+        let settings = settings(paper::four_wheels(), undo);
+        say("motion tick, 4 wheels, undoing ", known.id, tick_costs(watch, &settings, NEAR, 16.0));
     }
 }
 

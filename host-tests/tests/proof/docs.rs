@@ -42,7 +42,7 @@ fn section(card: &Card) -> String {
     let _ = writeln!(page, "- sits on: {}", scope_of(card));
     let _ = writeln!(page, "- shows as: {}", card.signature);
     let _ = match card.undone {
-        Undone::By(how) => writeln!(page, "- the robot undoes it: {how}"),
+        Undone::By(how) | Undone::Folded(how) => writeln!(page, "- the robot undoes it: {how}"),
         Undone::No(why) => writeln!(page, "- the robot cannot undo it: {why}"),
     };
     let _ = writeln!(page, "- source: {}\n", card.source);

@@ -63,7 +63,7 @@ effect_set! {
 }
 
 /// Teeth of the motor that pull the wheel into 18 places a turn: τ += x·sin(18·angle).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cogging(pub f64);
 
 impl Hooks<f64> for Cogging {
@@ -75,7 +75,7 @@ impl Hooks<f64> for Cogging {
 }
 
 /// A carpet on the half of the floor beyond x = 0.2 m, where the body's Coulomb friction is (1 + x) times as large.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Carpet(pub f64);
 
 impl Hooks<f64> for Carpet {
@@ -89,7 +89,7 @@ impl Hooks<f64> for Carpet {
 }
 
 /// A wind along the world's x axis: a force of x [N].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wind(pub f64);
 
 impl Hooks<f64> for Wind {
@@ -103,7 +103,7 @@ impl Hooks<f64> for Wind {
 }
 
 /// A winding that warms up: R·(1 + x·s), where s rises with i² and falls with 1 s.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heating(pub f64);
 
 impl Hooks<f64> for Heating {
@@ -122,7 +122,7 @@ impl Hooks<f64> for Heating {
 }
 
 /// A winding with an inductance of x [mH].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inductance(pub f64);
 
 impl Hooks<f64> for Inductance {
@@ -134,7 +134,7 @@ impl Hooks<f64> for Inductance {
 }
 
 /// A battery that empties: its voltage has fallen by x for every ampere-second drawn [V/(A·s)].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emptying(pub f64);
 
 impl Hooks<f64> for Emptying {
@@ -149,7 +149,7 @@ impl Hooks<f64> for Emptying {
 }
 
 /// A bridge that is cut at a part x of the bus voltage, from 20 ms on.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit(pub f64);
 
 impl Hooks<f64> for Limit {
@@ -165,7 +165,7 @@ impl Hooks<f64> for Limit {
 }
 
 /// A wheel whose radius is larger by the part x.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LargeWheel(pub f64);
 
 impl Hooks<f64> for LargeWheel {
@@ -177,7 +177,7 @@ impl Hooks<f64> for LargeWheel {
 }
 
 /// An encoder that reads x times the wheel's angle on top of its speed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eccentric(pub f64);
 
 impl Hooks<f64> for Eccentric {
@@ -198,7 +198,7 @@ fn record_hook(hook: &'static str, at: &EffectContext<f64>) {
 }
 
 /// A spy on wheels: it changes nothing, and remembers what it is told.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelSpy;
 
 impl Hooks<f64> for WheelSpy {
@@ -225,7 +225,7 @@ impl Hooks<f64> for WheelSpy {
 }
 
 /// A spy on the robot.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RobotSpy;
 
 impl Hooks<f64> for RobotSpy {

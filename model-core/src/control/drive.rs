@@ -159,7 +159,7 @@ impl<const N: usize> WheeledDrive<N> {
         let mut compensation = Compensation::none();
         for effect in block.effects.iter() {
             // the block was checked for effects that can be undone
-            let _refused = compensation.add(effect.id(), effect.wheel().map(usize::from), effect.params());
+            let _refused = effect.effect().map(|undo| compensation.add(undo, effect.wheel().map(usize::from)));
         }
         let settings = Settings {
             robot: block.robot,

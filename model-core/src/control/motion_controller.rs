@@ -88,7 +88,7 @@ pub struct Settings<const N: usize, T = f32> {
 pub struct Memory<T = f32> {
     /// Reference at the beginning of the next turn.
     pub reference: BodyTwist<T>,
-    /// Heading of the reference, within ±π; kept up only while `floor_tilt` is undone [rad]
+    /// Heading of the reference, within ±π; kept up only while forces of effects are undone [rad]
     pub heading: T,
     /// Force on the body that the feedback has found missing [N, N, N·m]
     pub integral: [T; 3],
@@ -186,7 +186,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
     }
 
     /// What the motors have to do so that the robot, moving with `twist`, accelerates as wanted, effects undone, with no
-    /// feedback and no limit; `heading` [rad] matters to `floor_tilt` alone.
+    /// feedback and no limit; `heading` [rad] matters to effects that are fixed in the world.
     #[inline]
     pub fn feedforward(&self, twist: BodyTwist<T>, acceleration: BodyTwist<T>, heading: T) -> Demand<N, T> {
         let (x, a) = (twist.to_array(), acceleration.to_array());

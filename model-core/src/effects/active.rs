@@ -10,6 +10,9 @@ use crate::effects::card::{Scope, Seam};
 use crate::effects::{Effect, EffectKind, EffectSet};
 use crate::number::scalar::Real;
 
+/// The most effects that a robot undoes, and that its parameter block names.
+pub const MOST_UNDONE: usize = 12;
+
 /// The most effects that one model may carry.
 pub const MAX_EFFECTS: usize = 24;
 

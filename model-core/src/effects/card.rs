@@ -139,8 +139,10 @@ pub struct LookAlike {
 /// What the robot's controller does about an effect that its parameters name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Undone {
-    /// It undoes it: how.
+    /// It undoes it in every turn of its loop, with the effect's hooks for that: how.
     By(&'static str),
+    /// It counts it into the model once, as the plant does at winding and gear, and has nothing left to undo: how.
+    Folded(&'static str),
     /// It cannot: why.
     No(&'static str),
 }
@@ -149,9 +151,14 @@ impl Undone {
     /// How, or why not.
     pub const fn words(self) -> &'static str {
         match self {
-            Undone::By(how) => how,
+            Undone::By(how) | Undone::Folded(how) => how,
             Undone::No(why) => why,
         }
+    }
+
+    /// True if the robot undoes it.
+    pub const fn possible(self) -> bool {
+        !matches!(self, Undone::No(_))
     }
 }
 

@@ -3,7 +3,9 @@
 use core::fmt::Debug;
 
 use super::card::Card;
-use super::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
+use super::seams::{
+    Body, BodyMotion, Bridge, Contact, EffectContext, Gear, RimMotion, Sense, StepOutcome, Supply, Winding,
+};
 use crate::number::scalar::Real;
 
 /// Something that holds numbers, beside whatever else it counts with.
@@ -78,6 +80,33 @@ pub trait Hooks<T: Real>: Copy + Debug {
     /// What is remembered after a step.
     #[inline]
     fn advance(&self, s: &mut Self::State, at: &EffectContext<T>, done: &StepOutcome<T>) {}
+
+    // What a controller asks for in every turn so that the motion is as if the effect were not there. Everything follows
+    // the motion that is wanted and never one that is measured: dry friction that did would chatter around standstill.
+
+    /// Force to give to the body.
+    #[inline]
+    fn undo_body(&self, motion: &BodyMotion<T>, force: &mut [T; 3]) {}
+    /// Torque to give to a wheel's shaft [N·m].
+    #[inline]
+    fn undo_shaft(&self, motion: &RimMotion<T>, torque: &mut T) {}
+    /// Motor torque over the torque wanted at the wheel [1], by the sign of the torque and the wheel's speed [rad/s].
+    #[inline]
+    fn undo_gear(&self, torque: T, wheel_speed: T, ratio: &mut T) {}
+    /// Speed by which the rim leads the floor [m/s], at a force on the floor [N].
+    #[inline]
+    fn undo_contact(&self, traction: T, slip: &mut T) {}
+    /// Voltage to ask a bridge for [V], at a current [A].
+    #[inline]
+    fn undo_bridge(&self, current: T, voltage: &mut T) {}
+    /// The most that [`Hooks::undo_bridge`] adds [V]; it is kept free.
+    #[inline]
+    fn bridge_reserve(&self) -> T {
+        T::zero()
+    }
+    /// Current to ask a loop for that is closed on the sensor [A].
+    #[inline]
+    fn undo_reading(&self, current: &mut T) {}
 }
 
 /// An effect of the catalogue.

@@ -10,9 +10,9 @@ macro_rules! effect_set {
     ($(#[$meta:meta])* $vis:vis enum $Set:ident, $State:ident [$($g:ident: $bound:path)?] [$n:ty]
      { $($Variant:ident($Type:ty, $card:expr)),* $(,)? }) => {
         $(#[$meta])*
-        #[derive(Clone, Copy, Debug)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
         #[allow(missing_docs)]
-        $vis enum $Set<$($g: $bound)?> { $($Variant($Type)),* }
+        $vis enum $Set<$($g)?> { $($Variant($Type)),* }
 
         /// What one of these effects remembers.
         #[derive(Clone, Copy, Debug)]
@@ -123,6 +123,26 @@ macro_rules! catalogue {
                 match self { $(EffectKind::$Name => &$stage::$file::CARD),* }
             }
 
+            /// Where it sits. Like the next ones it is here without the page, which a robot has no room for.
+            pub const fn scope(self) -> Scope {
+                match self { $(EffectKind::$Name => const { $stage::$file::CARD.scope }),* }
+            }
+
+            /// Its first seam.
+            pub const fn home(self) -> Seam {
+                match self { $(EffectKind::$Name => const { $stage::$file::CARD.seams[0] }),* }
+            }
+
+            /// True if a robot's controller undoes it: in every turn, or by a model that counts it in.
+            pub const fn undone(self) -> bool {
+                match self { $(EffectKind::$Name => const { $stage::$file::CARD.undone.possible() }),* }
+            }
+
+            /// True if it undoes it in every turn.
+            pub const fn undone_by_turn(self) -> bool {
+                match self { $(EffectKind::$Name => const { matches!($stage::$file::CARD.undone, Undone::By(_)) }),* }
+            }
+
             /// The effect with these parameters, in the card's order; `None` where they are not as many.
             pub fn with<T: Real>(self, params: &[T]) -> Option<Effect<T>> {
                 match self {
@@ -142,6 +162,48 @@ macro_rules! catalogue {
             /// Which one it is.
             pub const fn kind(&self) -> EffectKind {
                 match self { $(Effect::$Name(_) => EffectKind::$Name),* }
+            }
+
+            /// [`Hooks::undo_body`]
+            #[inline]
+            pub fn undo_body(&self, motion: &BodyMotion<T>, force: &mut [T; 3]) {
+                match self { $(Effect::$Name(e) => e.undo_body(motion, force)),* }
+            }
+
+            /// [`Hooks::undo_shaft`]
+            #[inline]
+            pub fn undo_shaft(&self, motion: &RimMotion<T>, torque: &mut T) {
+                match self { $(Effect::$Name(e) => e.undo_shaft(motion, torque)),* }
+            }
+
+            /// [`Hooks::undo_gear`]
+            #[inline]
+            pub fn undo_gear(&self, torque: T, wheel_speed: T, ratio: &mut T) {
+                match self { $(Effect::$Name(e) => e.undo_gear(torque, wheel_speed, ratio)),* }
+            }
+
+            /// [`Hooks::undo_contact`]
+            #[inline]
+            pub fn undo_contact(&self, traction: T, slip: &mut T) {
+                match self { $(Effect::$Name(e) => e.undo_contact(traction, slip)),* }
+            }
+
+            /// [`Hooks::undo_bridge`]
+            #[inline]
+            pub fn undo_bridge(&self, current: T, voltage: &mut T) {
+                match self { $(Effect::$Name(e) => e.undo_bridge(current, voltage)),* }
+            }
+
+            /// [`Hooks::bridge_reserve`]
+            #[inline]
+            pub fn bridge_reserve(&self) -> T {
+                match self { $(Effect::$Name(e) => e.bridge_reserve()),* }
+            }
+
+            /// [`Hooks::undo_reading`]
+            #[inline]
+            pub fn undo_reading(&self, current: &mut T) {
+                match self { $(Effect::$Name(e) => e.undo_reading(current)),* }
             }
         }
 

@@ -53,8 +53,9 @@ pub mod sensing {
 }
 
 mod list {
-    use super::card::Card;
-    use super::{Catalogued, body, contact, drivetrain, electrical, sensing};
+    use super::card::{Card, Scope, Seam, Undone};
+    use super::seams::{BodyMotion, RimMotion};
+    use super::{Catalogued, Hooks, body, contact, drivetrain, electrical, sensing};
     use crate::number::scalar::Real;
 
     // In signal order, which is that in which effects act at a seam that they share

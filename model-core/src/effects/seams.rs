@@ -164,3 +164,25 @@ pub struct StepOutcome<T> {
     /// Bus voltage [V]
     pub bus: T,
 }
+
+/// The motion that a controller asks for, as an effect on the body is undone along it.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyMotion<T> {
+    /// Mass of the body alone [kg]
+    pub mass: T,
+    /// Velocity in the body frame
+    pub twist: BodyTwist<T>,
+    /// Heading in the middle of the turn [rad]
+    pub heading: T,
+}
+
+/// The same of one wheel, as an effect on its shaft is undone along it.
+#[derive(Clone, Copy, Debug)]
+pub struct RimMotion<T> {
+    /// This wheel's share of the body's Coulomb friction, as a torque [N·m]
+    pub coulomb_share: T,
+    /// Speed of the rim over the floor [m/s]
+    pub speed: T,
+    /// The same in the middle of the turn [m/s]
+    pub ahead: T,
+}

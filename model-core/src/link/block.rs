@@ -19,6 +19,7 @@
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 
+use crate::effects::active::MOST_UNDONE;
 use crate::effects::card::MAX_PARAMS;
 use crate::geometry::kinematics::{Wheel, Wheels};
 use crate::link::bytes::{Reader, Writer};
@@ -31,7 +32,7 @@ mod effects;
 mod error;
 
 pub use bounds::{BoundedField, USABLE_COUNTS};
-pub use effects::{BlockEffect, BlockEffects, EFFECT_CODES, EffectCode, MOST_EFFECTS};
+pub use effects::{BlockEffect, BlockEffects, EFFECT_CODES, EffectCode};
 pub use error::{BlockError, BlockErrorKind};
 
 /// Version of the form that this program writes and the newest that it reads.
@@ -45,8 +46,7 @@ const HEADER: usize = 13;
 const CHECK: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// The longest block that there can be: four wheels and all effects with all parameters.
-const LONGEST: usize =
-    HEADER + 4 * (4 * 3 + bounds::SCALARS.len()) + 1 + effects::MOST_EFFECTS * (2 + 4 * MAX_PARAMS) + 4;
+const LONGEST: usize = HEADER + 4 * (4 * 3 + bounds::SCALARS.len()) + 1 + MOST_UNDONE * (2 + 4 * MAX_PARAMS) + 4;
 const _: () = assert!(LONGEST <= MAX_BYTES, "every block fits");
 
 /// How the wheels are driven.

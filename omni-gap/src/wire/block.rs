@@ -126,7 +126,10 @@ fn effects_of<const N: usize>(file: &RobotFile, path: &Path, block: &mut Block<N
         let place = entry.wheel.map_or(String::new(), |wheel| format!(" on wheel {wheel}"));
         let name = format!("{}{place}", entry.id);
         let params = params(entry);
-        match compensation.add(&entry.id, entry.wheel, &params) {
+        let effect = EffectKind::find(&entry.id).and_then(|kind| kind.with(&params));
+        // a file was checked when it was read
+        let Some(effect) = effect else { unreachable!("{name} is not in the catalogue") };
+        match compensation.add(effect, entry.wheel) {
             Ok(()) => {
                 let wheel = entry.wheel.map(|wheel| wheel as u8);
                 let effect = BlockEffect::new(&entry.id, wheel, &params);

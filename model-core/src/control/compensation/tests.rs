@@ -1,45 +1,58 @@
 use super::*;
-use crate::effects::card::{Scope, Undone};
+use crate::effects::active::MOST_UNDONE;
+use crate::effects::card::Scope;
+use crate::effects::contact::creep::Creep;
+use crate::effects::drivetrain::gear_efficiency::GearEfficiency;
 
 /// On a wheel where the effect needs one, on all otherwise.
-fn wheel_of(card: &Card) -> Option<usize> {
-    (card.scope == Scope::OneWheel).then_some(1)
+fn wheel_of(kind: EffectKind) -> Option<usize> {
+    (kind.scope() == Scope::OneWheel).then_some(1)
 }
 
-fn typical(card: &Card) -> ([f64; 4], usize) {
-    let mut params = [0.0; 4];
+fn typical(kind: EffectKind) -> Effect<f64> {
+    let card = kind.card();
+    let mut params = [0.0; 8];
     for (x, param) in params.iter_mut().zip(card.params) {
         *x = param.typical;
     }
-    (params, card.params.len())
+    kind.with(&params[..card.params.len()]).expect("as many as on the card")
 }
 
 #[test]
-fn every_effect_of_the_catalogue_is_undone_or_refused_with_its_own_reason() {
-    for effect in EffectKind::ALL {
-        let card = effect.card();
-        let (params, count) = typical(card);
+fn every_effect_is_undone_as_its_card_says_or_refused_with_its_cards_reason() {
+    for kind in EffectKind::ALL {
+        let card = kind.card();
         let mut compensation = Compensation::<4, f64>::none();
-        let mut add = || compensation.add(card.id, wheel_of(card), &params[..count]);
-        match card.undone {
-            Undone::By(_) => {
-                assert_eq!((add(), add()), (Ok(()), Err(NotCompensable::Twice)), "{}", card.id);
-                assert_ne!(compensation, Compensation::none(), "{}", card.id);
-            }
-            Undone::No(why) => assert_eq!(add(), Err(NotCompensable::Effect(why)), "{}", card.id),
+        let mut add = || compensation.add(typical(kind), wheel_of(kind));
+        if kind.undone() {
+            assert_eq!((add(), add()), (Ok(()), Err(NotCompensable::Twice)), "{}", card.id);
+            assert_ne!(compensation, Compensation::none(), "{}", card.id);
+        } else {
+            assert_eq!(add(), Err(NotCompensable::Effect(kind)), "{}", card.id);
+            assert_eq!(NotCompensable::Effect(kind).reason(), card.undone.words(), "{}", card.id);
         }
     }
 }
 
 #[test]
-fn what_is_not_on_the_card_is_refused_and_changes_nothing() {
+fn what_a_card_says_of_an_effect_is_what_a_robot_knows_without_it() {
+    for kind in EffectKind::ALL {
+        let card = kind.card();
+        assert_eq!((kind.scope(), kind.home(), kind.undone()), (card.scope, card.seams[0], card.undone.possible()));
+    }
+}
+
+#[test]
+fn a_wheel_that_is_not_there_is_refused_and_changes_nothing() {
     let mut compensation = Compensation::<3, f64>::none();
-    assert_eq!(compensation.add("backlash", None, &[0.1]), Err(NotCompensable::Unknown));
-    assert_eq!(compensation.add("creep", Some(3), &[0.02]), Err(NotCompensable::Wheel));
-    assert_eq!(compensation.add("coriolis", Some(0), &[1.0]), Err(NotCompensable::Wheel));
-    assert_eq!(compensation.add("motor_mismatch", None, &[0.9, 1.0]), Err(NotCompensable::Wheel));
-    for params in [&[][..], &[0.02, 0.02], &[-0.01], &[0.3], &[f64::NAN], &[f64::INFINITY]] {
-        assert_eq!(compensation.add("creep", None, params), Err(NotCompensable::Parameters), "{params:?}");
+    let refused = Err(NotCompensable::Wheel);
+    assert_eq!(compensation.add(Creep { creep: 0.02 }.into(), Some(3)), refused);
+    for kind in EffectKind::ALL.into_iter().filter(|kind| kind.undone()) {
+        match kind.scope() {
+            Scope::Robot => assert_eq!(compensation.add(typical(kind), Some(0)), refused, "{}", kind.id()),
+            Scope::OneWheel => assert_eq!(compensation.add(typical(kind), None), refused, "{}", kind.id()),
+            Scope::Wheels => {}
+        }
     }
     assert_eq!(compensation, Compensation::none());
 }
@@ -47,28 +60,25 @@ fn what_is_not_on_the_card_is_refused_and_changes_nothing() {
 #[test]
 fn an_effect_may_sit_on_two_wheels_but_not_twice_on_one() {
     let mut compensation = Compensation::<4, f64>::none();
-    assert_eq!(compensation.add("gear_efficiency", Some(0), &[0.8]), Ok(()));
-    assert_eq!(compensation.add("gear_efficiency", Some(2), &[0.9]), Ok(()));
-    assert_eq!(compensation.gear_efficiency, [0.8, 1.0, 0.9, 1.0]);
+    let gear = |efficiency| GearEfficiency { efficiency }.into();
+    assert_eq!(compensation.add(gear(0.8), Some(0)), Ok(()));
+    assert_eq!(compensation.add(gear(0.9), Some(2)), Ok(()));
+    let on = |compensation: &Compensation<4, f64>| [0, 1, 2, 3].map(|j| compensation.on(j).next().map(|u| u.effect));
+    assert_eq!(on(&compensation), [Some(gear(0.8)), None, Some(gear(0.9)), None]);
     let before = compensation;
-    assert_eq!(compensation.add("gear_efficiency", None, &[0.9]), Err(NotCompensable::Twice));
+    assert_eq!(compensation.add(gear(0.9), None), Err(NotCompensable::Twice));
+    assert_eq!(compensation.add(gear(0.9), Some(2)), Err(NotCompensable::Twice));
     assert_eq!(compensation, before);
 }
 
 #[test]
-fn an_absent_effect_is_nothing_to_undo() {
-    for effect in EffectKind::ALL {
-        let card = effect.card();
-        let (mut params, count) = typical(card);
-        for (x, param) in params.iter_mut().zip(card.params) {
-            *x = param.absent;
-        }
-        let mut compensation = Compensation::<4, f64>::none();
-        if compensation.add(card.id, wheel_of(card), &params[..count]).is_ok() {
-            // the same effect may still be added: nothing is there
-            let (params, count) = typical(card);
-            assert_eq!(compensation.add(card.id, wheel_of(card), &params[..count]), Ok(()), "{}", card.id);
-        }
+fn one_effect_more_than_there_is_room_for_is_told() {
+    let mut compensation = Compensation::<4, f64>::none();
+    let wheels = EffectKind::ALL.into_iter().filter(|kind| kind.undone() && kind.scope() != Scope::Robot);
+    let mut seats = wheels.flat_map(|kind| (0..4).map(move |j| (kind, j)));
+    for (kind, j) in seats.by_ref().take(MOST_UNDONE) {
+        assert_eq!(compensation.add(typical(kind), Some(j)), Ok(()));
     }
-    assert!(EffectKind::find("coriolis").is_some());
+    let (kind, j) = seats.next().expect("more seats than room");
+    assert_eq!(compensation.add(typical(kind), Some(j)), Err(NotCompensable::Full));
 }

@@ -6,12 +6,11 @@ use super::compensate::{self, CompensationTerms};
 use super::{Controller, Settings, WheelMap};
 use crate::control::compensation::Compensation;
 use crate::control::reference::AccelerationLimiter;
-use crate::effects::body::floor_tilt;
-use crate::effects::drivetrain::gear_efficiency;
-use crate::effects::electrical::motor_mismatch;
-use crate::effects::seams::Winding;
+use crate::effects::EffectSet;
+use crate::effects::card::Seam;
+use crate::effects::seams::{EffectContext, Gear, Winding};
 use crate::geometry::kinematics::Wheels;
-use crate::number::linalg::{Mat3, accumulate_outer, determinant3, inverse3, mul_mat_vec};
+use crate::number::linalg::{accumulate_outer, determinant3, inverse3, mul_mat_vec};
 use crate::number::scalar::Real;
 
 /// How the wheels that work share a body force, and by how much less they can do than all together.
@@ -71,23 +70,13 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let mut drives = [WheelMap::default(); N];
         let mut all_rows = [[zero; 3]; N];
         let mut push = [zero; N];
+        let mut spin = [zero; N];
         let mut windings = [(zero, zero); N];
         let mut turning = [[zero; 3]; 3];
         for j in 0..N {
             let rim = robot.wheels.wheels()[j].rim();
             let row = robot.wheels.rows()[j];
-            let winding = motor_mismatch::odd(
-                compensation.torque_constant_ratio[j],
-                compensation.resistance_ratio[j],
-                Winding {
-                    current: zero,
-                    speed: zero,
-                    resistance: robot.motor.resistance,
-                    inductance: zero,
-                    emf_constant: robot.motor.wheel_emf_constant(),
-                    torque_constant: kt,
-                },
-            );
+            let (winding, inertia) = undone_wheel(settings, j);
             all_rows[j] = row.map(|g| rim.wheel_speed(g));
             drives[j] = WheelMap {
                 row: if settings.working[j] { all_rows[j] } else { [zero; 3] },
@@ -95,15 +84,15 @@ impl<const N: usize, T: Real> Controller<N, T> {
             };
             windings[j] = (winding.resistance, winding.emf_constant * on);
             push[j] = rim.force(winding.torque_constant);
+            spin[j] = rim.force(inertia);
             // M → M + Σ J_w/r²·G_jᵀ·G_j: a lost wheel turns along
-            accumulate_outer(&mut turning, rim.mass(compensation.rotor_inertia[j]), row);
+            accumulate_outer(&mut turning, rim.mass(inertia), row);
         }
         let couples = |i: usize, k: usize| {
             let bound = T::lit(1e-12) * turning[i][i] * turning[k][k];
             turning[i][k] * turning[i][k] > bound
         };
         let coupled = couples(0, 1) || couples(0, 2) || couples(1, 2);
-        let excess = array::from_fn(|j| compensation.stribeck[j].excess * robot.coulomb_shares()[j]);
         let acceleration = settings.acceleration;
         let mass = [
             on * (robot.mass + turning[0][0]),
@@ -128,13 +117,20 @@ impl<const N: usize, T: Real> Controller<N, T> {
             resistance: robot.motor.resistance,
             emf: robot.motor.wheel_emf_constant() * on,
             wheels: drives,
-            compensation: compensation_terms(
-                compensation,
-                robot.mass,
-                dt,
-                &robot.wheels,
-                Rows { windings, rows: all_rows, excess, push, turning },
-            ),
+            compensation: CompensationTerms {
+                effects: *compensation,
+                winding: windings,
+                mass: robot.mass,
+                half: T::lit(0.5) * dt,
+                coulomb_share: robot.coulomb_shares(),
+                rows: all_rows,
+                radius: robot.wheels.wheels().map(|wheel| wheel.radius),
+                per_radius: robot.wheels.wheels().map(|wheel| one / wheel.radius),
+                turning,
+                kept: (0..N).fold(zero, |most, j| most.max(bridge_reserve(compensation, j))),
+                push,
+                spin,
+            },
         }
     }
 
@@ -144,68 +140,44 @@ impl<const N: usize, T: Real> Controller<N, T> {
     }
 }
 
+/// The winding of a wheel with its effects in it, and the inertia that they make turn with the wheel [kg·m²].
+fn undone_wheel<const N: usize, T: Real>(settings: &Settings<N, T>, j: usize) -> (Winding<T>, T) {
+    let zero = T::zero();
+    let motor = settings.robot.motor;
+    let mut winding = Winding {
+        current: zero,
+        speed: zero,
+        resistance: motor.resistance,
+        inductance: zero,
+        emf_constant: motor.wheel_emf_constant(),
+        torque_constant: motor.wheel_torque_constant(),
+    };
+    let mut gear =
+        Gear { motor_torque: zero, coulomb_share: zero, torque: zero, budget: zero, damping: zero, inertia: zero };
+    let at = EffectContext { wheel: j, ..EffectContext::default() };
+    for undo in settings.compensation.on(j) {
+        undo.effect.winding(&[], &at, &mut winding);
+        undo.effect.gear(&[], &at, &mut gear);
+    }
+    (winding, gear.inertia)
+}
+
+/// The most that the bridge of a wheel is asked for besides [V].
+fn bridge_reserve<const N: usize, T: Real>(compensation: &Compensation<N, T>, j: usize) -> T {
+    compensation.on(j).fold(T::zero(), |sum, undo| sum + undo.effect.bridge_reserve())
+}
+
 /// Which parts of a turn's `compensation` there is something to do in.
 fn flags<const N: usize, T: Real>(settings: &Settings<N, T>, moves: bool, coupled: bool) -> u32 {
-    let compensation = &settings.compensation;
-    let none = Compensation::<N, T>::none();
+    let kinds = || settings.compensation.iter().map(|undo| undo.effect.kind());
+    let at = |seam: Seam| kinds().any(|kind| kind.undone_by_turn() && kind.home() == seam);
     let motion = settings.feedforward;
-    let mismatch = compensation.torque_constant_ratio != none.torque_constant_ratio
-        || compensation.resistance_ratio != none.resistance_ratio;
     let bit = |there: bool, bit: u32| if there { bit } else { 0 };
     bit(!moves, compensate::IMMOBILE)
-        | bit(motion && compensation.coriolis != none.coriolis, compensate::CORIOLIS)
-        | bit(motion && compensation.tilt != none.tilt, compensate::TILT)
-        | bit(motion && compensation.stribeck.iter().any(|s| s.excess != T::zero()), compensate::STRIBECK)
+        | bit(motion && (at(Seam::Gear) || at(Seam::Body)), compensate::FORCES)
         | bit(motion && coupled, compensate::COUPLING)
-        | bit(compensation.gear_efficiency != none.gear_efficiency, compensate::GEAR)
-        | bit(compensation.dead_time.iter().any(|d| d.voltage != T::zero()), compensate::DEAD_TIME)
-        | bit(motion && compensation.creep != none.creep, compensate::CREEP)
-        | bit(mismatch, compensate::MISMATCH)
-        | bit(compensation.current_offset != none.current_offset, compensate::OFFSET)
-}
-
-/// What the wheels give to the effects.
-struct Rows<const N: usize, T> {
-    windings: [(T, T); N],
-    rows: [[T; 3]; N],
-    excess: [T; N],
-    push: [T; N],
-    turning: Mat3<T>,
-}
-
-fn compensation_terms<const N: usize, T: Real>(
-    compensation: &Compensation<N, T>,
-    mass: T,
-    dt: T,
-    wheels: &Wheels<N, T>,
-    of: Rows<N, T>,
-) -> CompensationTerms<N, T> {
-    let one = T::one();
-    CompensationTerms {
-        winding: of.windings,
-        coriolis: compensation.coriolis,
-        mass,
-        steepest: floor_tilt::steepest(compensation.tilt),
-        downhill: compensation.downhill,
-        half: T::lit(0.5) * dt,
-        stribeck: compensation.stribeck,
-        static_excess: of.excess,
-        rows: of.rows,
-        radius: wheels.wheels().map(|wheel| wheel.radius),
-        per_radius: wheels.wheels().map(|wheel| one / wheel.radius),
-        turning: of.turning,
-        // driving: τ_w = τ_m − loss, driven: τ_w = τ_m + loss, and the loss is in proportion to τ_m
-        gear: compensation.gear_efficiency.map(|efficiency| {
-            [
-                one / (one - gear_efficiency::loss(efficiency, one, one)),
-                one / (one + gear_efficiency::loss(efficiency, one, -one)),
-            ]
-        }),
-        dead_time: compensation.dead_time,
-        kept: compensation.dead_time.iter().fold(T::zero(), |most, d| most.max(d.voltage)),
-        creep: compensation.creep,
-        push: of.push,
-        spin: array::from_fn(|j| wheels.wheels()[j].rim().force(compensation.rotor_inertia[j])),
-        offset: compensation.current_offset,
-    }
+        | bit(at(Seam::Gear), compensate::GEAR)
+        | bit(motion && at(Seam::Contact), compensate::CONTACT)
+        | bit(kinds().any(|kind| kind.home() == Seam::Winding), compensate::WINDINGS)
+        | bit(at(Seam::Bridge) || at(Seam::Sense), compensate::LAST)
 }

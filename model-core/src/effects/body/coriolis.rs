@@ -21,7 +21,7 @@
 //! Source: derivative of a vector in a turning frame; catalogue note B1.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{Body, EffectContext};
+use crate::effects::seams::{Body, BodyMotion, EffectContext};
 use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
@@ -94,6 +94,13 @@ impl<T: Real> Hooks<T> for Coriolis<T> {
         add(&mut x.rate[0][2], -(moment * at.twist.vn));
         add(&mut x.rate[1][0], moment * at.twist.w);
         add(&mut x.rate[1][2], moment * at.twist.v);
+    }
+
+    fn undo_body(&self, motion: &BodyMotion<T>, needed: &mut [T; 3]) {
+        // the force that is there already, k·M·ω·(vn, −v)
+        let [v, vn] = force(self.factor, motion.mass, motion.twist);
+        needed[0] -= v;
+        needed[1] -= vn;
     }
 }
 

@@ -24,7 +24,7 @@
 //! Source: gravity on an inclined plane; size from catalogue note B5 (0.2–2°).
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{Body, EffectContext, STANDARD_GRAVITY};
+use crate::effects::seams::{Body, BodyMotion, EffectContext, STANDARD_GRAVITY};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -119,6 +119,12 @@ impl<T: Real> Hooks<T> for FloorTilt<T> {
         // 0 − a, taken away: a force that is absent then keeps even the sign of a zero
         x.force[0] -= T::zero() - x.mass * v;
         x.force[1] -= T::zero() - x.mass * vn;
+    }
+
+    fn undo_body(&self, motion: &BodyMotion<T>, needed: &mut [T; 3]) {
+        let [v, vn] = pull(self.tilt, self.direction - motion.heading);
+        needed[0] -= motion.mass * v;
+        needed[1] -= motion.mass * vn;
     }
 }
 

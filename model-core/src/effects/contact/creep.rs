@@ -79,6 +79,10 @@ impl<T: Real> Hooks<T> for Creep<T> {
         let Self { creep } = *self;
         x.creep += creep;
     }
+
+    fn undo_contact(&self, traction: T, lead: &mut T) {
+        *lead += slip(self.creep, traction);
+    }
 }
 
 #[cfg(test)]

@@ -95,6 +95,17 @@ impl<T: Real> Hooks<T> for GearEfficiency<T> {
         let Self { efficiency } = *self;
         x.budget += loss(efficiency, x.motor_torque, at.wheel_speed);
     }
+
+    fn undo_gear(&self, torque: T, wheel_speed: T, ratio: &mut T) {
+        let one = T::one();
+        // driving: τ_w = τ_m − loss, driven: τ_w = τ_m + loss, and the loss is in proportion to τ_m
+        let kept = if drives(torque, wheel_speed) {
+            one - loss(self.efficiency, one, one)
+        } else {
+            one + loss(self.efficiency, one, -one)
+        };
+        *ratio = *ratio / kept;
+    }
 }
 
 #[cfg(test)]

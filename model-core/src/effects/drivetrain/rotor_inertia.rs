@@ -56,7 +56,7 @@ pub const CARD: Card = Card {
         },
     ],
     code: 7,
-    undone: Undone::By("what turns with the wheels is added to M and J: Σ J_w/r²·G_jᵀG_j"),
+    undone: Undone::Folded("what turns with the wheels is added to M and J: Σ J_w/r²·G_jᵀG_j"),
     physics: Physics { inertia: Some(0), ..Physics::PASSIVE },
 };
 

@@ -21,7 +21,7 @@
 //! Source: curve after Stribeck in the form of Bo and Pavelescu; sizes from catalogue note D3 (20–100 %, a = 1–2).
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{EffectContext, Gear};
+use crate::effects::seams::{EffectContext, Gear, RimMotion};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -77,6 +77,10 @@ pub const CARD: Card = Card {
     },
 };
 
+/// Nearer to standstill than this, a rim's friction has no direction to be undone in [m/s]: less than a turn adds, more
+/// than rounding.
+const STILL: f64 = 1e-5;
+
 /// The share of the static excess that is left at a rim speed: 1 at rest, 0 well above the Stribeck speed.
 #[inline]
 pub fn left<T: Real>(stribeck_speed: T, exponent: T, rim_speed: T) -> T {
@@ -109,6 +113,13 @@ impl<T: Real> Hooks<T> for Stribeck<T> {
     fn gear(&self, _: &(), at: &EffectContext<T>, x: &mut Gear<T>) {
         let Self { static_excess, stribeck_speed, exponent } = *self;
         x.budget += x.coulomb_share * static_excess * left(stribeck_speed, exponent, at.rim_speed);
+    }
+
+    fn undo_shaft(&self, motion: &RimMotion<T>, torque: &mut T) {
+        let left = left(self.stribeck_speed, self.exponent, motion.speed);
+        let sense = (motion.ahead * T::lit(1.0 / STILL)).clamp(-T::one(), T::one());
+        // τ = e·τ_C·exp(−(|v|/v_s)^a)·sign(v)
+        *torque += self.static_excess * motion.coulomb_share * left * sense;
     }
 }
 

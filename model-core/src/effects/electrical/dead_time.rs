@@ -106,6 +106,14 @@ impl<T: Real> Hooks<T> for DeadTime<T> {
         x.voltage -= lost;
         x.sampled -= lost;
     }
+
+    fn undo_bridge(&self, current: T, voltage: &mut T) {
+        *voltage += loss(self.voltage_loss, self.smoothing_current, current);
+    }
+
+    fn bridge_reserve(&self) -> T {
+        self.voltage_loss
+    }
 }
 
 #[cfg(test)]

@@ -58,7 +58,7 @@ pub const CARD: Card = Card {
     signature: "current and torque wrong on one wheel alone: in step with its speed (k) or with its current (ρ)",
     look_alikes: &[],
     code: 4,
-    undone: Undone::By("the odd motor is driven by its own R, K_v and K_t"),
+    undone: Undone::Folded("the odd motor is driven by its own R, K_v and K_t"),
     physics: Physics::PASSIVE,
 };
 

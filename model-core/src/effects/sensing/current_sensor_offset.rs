@@ -83,6 +83,10 @@ impl<T: Real> Hooks<T> for CurrentSensorOffset<T> {
         let Self { offset } = *self;
         x.current -= offset;
     }
+
+    fn undo_reading(&self, current: &mut T) {
+        *current = reading(self.offset, *current);
+    }
 }
 
 #[cfg(test)]

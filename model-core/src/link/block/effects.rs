@@ -1,12 +1,10 @@
 //! The effects in a block: a number each, that never changes its meaning, and their parameters.
 
 use super::{BlockError, BlockErrorKind, BoundedField};
-use crate::effects::EffectKind;
+use crate::effects::active::MOST_UNDONE;
 use crate::effects::card::{MAX_PARAMS, Scope};
+use crate::effects::{Effect, EffectKind};
 use crate::link::bytes::Reader;
-
-/// The most effects that a block names.
-pub const MOST_EFFECTS: usize = 12;
 
 /// An effect that a block may name.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +19,7 @@ pub struct EffectCode {
     pub scope: Scope,
     count: usize,
     fields: [BoundedField; MAX_PARAMS],
+    typical: [f32; MAX_PARAMS],
 }
 
 /// Every effect with its number, as the cards say.
@@ -40,13 +39,15 @@ impl EffectCode {
         let card = kind.card();
         assert!(card.params.len() <= MAX_PARAMS, "a block has no room for so many parameters");
         let mut fields = [BoundedField { key: "", within: (0.0, 0.0) }; MAX_PARAMS];
+        let mut typical = [0.0; MAX_PARAMS];
         let mut k = 0;
         while k < card.params.len() {
             let (low, high) = card.params[k].within;
             fields[k] = BoundedField { key: card.params[k].key, within: (low as f32, high as f32) };
+            typical[k] = card.params[k].typical as f32;
             k += 1;
         }
-        Self { kind, code: card.code, id: card.id, scope: card.scope, count: card.params.len(), fields }
+        Self { kind, code: card.code, id: card.id, scope: card.scope, count: card.params.len(), fields, typical }
     }
 
     /// The effect of this number.
@@ -62,6 +63,11 @@ impl EffectCode {
     /// Its parameters' keys and bounds, in the card's order.
     pub fn fields(&self) -> &[BoundedField] {
         self.fields.get(..self.count).unwrap_or_default()
+    }
+
+    /// Values often met, in the card's order.
+    pub fn typical(&self) -> &[f32] {
+        self.typical.get(..self.count).unwrap_or_default()
     }
 }
 
@@ -119,6 +125,11 @@ impl BlockEffect {
         self.wheel
     }
 
+    /// The effect itself.
+    pub fn effect(&self) -> Option<Effect<f32>> {
+        self.known.kind.with(self.params())
+    }
+
     /// Its parameters, in the card's order and units.
     pub fn params(&self) -> &[f32] {
         self.params.get(..self.known.count).unwrap_or_default()
@@ -136,7 +147,7 @@ impl BlockEffect {
 /// The effects of a block.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BlockEffects {
-    items: [Option<BlockEffect>; MOST_EFFECTS],
+    items: [Option<BlockEffect>; MOST_UNDONE],
     len: usize,
 }
 

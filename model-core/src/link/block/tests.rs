@@ -257,7 +257,7 @@ fn there_is_room_for_twelve_effects_each_once_and_the_longest_block_fits() {
     }
     assert_eq!(effects.push(stribeck(Some(1))).unwrap_err().reason, BlockErrorKind::EffectTwice);
     assert_eq!(effects.push(stribeck(Some(3))).unwrap_err().reason, BlockErrorKind::TooManyEffects);
-    assert_eq!(effects.len(), MOST_EFFECTS);
+    assert_eq!(effects.len(), MOST_UNDONE);
     let (bytes, length) = encoded(&Block { effects, ..four() });
     assert!(length <= LONGEST && Parameters::decode(&bytes[..length]).is_ok(), "{length}");
     assert_eq!(BlockEffect::new("creep", None, &[]).unwrap_err().reason, BlockErrorKind::Length);

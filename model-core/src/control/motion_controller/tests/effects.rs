@@ -1,6 +1,11 @@
 //! Every effect that can be undone: the plant with the effect in it accelerates as the reference asks.
 
 use super::*;
+use crate::effects::Effect;
+use crate::effects::body::coriolis::Coriolis;
+use crate::effects::body::floor_tilt::FloorTilt;
+use crate::effects::card::Seam;
+use crate::effects::sensing::current_sensor_offset::CurrentSensorOffset;
 
 /// Shorter than anything that happens [s].
 const MOMENT: f64 = 1e-6;
@@ -11,6 +16,19 @@ struct Case {
     params: &'static [f64],
     /// Drive by currents: an effect of the voltages alone shows by voltages only.
     by_current: bool,
+}
+
+impl Case {
+    fn effect(&self) -> Effect<f64> {
+        EffectKind::find(self.id).and_then(|kind| kind.with(self.params)).expect("parameters of an effect's card")
+    }
+}
+
+#[test]
+fn every_effect_that_is_undone_is_tried() {
+    // an offset of a sensor has a test of its own: the body does not feel it
+    let tried = |kind: &EffectKind| kind.home() == Seam::Sense || CASES.iter().any(|case| case.id == kind.id());
+    assert!(EffectKind::ALL.iter().filter(|kind| kind.undone()).all(tried));
 }
 
 const CASES: [Case; 11] = [
@@ -34,8 +52,8 @@ fn errors<const N: usize>(robot: Robot<N, f64>, cases: &[&Case], by_current: boo
     let mut effects = Effects::default();
     let mut compensation = Compensation::none();
     for case in cases {
-        effects.add(EffectKind::find(case.id).unwrap(), case.wheel, case.params).unwrap();
-        compensation.add(case.id, case.wheel, case.params).unwrap();
+        effects.put(case.effect(), case.wheel).unwrap();
+        compensation.add(case.effect(), case.wheel).unwrap();
     }
     let plant = Plant::new(robot, effects);
     assert_eq!(plant.memory_len(), 0, "what is undone here remembers nothing");
@@ -111,8 +129,8 @@ fn a_robot_starts_from_rest_on_a_tilted_sticky_floor() {
     let cases = [&CASES[1], &CASES[2], &CASES[6], &CASES[9]];
     let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
     for case in cases {
-        effects.add(EffectKind::find(case.id).unwrap(), None, case.params).unwrap();
-        compensation.add(case.id, None, case.params).unwrap();
+        effects.put(case.effect(), None).unwrap();
+        compensation.add(case.effect(), None).unwrap();
     }
     let plant = Plant::new(robot, effects);
     let [with, without] = [compensation, Compensation::none()].map(|compensation| {
@@ -145,8 +163,8 @@ fn the_wanted_speed_of_a_creeping_wheel_is_the_one_it_has() {
     let robot = paper::four_wheels::<f64>();
     let case = &CASES[10];
     let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
-    effects.add(EffectKind::find(case.id).unwrap(), None, case.params).unwrap();
-    compensation.add(case.id, None, case.params).unwrap();
+    effects.put(case.effect(), None).unwrap();
+    compensation.add(case.effect(), None).unwrap();
     let plant = Plant::new(robot, effects);
     let controller = Controller::new(&Settings { compensation, ..settings(robot) });
     let (x, a) = (BodyTwist { v: 0.4, vn: -0.2, w: 1.0 }, BodyTwist { v: 2.0, vn: 1.0, w: -5.0 });
@@ -162,8 +180,9 @@ fn the_wanted_speed_of_a_creeping_wheel_is_the_one_it_has() {
 fn a_loop_closed_on_a_sensor_with_an_offset_gives_the_current_wanted() {
     let robot = paper::four_wheels::<f64>();
     let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
-    effects.add(EffectKind::find("current_sensor_offset").unwrap(), Some(2), &[0.2]).unwrap();
-    compensation.add("current_sensor_offset", Some(2), &[0.2]).unwrap();
+    let offset = CurrentSensorOffset { offset: 0.2 }.into();
+    effects.put(offset, Some(2)).unwrap();
+    compensation.add(offset, Some(2)).unwrap();
     let plant = Plant::new(robot, effects);
     let (x, a) = (BodyTwist { v: 0.4, vn: -0.2, w: 1.0 }, BodyTwist { v: 2.0, vn: 1.0, w: -5.0 });
     let demand = Controller::new(&Settings { compensation, ..settings(robot) }).feedforward(x, a, 0.0);
@@ -178,8 +197,8 @@ fn a_loop_closed_on_a_sensor_with_an_offset_gives_the_current_wanted() {
 #[test]
 fn without_feedforward_only_losses_of_the_motors_are_undone() {
     let mut compensation = Compensation::<4, f64>::none();
-    compensation.add("coriolis", None, &[1.0]).unwrap();
-    compensation.add("floor_tilt", None, &[0.0175, 0.5]).unwrap();
+    compensation.add(Coriolis { factor: 1.0 }.into(), None).unwrap();
+    compensation.add(FloorTilt { tilt: 0.0175, direction: 0.5 }.into(), None).unwrap();
     let controller =
         Controller::new(&Settings { compensation, feedforward: false, ..settings(paper::four_wheels::<f64>()) });
     let demand = controller.feedforward(BodyTwist { v: 1.0, vn: 1.0, w: 3.0 }, BodyTwist::default(), 0.0);

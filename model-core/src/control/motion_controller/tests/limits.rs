@@ -1,6 +1,7 @@
 //! Headroom, lost wheels, and what must hold for any input.
 
 use super::*;
+use crate::effects::card::{Param, Scope};
 
 /// Force on the body of these currents [N, N, N·m].
 fn body_force<const N: usize>(robot: &Robot<N, f64>, current: [f64; N]) -> [f64; 3] {
@@ -145,23 +146,26 @@ fn wheels_numbered_anew_get_the_same_currents_in_their_new_order() {
     }
 }
 
-fn finite_everywhere<const N: usize>(robot: Robot<N, f32>) {
+/// Every effect that is undone, with each parameter at one end of its bounds.
+fn all_undone<const N: usize>(end: impl Fn(&Param) -> f64) -> Compensation<N> {
     let mut compensation = Compensation::none();
-    for (id, wheel, params) in [
-        ("coriolis", None, &[1.0_f32][..]),
-        ("floor_tilt", None, &[0.1, 3.0]),
-        ("stribeck", None, &[3.0, 0.005, 0.5]),
-        ("rotor_inertia", Some(0), &[2e-3]),
-        ("gear_efficiency", None, &[0.4]),
-        ("motor_mismatch", Some(1), &[0.4, 2.5]),
-        ("dead_time", None, &[1.5, 0.01]),
-        ("creep", None, &[0.2]),
-        ("current_sensor_offset", Some(2), &[-0.5]),
-    ] {
-        compensation.add(id, wheel, params).unwrap();
+    for kind in EffectKind::ALL.into_iter().filter(|kind| kind.undone()) {
+        let card = kind.card();
+        let mut params = [0.0; 8];
+        params.iter_mut().zip(card.params).for_each(|(x, param)| *x = end(param) as f32);
+        let effect = kind.with(&params[..card.params.len()]).unwrap();
+        compensation.add(effect, (card.scope == Scope::OneWheel).then_some(1)).unwrap();
     }
+    compensation
+}
+
+fn finite_everywhere<const N: usize>(robot: Robot<N, f32>) {
+    // farthest from where the effect is absent
+    let large = |p: &Param| if p.within.1 - p.absent > p.absent - p.within.0 { p.within.1 } else { p.within.0 };
     let mut draw = Draw(8);
-    for compensation in [Compensation::none(), compensation] {
+    for compensation in
+        [Compensation::none(), all_undone(large), all_undone(|p| p.within.0), all_undone(|p| p.within.1)]
+    {
         let controller =
             Controller::new(&Settings { compensation, feedback: 0.3, feedback_integral: 3.0, ..settings(robot) });
         let mut memory = Memory::default();
@@ -180,7 +184,8 @@ fn finite_everywhere<const N: usize>(robot: Robot<N, f32>) {
             assert!(finite, "{d:?} {memory:?}");
             assert!((0.0..=1.0).contains(&d.headroom) && (0.0..=1.0).contains(&d.steady));
             assert!(memory.heading.abs() < 3.2);
-            let most = (0.95 * bus).max(0.0) + if compensation.dead_time[0].voltage > 0.0 { 1.5 } else { 0.0 };
+            let kept: f32 = compensation.iter().map(|undo| undo.effect.bridge_reserve()).sum();
+            let most = (0.95 * bus).max(0.0) + kept;
             assert!(d.voltage.iter().all(|u| u.abs() <= most * 1.000_001), "{d:?} {bus}");
         }
     }
