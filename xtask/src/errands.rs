@@ -5,7 +5,7 @@
 use std::ffi::OsString;
 
 use crate::line::Line;
-use crate::{real, steps, tool};
+use crate::{invented, real, steps, tool};
 
 /// One thing to ask for.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +65,12 @@ pub const ERRANDS: &[Errand] = &[
         takes: "[FOLDER]",
         does: "compare whole reports with the frozen ones, with FOLDER real recordings' too (BLESS=1: freeze anew)",
         run: frozen,
+    },
+    Errand {
+        name: "invented",
+        takes: "",
+        does: "add an invented effect to a copy of the tree, test it there and print what it touches (long)",
+        run: invented,
     },
     Errand { name: "help", takes: "", does: "print this list", run: help },
 ];
@@ -161,6 +167,10 @@ fn frozen(argument: Option<OsString>) -> Result<(), String> {
         true => line.word(real::folder(argument, variable)?),
         false => line,
     })
+}
+
+fn invented(_: Option<OsString>) -> Result<(), String> {
+    invented::perform()
 }
 
 fn help(_: Option<OsString>) -> Result<(), String> {

@@ -64,7 +64,7 @@ impl Line {
 }
 
 /// The top of the tree: the folder above this crate's, as cargo tells it at run time.
-fn top() -> PathBuf {
+pub fn top() -> PathBuf {
     match std::env::var_os("CARGO_MANIFEST_DIR") {
         Some(here) => PathBuf::from(here).join(".."),
         None => PathBuf::from("."),

@@ -4,6 +4,7 @@
 
 mod errands;
 mod install;
+mod invented;
 mod line;
 mod real;
 mod steps;

@@ -219,7 +219,7 @@ fn effects_are_held_to_the_catalogue() {
         refusal(&resealed(changed, length)).reason
     };
     assert_eq!(changed(&[(1, 0)]), BlockErrorKind::UnknownEffect);
-    assert_eq!(changed(&[(1, 14)]), BlockErrorKind::UnknownEffect);
+    assert_eq!(changed(&[(1, 0xfe)]), BlockErrorKind::UnknownEffect);
     // stribeck on a wheel that is not there; motor_mismatch on none; coriolis on one
     assert_eq!(changed(&[(2, 4)]), BlockErrorKind::EffectWheel);
     assert_eq!(changed(&[(16, EVERY)]), BlockErrorKind::EffectWheel);
