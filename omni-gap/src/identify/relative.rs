@@ -50,7 +50,8 @@ mod tests {
         };
         // by hand: 0.01 + 0.01 + 2·0.01·r, for r = 0, −1, 1
         assert!((with(0.0) - 0.02_f64.sqrt()).abs() < 1e-15);
-        assert!(with(-1.0).abs() < 1e-9);
+        // the root of a few rounding errors of 0.02
+        assert!(with(-1.0).abs() < 1e-8);
         assert!((with(1.0) - 0.2).abs() < 1e-15);
     }
 
