@@ -78,7 +78,7 @@ impl Findings {
             considered: Vec::new(),
             where_: Vec::new(),
             gap: Gap::default(),
-            shrink: Shrink::default(),
+            shrink: Shrink { reason: Some("the recordings cannot be used".to_owned()), ..Shrink::default() },
             parameters: Vec::new(),
             not_seen: Vec::new(),
             next_experiment: None,
