@@ -8,8 +8,8 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use host_tests::catalogue::sessions::truth;
 use model_core::effects::EffectKind;
 use omni_gap::log::Session;
-use omni_gap::simulate::Carried;
-use omni_gap::stage::{Stage, stage};
+use omni_gap::simulate::EffectInstance;
+use omni_gap::synthesize::{Scenario, synthesize};
 use omni_gap::{Options, diagnose, known_effects};
 
 /// Lengths of a run [s]; the first is what the promise speaks of.
@@ -17,8 +17,8 @@ const DURATIONS: [f64; 3] = [6.0, 3.0, 1.5];
 
 fn session(duration: f64) -> Session {
     let card = EffectKind::find("dead_time").expect("an effect of the catalogue").card();
-    let plan = Stage { hidden: vec![Carried::typical(card, None)], duration, ..Stage::default() };
-    stage(truth(4), &plan, &known_effects()).expect("the example is sound")
+    let plan = Scenario { hidden: vec![EffectInstance::typical(card, None)], duration, ..Scenario::default() };
+    synthesize(truth(4), &plan, &known_effects()).expect("the example is sound")
 }
 
 fn bench(c: &mut Criterion) {

@@ -11,8 +11,8 @@ use host_tests::catalogue::sessions::truth;
 use model_core::plant::robot::Nominal;
 use omni_gap::identify::{Free, Prior, Shots, WINDOW_S, Windows, fit};
 use omni_gap::known_effects;
-use omni_gap::simulate::{Model, Recorded, Slot};
-use omni_gap::stage::{Stage, stage};
+use omni_gap::simulate::{AlignedRun, Model, Slot};
+use omni_gap::synthesize::{Scenario, synthesize};
 
 /// Steps of the fit at the most.
 const ROUNDS: usize = 10;
@@ -35,16 +35,19 @@ const WRONG: [(&str, Nominal, f64); 7] = [
 ];
 
 fn bench(c: &mut Criterion) {
-    let plan = Stage {
+    let plan = Scenario {
         uncertain: false,
         wrong: WRONG.iter().map(|(key, _, ratio)| (*key, *ratio)).collect(),
-        ..Stage::default()
+        ..Scenario::default()
     };
-    let session = stage(truth(4), &plan, &known_effects()).expect("the example is sound");
-    let laid: Vec<Recorded<4>> =
-        session.runs.iter().map(|run| Recorded::new(run, &session.robot).expect("voltages drive the model")).collect();
+    let session = synthesize(truth(4), &plan, &known_effects()).expect("the example is sound");
+    let laid: Vec<AlignedRun<4>> = session
+        .runs
+        .iter()
+        .map(|run| AlignedRun::new(run, &session.robot).expect("voltages drive the model"))
+        .collect();
     let windows: Vec<Windows> = laid.iter().map(|run| Windows::new(run, WINDOW_S)).collect();
-    let runs: Vec<&Recorded<4>> = laid.iter().collect();
+    let runs: Vec<&AlignedRun<4>> = laid.iter().collect();
     let shots = Shots { runs: &runs, windows: &windows };
     let nominal = Model::<4>::nominal(&session.robot, plan.voltage);
     let prior = Prior::stated(&session.robot);

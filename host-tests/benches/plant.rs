@@ -8,7 +8,7 @@ use model_core::number::scalar::Real;
 use model_core::plant::{Input, Plant};
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
-use omni_gap::simulate::{Carried, Model};
+use omni_gap::simulate::{EffectInstance, Model};
 use std::hint::black_box;
 use std::path::Path;
 
@@ -21,7 +21,7 @@ fn model(effects: &[&str]) -> Model<4> {
     for id in effects {
         let card = EffectKind::find(id).expect("an id of the catalogue").card();
         let wheel = (card.scope == model_core::effects::card::Scope::OneWheel).then_some(2);
-        model.carry(Carried::typical(card, wheel));
+        model.add_effect(EffectInstance::typical(card, wheel));
     }
     model
 }

@@ -55,7 +55,7 @@ enum Event {
     /// The sliding axis has come to zero.
     Zero { axis: usize },
     /// The stuck axis lets go, the way this sign says.
-    Release { axis: usize, sign: f64 },
+    FreedPrior { axis: usize, sign: f64 },
 }
 
 impl Reference<3> {
@@ -152,7 +152,7 @@ impl<const N: usize> Reference<N> {
         let mut released = None;
         for _ in 0..MOST_EVENTS {
             let mut signs = self.signs(u);
-            if let Some(Event::Release { axis, sign }) = released {
+            if let Some(Event::FreedPrior { axis, sign }) = released {
                 signs[axis] = sign;
             }
             let (a, c) = self.field(u, signs);
@@ -169,7 +169,7 @@ impl<const N: usize> Reference<N> {
             released = event.map(|(_, event)| event);
             match released {
                 None => return,
-                Some(Event::Zero { axis } | Event::Release { axis, .. }) => self.twist[axis] = 0.0,
+                Some(Event::Zero { axis } | Event::FreedPrior { axis, .. }) => self.twist[axis] = 0.0,
             }
             left -= span;
         }
@@ -205,7 +205,7 @@ impl<const N: usize> Reference<N> {
                     // s·(A·x + B·u)ₖ − |Kₖ| rises through zero
                     let slack = FORCE_ROUNDING * (holds + push[axis].abs());
                     let t = flow.first_rise(&(sign * row), sign * push[axis] - holds, until, slack);
-                    note(t, Event::Release { axis, sign });
+                    note(t, Event::FreedPrior { axis, sign });
                 }
             } else {
                 // −s·xₖ rises through zero

@@ -6,8 +6,8 @@ use host_tests::catalogue::page::{Promise, read_promises};
 use host_tests::catalogue::sessions::{HiddenCause, WHEELS, cases, truth};
 use model_core::effects::EffectKind;
 use omni_gap::report::{Report, Verdict, terminal};
-use omni_gap::simulate::Carried;
-use omni_gap::stage::{Stage, stage};
+use omni_gap::simulate::EffectInstance;
+use omni_gap::synthesize::{Scenario, synthesize};
 use omni_gap::{Options, diagnose, known_effects};
 
 fn golden() -> String {
@@ -63,9 +63,9 @@ fn the_counts_of_the_page_are_those_of_its_rows() {
 }
 
 /// A session of eight short runs, of which two are held out: one alone has too few windows to be sure of an effect.
-fn small(wheels: usize, plan: Stage) -> Report {
-    let plan = Stage { runs: 8, duration: 3.0, rate: 200.0, ..plan };
-    let session = stage(truth(wheels), &plan, &known_effects()).expect("the examples are sound");
+fn small(wheels: usize, plan: Scenario) -> Report {
+    let plan = Scenario { runs: 8, duration: 3.0, rate: 200.0, ..plan };
+    let session = synthesize(truth(wheels), &plan, &known_effects()).expect("the examples are sound");
     diagnose(&session, &Options::default())
 }
 
@@ -75,9 +75,9 @@ fn expect(report: &Report, verdict: Verdict, first: Option<&str>) {
     assert_eq!(said, (verdict, first), "{}", terminal(report, None));
 }
 
-fn hiding(id: &str, seed: u64) -> Stage {
+fn hiding(id: &str, seed: u64) -> Scenario {
     let card = EffectKind::find(id).expect("an effect of the catalogue").card();
-    Stage { hidden: vec![Carried::typical(card, None)], seed, ..Stage::default() }
+    Scenario { hidden: vec![EffectInstance::typical(card, None)], seed, ..Scenario::default() }
 }
 
 #[test]
@@ -99,12 +99,12 @@ fn an_effect_is_found_on_three_wheels() {
 
 #[test]
 fn where_nothing_is_hidden_nothing_is_found() {
-    let report = small(4, Stage { seed: 3002, ..Stage::default() });
+    let report = small(4, Scenario { seed: 3002, ..Scenario::default() });
     expect(&report, Verdict::NoGap, None);
 }
 
 #[test]
 fn a_wrong_number_is_called_one() {
-    let report = small(3, Stage { wrong: vec![("resistance_ohm", 1.6)], seed: 3003, ..Stage::default() });
+    let report = small(3, Scenario { wrong: vec![("resistance_ohm", 1.6)], seed: 3003, ..Scenario::default() });
     expect(&report, Verdict::Parameter, Some("resistance"));
 }

@@ -7,20 +7,20 @@ use model_core::effects::EffectKind;
 use model_core::effects::card::{Role, Scope};
 use omni_gap::check::{Fault, check};
 use omni_gap::log::{Channel, Group, RobotFile, Run, Session};
-use omni_gap::simulate::Carried;
-use omni_gap::stage::{Stage, stage};
+use omni_gap::simulate::EffectInstance;
+use omni_gap::synthesize::{Scenario, synthesize};
 
 const ROBOTS: [(&str, &str, usize); 2] = [
     ("feup-3w", include_str!("../../examples/feup-3w/robot.toml"), 3),
     ("feup-4w", include_str!("../../examples/feup-4w/robot.toml"), 4),
 ];
 
-fn plan() -> Stage {
-    Stage { runs: 3, duration: 3.0, rate: 200.0, ..Stage::default() }
+fn plan() -> Scenario {
+    Scenario { runs: 3, duration: 3.0, rate: 200.0, ..Scenario::default() }
 }
 
-fn staged(robot: &str, plan: &Stage) -> Session {
-    stage(robot, plan, &omni_gap::known_effects()).expect("an example is a sound robot file")
+fn staged(robot: &str, plan: &Scenario) -> Session {
+    synthesize(robot, plan, &omni_gap::known_effects()).expect("an example is a sound robot file")
 }
 
 fn words(faults: &[Fault]) -> Vec<String> {
@@ -28,7 +28,7 @@ fn words(faults: &[Fault]) -> Vec<String> {
 }
 
 /// Every effect at `times` its typical size, on the robot, on all wheels and on single ones.
-fn effects_at(times: f64, wheels: usize) -> Vec<Carried> {
+fn effects_at(times: f64, wheels: usize) -> Vec<EffectInstance> {
     let mut all = Vec::new();
     for effect in &EffectKind::ALL {
         let card = effect.card();
@@ -38,7 +38,7 @@ fn effects_at(times: f64, wheels: usize) -> Vec<Carried> {
             Scope::OneWheel => vec![Some(0), Some(wheels - 1)],
         };
         for place in places {
-            let mut carried = Carried::typical(card, place);
+            let mut carried = EffectInstance::typical(card, place);
             for (param, value) in card.params.iter().zip(&mut carried.params) {
                 if param.role == Role::Size {
                     let sized = param.absent + times * (param.typical - param.absent);
@@ -55,7 +55,7 @@ fn effects_at(times: f64, wheels: usize) -> Vec<Carried> {
 fn a_clean_session_raises_nothing() {
     for (name, robot, _) in ROBOTS {
         for (seed, rate, voltage) in [(1, 200.0, 4.0), (2, 500.0, 8.0), (3, 100.0, 11.0)] {
-            let plan = Stage { seed, rate, voltage, ..plan() };
+            let plan = Scenario { seed, rate, voltage, ..plan() };
             assert_eq!(words(&check(&staged(robot, &plan))), [""; 0], "{name}, {plan:?}");
         }
     }
@@ -66,7 +66,7 @@ fn no_effect_of_the_robot_is_taken_for_a_fault_of_the_recording() {
     for (name, robot, wheels) in ROBOTS {
         for (times, voltage) in [(1.0, 8.0), (2.0, 11.0)] {
             for effect in effects_at(times, wheels) {
-                let plan = Stage { runs: 2, voltage, hidden: vec![effect], ..plan() };
+                let plan = Scenario { runs: 2, voltage, hidden: vec![effect], ..plan() };
                 assert_eq!(words(&check(&staged(robot, &plan))), [""; 0], "{name}, {plan:?}");
             }
         }
@@ -81,7 +81,7 @@ fn no_effect_at_a_bound_of_its_card_is_taken_for_a_fault_of_the_recording() {
                 for bound in [param.within.0, param.within.1] {
                     let mut hidden = effect.clone();
                     hidden.params[k] = bound;
-                    let plan = Stage { runs: 2, seed: 11, hidden: vec![hidden], ..plan() };
+                    let plan = Scenario { runs: 2, seed: 11, hidden: vec![hidden], ..plan() };
                     assert_eq!(words(&check(&staged(robot, &plan))), [""; 0], "{name}, {plan:?}");
                 }
             }
@@ -94,7 +94,7 @@ fn nothing_hidden_raises_nothing_at_any_rate_or_drive() {
     for (name, robot, _) in ROBOTS {
         for seed in 0..10 {
             let (rate, voltage) = ([25.0, 100.0, 500.0][seed as usize % 3], [3.0, 8.0][seed as usize % 2]);
-            let plan = Stage { seed, rate, voltage, ..plan() };
+            let plan = Scenario { seed, rate, voltage, ..plan() };
             assert_eq!(words(&check(&staged(robot, &plan))), [""; 0], "{name}, {plan:?}");
         }
     }
@@ -104,8 +104,8 @@ fn nothing_hidden_raises_nothing_at_any_rate_or_drive() {
 fn wheels_that_slip_in_one_run_of_a_session_are_not_swapped() {
     let slip = EffectKind::find("wheel_slip").expect("the catalogue has it").card();
     for (name, robot, _) in ROBOTS {
-        let hidden = vec![Carried::typical(slip, None)];
-        let plan = Stage { runs: 6, duration: 4.0, seed: 2008, hidden, ..plan() };
+        let hidden = vec![EffectInstance::typical(slip, None)];
+        let plan = Scenario { runs: 6, duration: 4.0, seed: 2008, hidden, ..plan() };
         assert_eq!(words(&check(&staged(robot, &plan))), [""; 0], "{name}, {plan:?}");
     }
 }
@@ -118,7 +118,7 @@ fn no_wrong_parameter_is_taken_for_a_fault_of_the_recording() {
         for keys in keys {
             for factor in [0.6, 1.4] {
                 let wrong = keys.iter().map(|key| (*key, factor)).collect();
-                let plan = Stage { runs: 2, wrong, seed: 7, ..plan() };
+                let plan = Scenario { runs: 2, wrong, seed: 7, ..plan() };
                 assert_eq!(words(&check(&staged(robot, &plan))), [""; 0], "{name}, {plan:?}");
             }
         }
@@ -230,7 +230,7 @@ fn every_fault_of_the_recording_is_found_and_named_in_all_runs_and_in_one() {
     let mut missed = Vec::new();
     for (name, robot, _) in ROBOTS {
         for (seed, wrong) in [(1, vec![]), (3, vec![("resistance_ohm", 1.4), ("coulomb_v_N", 0.6)])] {
-            let session = staged(robot, &Stage { seed, wrong, ..plan() });
+            let session = staged(robot, &Scenario { seed, wrong, ..plan() });
             for (what, code, signal, inject) in INJECTED {
                 for last_only in [false, true] {
                     let faults = raised(&session, inject, last_only);
@@ -250,7 +250,7 @@ fn every_fault_of_the_recording_is_found_and_named_in_all_runs_and_in_one() {
 
 #[test]
 fn a_swap_in_one_short_slow_run_is_found() {
-    let plan = Stage { duration: 2.0, rate: 100.0, ..plan() };
+    let plan = Scenario { duration: 2.0, rate: 100.0, ..plan() };
     for (name, robot, _) in ROBOTS {
         let session = staged(robot, &plan);
         let faults = raised(&session, |run| group(run, "w").swap(0, 1), true);
@@ -285,7 +285,7 @@ fn push(run: &mut Run, robot: &RobotFile) {
 #[test]
 fn a_hand_that_pushes_is_told() {
     for (name, robot, _) in ROBOTS {
-        let mut session = staged(robot, &Stage { runs: 1, ..plan() });
+        let mut session = staged(robot, &Scenario { runs: 1, ..plan() });
         let file = session.robot.clone();
         push(&mut session.runs[0], &file);
         let faults = check(&session);

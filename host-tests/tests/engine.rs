@@ -11,12 +11,12 @@ use model_core::effects::card::Scope;
 use omni_gap::engine::findings::{ConsideredCause, EngineRecord, EstimatedBy};
 use omni_gap::engine::{Engine, Evidence, Findings, Knobs, Stepwise};
 use omni_gap::report::Kind;
-use omni_gap::simulate::Carried;
-use omni_gap::stage::{Stage, stage};
+use omni_gap::simulate::EffectInstance;
+use omni_gap::synthesize::{Scenario, synthesize};
 use omni_gap::vocabulary::Progress;
 use omni_gap::{Diagnosis, Options, Verdict, known_effects};
 
-const PLAN: Stage = Stage {
+const PLAN: Scenario = Scenario {
     hidden: Vec::new(),
     wrong: Vec::new(),
     uncertain: false,
@@ -27,8 +27,8 @@ const PLAN: Stage = Stage {
     seed: 6000,
 };
 
-fn found(plan: &Stage, knobs: Knobs) -> Diagnosis {
-    let session = stage(truth(3), plan, &known_effects()).expect("the examples are sound");
+fn found(plan: &Scenario, knobs: Knobs) -> Diagnosis {
+    let session = synthesize(truth(3), plan, &known_effects()).expect("the examples are sound");
     Diagnosis::of(&session, &Options { knobs, ..Options::default() })
 }
 
@@ -38,7 +38,7 @@ static NOTHING: LazyLock<Diagnosis> = LazyLock::new(|| found(&PLAN, Knobs::defau
 /// A robot with dead time in its bridges.
 static DEAD_TIME: LazyLock<Diagnosis> = LazyLock::new(|| {
     let card = EffectKind::DeadTime.card();
-    found(&Stage { hidden: vec![Carried::typical(card, None)], ..PLAN }, Knobs::default())
+    found(&Scenario { hidden: vec![EffectInstance::typical(card, None)], ..PLAN }, Knobs::default())
 });
 
 #[test]
@@ -109,7 +109,7 @@ fn a_hidden_effect_is_taken_up_with_its_size_and_its_score() {
 fn a_report_says_which_engine_made_it_with_which_knobs() {
     let mut knobs = Knobs::default();
     knobs.measure.horizon_s = 0.25;
-    let report = found(&Stage { runs: 3, ..PLAN }, knobs.clone()).report;
+    let report = found(&Scenario { runs: 3, ..PLAN }, knobs.clone()).report;
     let engine = report.engine.expect("an engine was asked");
     assert_eq!((engine.name.as_str(), engine.version), (Stepwise.name(), Stepwise.version()));
     assert_eq!(engine.knobs, knobs);
@@ -121,7 +121,7 @@ fn a_knob_that_is_turned_changes_the_answer() {
     let mut deaf = Knobs::default();
     deaf.screen.promising = f64::MAX;
     let card = EffectKind::DeadTime.card();
-    let plan = Stage { hidden: vec![Carried::typical(card, None)], ..PLAN };
+    let plan = Scenario { hidden: vec![EffectInstance::typical(card, None)], ..PLAN };
     assert_eq!(found(&plan, deaf).report.causes, [""; 0]);
 }
 

@@ -9,8 +9,8 @@ use omni_gap::identify::experiments::classic;
 use omni_gap::identify::{disagreements, joint};
 use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, SensorsFile};
-use omni_gap::rehearse::rehearse;
-use omni_gap::simulate::{Experiment, Model, NominalKey, Plan, Recorded, Recording, Sensing};
+use omni_gap::simulate::{AlignedRun, Experiment, Model, NominalKey, Plan, Sensing, SensorSetup};
+use omni_gap::simulate_experiments::simulate_experiments;
 
 const SILENT: SensorsFile =
     SensorsFile { current_noise_a: 0.0, wheel_speed_noise_rad_s: 0.0, position_noise_m: 0.0, heading_noise_rad: 0.0 };
@@ -25,10 +25,10 @@ fn plan(rate: f64) -> Plan {
 }
 
 /// What a robot of this file records, 200 rows a second with encoders, as a model of `known` sees it.
-fn played<const N: usize>(truth: &RobotFile, known: &RobotFile, sensors: SensorsFile) -> Vec<Recorded<N>> {
-    let how = Recording { steps_a_row: 20, sensors, ..Sensing::Modern.recording() };
-    let runs = rehearse(truth, &plan(200.0), &how, 7);
-    runs.iter().filter_map(|run| Recorded::new(run, known)).collect()
+fn played<const N: usize>(truth: &RobotFile, known: &RobotFile, sensors: SensorsFile) -> Vec<AlignedRun<N>> {
+    let how = SensorSetup { steps_a_row: 20, sensors, ..Sensing::Modern.recording() };
+    let runs = simulate_experiments(truth, &plan(200.0), &how, 7);
+    runs.iter().filter_map(|run| AlignedRun::new(run, known)).collect()
 }
 
 fn value(file: &RobotFile, nominal: Nominal) -> f64 {
@@ -69,7 +69,7 @@ fn experiments_of_a_robot_that_is_its_model_agree() {
     known.motor.resistance_ohm *= 1.1;
     known.friction.coulomb_v_n *= 0.8;
     let runs = played::<3>(&truth, &known, truth.sensors);
-    let runs: Vec<&Recorded<3>> = runs.iter().collect();
+    let runs: Vec<&AlignedRun<3>> = runs.iter().collect();
     let found = disagreements(&Model::nominal(&known, 8.0), &known, &runs);
     assert!(found.is_empty(), "{found:?}");
 }
@@ -79,7 +79,7 @@ fn experiments_of_a_robot_whose_bridge_loses_voltage_disagree() {
     let truth = file(3, "[effects.dead_time]\nvoltage_loss_V = 0.4\n");
     let known = file(3, "");
     let runs = played::<3>(&truth, &known, truth.sensors);
-    let runs: Vec<&Recorded<3>> = runs.iter().collect();
+    let runs: Vec<&AlignedRun<3>> = runs.iter().collect();
     let model = Model::nominal(&known, 8.0);
     let found = disagreements(&model, &known, &runs);
     let electrical = [Nominal::Resistance, Nominal::TorqueConstant];

@@ -8,7 +8,7 @@ use host_tests::identification::no_excitation::{MissingExcitation, without_excit
 use host_tests::identification::promises::{Promise, Threshold, read_promises};
 use host_tests::identification::study::study;
 use model_core::plant::robot::Nominal;
-use omni_gap::identify::{IDENTIFIED, Refused, Word};
+use omni_gap::identify::{IDENTIFIED, Identifiability, Refused};
 use omni_gap::simulate::Sensing;
 
 fn golden() -> String {
@@ -162,8 +162,8 @@ fn without_voltages_the_resistance_leaves_no_trace() {
     let answer = missing.answers[0].as_ref().expect("currents drive the model");
     let resistance = IDENTIFIED.iter().position(|p| *p == Nominal::Resistance).expect("it is one of them");
     let others = answer.numbers.iter().enumerate().filter(|(k, _)| *k != resistance);
-    assert_eq!(answer.numbers[resistance].word, Word::NotSeen);
-    assert!(others.clone().all(|(_, number)| number.word == Word::Identified), "{answer:?}");
+    assert_eq!(answer.numbers[resistance].word, Identifiability::NotSeen);
+    assert!(others.clone().all(|(_, number)| number.word == Identifiability::Identified), "{answer:?}");
 }
 
 #[test]

@@ -11,7 +11,7 @@ mod cases;
 use cases::{ALL, Expected, Spoiled};
 use host_tests::golden;
 use omni_gap::check::{Fault, check};
-use omni_gap::simulate::{Recorded, steps_taken};
+use omni_gap::simulate::{AlignedRun, steps_taken};
 use omni_gap::{Options, Report, Session, Verdict, diagnose, known_effects};
 
 /// What came of one.
@@ -34,7 +34,7 @@ fn outcome(spoiled: &Spoiled) -> Result<Outcome, String> {
     let session = Session::load(folder.path(), None, &known_effects()).map_err(|why| shown(why.to_string()))?;
     let mut faults = check(&session);
     faults.iter_mut().for_each(|fault| fault.sentence = shown(fault.sentence.clone()));
-    let laid = session.runs.iter().filter_map(|run| Recorded::<4>::new(run, &session.robot));
+    let laid = session.runs.iter().filter_map(|run| AlignedRun::<4>::new(run, &session.robot));
     let one_pass = laid.map(|run| (0..run.rows()).map(|row| run.steps(row) as u64).sum::<u64>()).sum();
     let before = steps_taken();
     let report = diagnose(&session, &Options::default());
@@ -99,10 +99,10 @@ fn line(spoiled: &Spoiled, found: &Result<Outcome, String>) -> String {
             None => format!("| {} | – | `{}` | | |\n", spoiled.what, word(o.report.verdict)),
             Some(fault) => {
                 let slight = if fault.fatal { "" } else { ", slight" };
-                let (sentence, mend) = (cell(&fault.sentence), cell(&fault.mend));
+                let (sentence, fix) = (cell(&fault.sentence), cell(&fault.fix));
                 let (code, signal) = (fault.code, if fault.signal.is_empty() { "session" } else { &fault.signal });
                 format!(
-                    "| {} | `{code}` ({signal}){slight} | `{}` | {sentence} | {mend} |\n",
+                    "| {} | `{code}` ({signal}){slight} | `{}` | {sentence} | {fix} |\n",
                     spoiled.what,
                     word(o.report.verdict)
                 )

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use model_core::effects::EffectKind;
 use omni_gap::api::{Diagnosis, Error, Options, Session, known_effects};
-use omni_gap::simulate::Carried;
-use omni_gap::stage::{Stage, stage};
+use omni_gap::simulate::EffectInstance;
+use omni_gap::synthesize::{Scenario, synthesize};
 
 /// The program; the tests call it too.
 pub fn main() -> Result<(), Error> {
@@ -27,7 +27,7 @@ pub fn main() -> Result<(), Error> {
 
 fn recorded() -> Result<Session, Error> {
     let robot = include_str!("../../examples/feup-4w/robot.toml");
-    let hidden = Carried::typical(EffectKind::DeadTime.card(), None);
-    let plan = Stage { hidden: vec![hidden], runs: 8, duration: 3.0, rate: 200.0, ..Stage::default() };
-    stage(robot, &plan, &known_effects())
+    let hidden = EffectInstance::typical(EffectKind::DeadTime.card(), None);
+    let plan = Scenario { hidden: vec![hidden], runs: 8, duration: 3.0, rate: 200.0, ..Scenario::default() };
+    synthesize(robot, &plan, &known_effects())
 }

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use omni_gap::api::{Error, Session, identify, known_effects};
-use omni_gap::stage::{Stage, stage};
+use omni_gap::synthesize::{Scenario, synthesize};
 
 /// The program; the tests call it too.
 pub fn main() -> Result<(), Error> {
@@ -25,7 +25,7 @@ pub fn main() -> Result<(), Error> {
             println!("{:.2} σ are left over {} samples", found.error_sigma, found.samples);
         }
         // an error can be matched: this one says which fault of the recordings it is, and how to mend it
-        Err(Error::Faulty { code, mend, .. }) => println!("not before this is mended: {code}. {mend}"),
+        Err(Error::Faulty { code, fix, .. }) => println!("not before this is mended: {code}. {fix}"),
         Err(other) => return Err(other),
     }
     Ok(())
@@ -34,6 +34,6 @@ pub fn main() -> Result<(), Error> {
 fn recorded() -> Result<Session, Error> {
     let robot = include_str!("../../examples/feup-4w/robot.toml");
     let wrong = vec![("resistance_ohm", 1.3)];
-    let plan = Stage { wrong, uncertain: false, runs: 4, duration: 3.0, rate: 200.0, ..Stage::default() };
-    stage(robot, &plan, &known_effects())
+    let plan = Scenario { wrong, uncertain: false, runs: 4, duration: 3.0, rate: 200.0, ..Scenario::default() };
+    synthesize(robot, &plan, &known_effects())
 }

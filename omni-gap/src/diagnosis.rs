@@ -51,13 +51,13 @@ pub struct Diagnosis {
 /// Never fails: a recording that cannot be used is answered with the verdict `unfit_data` and the reasons.
 ///
 /// ```
-/// use omni_gap::stage::{Stage, stage};
+/// use omni_gap::synthesize::{Scenario, synthesize};
 /// use omni_gap::{Options, Verdict, diagnose, known_effects};
 ///
 /// // a recording of a robot that is just what its file says, give or take the stated uncertainty
 /// let robot = include_str!("../../examples/feup-4w/robot.toml");
-/// let plan = Stage { runs: 3, duration: 3.0, rate: 200.0, ..Stage::default() };
-/// let session = stage(robot, &plan, &known_effects())?;
+/// let plan = Scenario { runs: 3, duration: 3.0, rate: 200.0, ..Scenario::default() };
+/// let session = synthesize(robot, &plan, &known_effects())?;
 ///
 /// let report = diagnose(&session, &Options::default());
 /// assert_eq!(report.verdict, Verdict::NoGap);
@@ -101,6 +101,6 @@ impl Diagnosis {
 }
 
 fn fault(unfit: Unfit) -> Fault {
-    let Unfit { code, what, mend } = unfit;
-    Fault { code: code.to_owned(), what: what.to_owned(), mend: mend.to_owned(), ..Fault::default() }
+    let Unfit { code, what, fix } = unfit;
+    Fault { code: code.to_owned(), what: what.to_owned(), fix: fix.to_owned(), ..Fault::default() }
 }

@@ -13,7 +13,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
     /// A file or folder that was given cannot be used as it is.
-    #[error("{}{}: {problem}. {mend}", Place(file, *line), InColumn(column.as_deref()))]
+    #[error("{}{}: {problem}. {fix}", Place(file, *line), InColumn(column.as_deref()))]
     Input {
         /// The file or folder.
         file: PathBuf,
@@ -24,10 +24,10 @@ pub enum Error {
         /// What was found and what was expected.
         problem: String,
         /// How to mend it.
-        mend: String,
+        fix: String,
     },
     /// A recording with a fault that spoils any fit.
-    #[error("{}: {problem} {mend}", file.display())]
+    #[error("{}: {problem} {fix}", file.display())]
     Faulty {
         /// The fault's code, as `check` tells it.
         code: &'static str,
@@ -36,24 +36,24 @@ pub enum Error {
         /// Where it is, and what is wrong.
         problem: String,
         /// How to mend it.
-        mend: String,
+        fix: String,
     },
     /// An output cannot be written.
-    #[error("{}: cannot be written: {reason}. {mend}", path.display())]
+    #[error("{}: cannot be written: {reason}. {fix}", path.display())]
     Output {
         /// The file that was to be written.
         path: PathBuf,
         /// Why it cannot be.
         reason: String,
         /// How to mend it.
-        mend: String,
+        fix: String,
     },
 }
 
 impl Error {
     /// A mistake in `file` as a whole.
-    pub fn input(file: &Path, problem: impl Into<String>, mend: impl Into<String>) -> Error {
-        Error::Input { file: file.into(), line: None, column: None, problem: problem.into(), mend: mend.into() }
+    pub fn input(file: &Path, problem: impl Into<String>, fix: impl Into<String>) -> Error {
+        Error::Input { file: file.into(), line: None, column: None, problem: problem.into(), fix: fix.into() }
     }
 
     /// The same mistake, with the line (counted from 1) where it stands.
@@ -73,8 +73,8 @@ impl Error {
     }
 
     /// An output that cannot be written.
-    pub fn output(path: &Path, reason: impl Into<String>, mend: impl Into<String>) -> Error {
-        Error::Output { path: path.into(), reason: reason.into(), mend: mend.into() }
+    pub fn output(path: &Path, reason: impl Into<String>, fix: impl Into<String>) -> Error {
+        Error::Output { path: path.into(), reason: reason.into(), fix: fix.into() }
     }
 }
 

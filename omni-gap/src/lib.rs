@@ -8,7 +8,7 @@
 //! and how sure they are) → `localise` (where the gap lies) → `engine` (which cause) → `report` (files for people and
 //! programs).
 //!
-//! A room imports only rooms before it; [`diagnosis`] walks through them all, [`stage`] makes recordings whose truth is
+//! A room imports only rooms before it; [`diagnosis`] walks through them all, [`synthesize`] makes recordings whose truth is
 //! known, [`wire`] speaks with a robot.
 
 // A unit in brackets, [V], is not a link.
@@ -36,9 +36,9 @@ pub mod diagnosis;
 
 pub mod api;
 
-pub mod stage;
+pub mod synthesize;
 
-pub mod rehearse;
+pub mod simulate_experiments;
 
 pub mod wire;
 

@@ -77,7 +77,7 @@ pub const ERRANDS: &[Errand] = &[
 
 /// Why an errand was not done.
 #[derive(Debug, PartialEq, Eq)]
-pub enum Stop {
+pub enum ErrandError {
     /// It was asked for in the wrong way.
     Usage(String),
     /// It was tried and failed.
@@ -85,13 +85,13 @@ pub enum Stop {
 }
 
 /// Does what the arguments ask for.
-pub fn perform(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Stop> {
+pub fn perform(arguments: impl IntoIterator<Item = OsString>) -> Result<(), ErrandError> {
     let (errand, argument) = asked(arguments)?;
-    (errand.run)(argument).map_err(Stop::Failed)
+    (errand.run)(argument).map_err(ErrandError::Failed)
 }
 
-fn asked(arguments: impl IntoIterator<Item = OsString>) -> Result<(&'static Errand, Option<OsString>), Stop> {
-    let usage = |what: String| Stop::Usage(format!("{what}\n{}", list()));
+fn asked(arguments: impl IntoIterator<Item = OsString>) -> Result<(&'static Errand, Option<OsString>), ErrandError> {
+    let usage = |what: String| ErrandError::Usage(format!("{what}\n{}", list()));
     let mut arguments = arguments.into_iter();
     let name = arguments.next().ok_or_else(|| usage("no errand named".into()))?;
     let errand = ERRANDS.iter().find(|errand| name == errand.name);
@@ -113,9 +113,9 @@ fn test(_: Option<OsString>) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
     let outcome = steps::run(steps::STEPS, Line::succeeds);
     if outcome.failed.is_some() {
-        return Err(outcome.told());
+        return Err(outcome.summary());
     }
-    println!("{}", outcome.told());
+    println!("{}", outcome.summary());
     Ok(())
 }
 
@@ -187,14 +187,14 @@ fn announced(line: Line) -> Result<(), String> {
 mod tests {
     use super::*;
 
-    fn ask(words: &[&str]) -> Result<(&'static str, Option<OsString>), Stop> {
+    fn ask(words: &[&str]) -> Result<(&'static str, Option<OsString>), ErrandError> {
         asked(words.iter().map(OsString::from)).map(|(errand, argument)| (errand.name, argument))
     }
 
     #[test]
     fn an_unknown_errand_is_answered_with_the_list() {
         for (words, complaint) in [(&["tset"][..], "no errand is called tset"), (&[], "no errand named")] {
-            let Err(Stop::Usage(said)) = ask(words) else { panic!("{words:?} was taken") };
+            let Err(ErrandError::Usage(said)) = ask(words) else { panic!("{words:?} was taken") };
             assert!(said.starts_with(complaint), "{said}");
             assert_eq!(said.lines().count(), 1 + ERRANDS.len(), "{said}");
         }
@@ -204,8 +204,8 @@ mod tests {
     fn only_an_errand_that_takes_an_argument_gets_one() {
         assert_eq!(ask(&["real", "logs"]), Ok(("real", Some("logs".into()))));
         assert_eq!(ask(&["real"]), Ok(("real", None)));
-        assert!(matches!(ask(&["test", "logs"]), Err(Stop::Usage(_))));
-        assert!(matches!(ask(&["real", "logs", "more"]), Err(Stop::Usage(_))));
+        assert!(matches!(ask(&["test", "logs"]), Err(ErrandError::Usage(_))));
+        assert!(matches!(ask(&["real", "logs", "more"]), Err(ErrandError::Usage(_))));
     }
 
     #[test]

@@ -12,13 +12,13 @@ mod tool;
 
 use std::process::ExitCode;
 
-use errands::Stop;
+use errands::ErrandError;
 
 fn main() -> ExitCode {
     let (said, code) = match errands::perform(std::env::args_os().skip(1)) {
         Ok(()) => return ExitCode::SUCCESS,
-        Err(Stop::Failed(said)) => (said, 1),
-        Err(Stop::Usage(said)) => (said, 2),
+        Err(ErrandError::Failed(said)) => (said, 1),
+        Err(ErrandError::Usage(said)) => (said, 2),
     };
     eprintln!("{said}");
     ExitCode::from(code)

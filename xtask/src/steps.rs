@@ -105,7 +105,7 @@ pub fn run(steps: &[Step], run: impl Fn(&Line) -> bool) -> Outcome {
 
 impl Outcome {
     /// The time of each step, then what to do about a failure, then the count.
-    pub fn told(&self) -> String {
+    pub fn summary(&self) -> String {
         let failed = usize::from(self.failed.is_some());
         let mut text = String::new();
         for (name, time) in &self.times {
@@ -132,14 +132,14 @@ mod tests {
     fn the_first_failure_ends_the_run_and_names_its_command() {
         let outcome = run(TWO_OF_THREE, |line| !line.shown().contains("--all"));
         assert_eq!(outcome.times.len(), 2, "the third step must not run");
-        let told = outcome.told();
+        let told = outcome.summary();
         assert!(told.contains("to run the failed step again: X='1 2' b --all\n"), "{told}");
         assert!(told.ends_with("\n1 passed, 1 failed"), "{told}");
     }
 
     #[test]
     fn success_ends_in_the_count_and_times_every_step() {
-        let told = run(TWO_OF_THREE, |_| true).told();
+        let told = run(TWO_OF_THREE, |_| true).summary();
         assert_eq!(told.lines().last(), Some("3 passed, 0 failed"));
         assert_eq!(told.lines().count(), 4, "{told}");
     }

@@ -30,7 +30,7 @@ fn benchmark(only: Option<&str>) -> Result<(), Error> {
     let mut outcomes = Vec::with_capacity(asked().count());
     for (k, (case, engine)) in asked().enumerate() {
         let outcome = diagnose_case(case, engine)?;
-        println!("[{}/{}] {}", k + 1, asked().count(), told(&outcome));
+        println!("[{}/{}] {}", k + 1, asked().count(), summary(&outcome));
         if only.is_some() {
             println!("{}", terminal(&outcome.report, None));
             closest(&outcome);
@@ -56,7 +56,7 @@ fn benchmark(only: Option<&str>) -> Result<(), Error> {
 }
 
 /// A session in a line.
-fn told(o: &BenchmarkOutcome) -> String {
+fn summary(o: &BenchmarkOutcome) -> String {
     let right = match o.judged() {
         Judgement::First => "right",
         Judgement::Named => "named",

@@ -9,7 +9,7 @@ use omni_gap::error::Result;
 use omni_gap::localise::{floor, measure};
 use omni_gap::log::RobotFile;
 use omni_gap::report::{Estimate, Report, Verdict};
-use omni_gap::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded};
+use omni_gap::simulate::{AlignedRun, Model, NOMINAL_KEYS, NominalKey};
 use omni_gap::{Diagnosis, Options, known_effects};
 
 use super::sessions::{BenchmarkCase, HiddenCause, truth};
@@ -117,15 +117,15 @@ fn oracle<const N: usize>(
     case: &BenchmarkCase,
     nominal: &RobotFile,
     truth: &RobotFile,
-    held: &[Recorded<N>],
+    held: &[AlignedRun<N>],
     horizon_s: f64,
 ) -> Oracle {
     let voltage = case.plan().voltage;
     let mut model = Model::<N>::nominal(truth, voltage);
     if let HiddenCause::Effect(effect) = &case.hidden {
-        model.carry(effect.clone());
+        model.add_effect(effect.clone());
     }
-    let held: Vec<&Recorded<N>> = held.iter().collect();
+    let held: Vec<&AlignedRun<N>> = held.iter().collect();
     let (nominal, truth) = (Model::<N>::nominal(nominal, voltage).plant(), model.plant());
     Oracle {
         before: measure(&nominal, &held, horizon_s).total(),

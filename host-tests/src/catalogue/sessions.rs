@@ -7,8 +7,8 @@ use model_core::effects::card::Scope;
 use omni_gap::error::Result;
 use omni_gap::known_effects;
 use omni_gap::log::Session;
-use omni_gap::simulate::Carried;
-use omni_gap::stage::{Stage, stage};
+use omni_gap::simulate::EffectInstance;
+use omni_gap::synthesize::{Scenario, synthesize};
 
 /// The seed of the first session; the others count up from it, in the order of [`cases`]. Nobody chose them by result.
 pub const FIRST_SEED: u64 = 2000;
@@ -52,7 +52,7 @@ pub const WRONG_PARAMETERS: [WrongParameter; 3] = [
 #[derive(Clone, Debug, PartialEq)]
 pub enum HiddenCause {
     /// An effect that it lacks.
-    Effect(Carried),
+    Effect(EffectInstance),
     /// Nothing beyond the stated uncertainty.
     Nothing,
     /// A number that is wrong.
@@ -86,7 +86,7 @@ impl fmt::Display for HiddenCause {
 /// How much is recorded of a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {
-    /// As much as [`Stage`] records by default.
+    /// As much as [`Scenario`] records by default.
     Full,
     /// Eight runs of 3 s at 200 rows a second, of which two are held out: one alone has too few windows to be sure of an
     /// effect.
@@ -119,7 +119,7 @@ pub fn short_cases() -> Vec<BenchmarkCase> {
 fn numbered(first_seed: u64, nothing_each: usize, length: Length) -> Vec<BenchmarkCase> {
     let effects = EffectKind::ALL.iter().map(|effect| {
         let card = effect.card();
-        HiddenCause::Effect(Carried::typical(card, (card.scope == Scope::OneWheel).then_some(ODD_WHEEL)))
+        HiddenCause::Effect(EffectInstance::typical(card, (card.scope == Scope::OneWheel).then_some(ODD_WHEEL)))
     });
     let nothing = std::iter::repeat_n(HiddenCause::Nothing, nothing_each);
     let all = effects.chain(nothing).chain(WRONG_PARAMETERS.map(HiddenCause::Parameter));
@@ -137,11 +137,11 @@ pub fn truth(wheels: usize) -> &'static str {
 }
 
 impl BenchmarkCase {
-    /// How it is staged: as noisy and as uncertain as [`Stage`] is by default.
-    pub fn plan(&self) -> Stage {
+    /// How it is staged: as noisy and as uncertain as [`Scenario`] is by default.
+    pub fn plan(&self) -> Scenario {
         let mut plan = match self.length {
-            Length::Full => Stage::default(),
-            Length::Short => Stage { runs: 8, duration: 3.0, rate: 200.0, ..Stage::default() },
+            Length::Full => Scenario::default(),
+            Length::Short => Scenario { runs: 8, duration: 3.0, rate: 200.0, ..Scenario::default() },
         };
         plan.seed = self.seed;
         match &self.hidden {
@@ -164,10 +164,10 @@ impl BenchmarkCase {
     ///
     /// # Errors
     /// Where the true robot's file is not sound.
-    pub fn session_with(&self, more: &[Carried]) -> Result<Session> {
+    pub fn session_with(&self, more: &[EffectInstance]) -> Result<Session> {
         let mut plan = self.plan();
         plan.hidden.extend_from_slice(more);
-        stage(truth(self.wheels), &plan, &known_effects())
+        synthesize(truth(self.wheels), &plan, &known_effects())
     }
 }
 

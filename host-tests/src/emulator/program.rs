@@ -66,13 +66,13 @@ impl fmt::Display for RunError {
         match self {
             Self::NotStarted { what, why } => write!(f, "{what}: {why}"),
             Self::Ended { how, exchanges, said } => {
-                write!(f, "the emulator ended ({how}) after {exchanges} exchanges, unasked; it said: {}", told(said))
+                write!(f, "the emulator ended ({how}) after {exchanges} exchanges, unasked; it said: {}", summary(said))
             }
             Self::Silent { waited, exchanges, said } => write!(
                 f,
                 "the emulator hangs: nothing came for {:.1} s after {exchanges} exchanges; it said: {}",
                 waited.as_secs_f64(),
-                told(said)
+                summary(said)
             ),
             Self::Exchange(why) => write!(f, "the exchange with the emulator failed: {why}"),
             Self::Period { due, came } => write!(f, "period {came} came where {due} was due"),
@@ -82,7 +82,7 @@ impl fmt::Display for RunError {
 
 impl std::error::Error for RunError {}
 
-fn told(said: &str) -> &str {
+fn summary(said: &str) -> &str {
     let said = said.trim();
     if said.is_empty() { "nothing" } else { said }
 }

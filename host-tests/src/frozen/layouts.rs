@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use omni_gap::error::{Error, Result};
 use omni_gap::log::{Run, write_whole};
-use omni_gap::stage::{Stage, stage};
+use omni_gap::synthesize::{Scenario, synthesize};
 use omni_gap::{Session, known_effects};
 
 /// A layout that `examples/` has a mapping for.
@@ -38,8 +38,8 @@ impl Layout {
         let text = std::fs::read_to_string(&robot).map_err(unreadable)?;
         // about as many rows a second as the makers' logs have, and voltages that the motors of each take
         let (rate, voltage) = if self == Layout::Robotino { (32.0, 20.0) } else { (200.0, 8.0) };
-        let plan = Stage { runs: 6, duration: 4.0, rate, voltage, seed, ..Stage::default() };
-        let runs = stage(&text, &plan, &known_effects())?.runs;
+        let plan = Scenario { runs: 6, duration: 4.0, rate, voltage, seed, ..Scenario::default() };
+        let runs = synthesize(&text, &plan, &known_effects())?.runs;
         let folder = tempfile::tempdir().map_err(|why| Error::output(Path::new("."), why.to_string(), "Free space"))?;
         let mut paths: Vec<PathBuf> = Vec::new();
         for (k, run) in runs.iter().enumerate() {

@@ -3,7 +3,7 @@
 use omni_gap::Session;
 use omni_gap::error::Result;
 use omni_gap::log::Run;
-use omni_gap::simulate::Carried;
+use omni_gap::simulate::EffectInstance;
 
 use super::layouts::Layout;
 use crate::catalogue::sessions::{BenchmarkCase, HiddenCause, Length, WHEELS, short_cases};
@@ -84,7 +84,7 @@ enum Made {
     /// A session of the benchmark, and what of it is kept.
     Case(BenchmarkCase, Kept),
     /// A session with one more effect than its case hides.
-    Pair(BenchmarkCase, Carried),
+    Pair(BenchmarkCase, EffectInstance),
     /// Files in the layout of a real robot's makers.
     Layout(Layout, u64),
 }
@@ -118,14 +118,14 @@ pub fn recordings() -> Vec<FrozenCase> {
     let mut all: Vec<FrozenCase> = short_cases().into_iter().map(reduced).collect();
     for (kept, id) in Kept::WITH {
         for wheels in WHEELS {
-            let hidden = HiddenCause::Effect(Carried::typical(card(id), None));
+            let hidden = HiddenCause::Effect(EffectInstance::typical(card(id), None));
             let case = BenchmarkCase { seed: seed(), wheels, hidden, length: Length::Short };
             let name = format!("{:?}, `{id}` on {wheels} wheels", kept);
             all.push(FrozenCase { name, made: Made::Case(case, kept) });
         }
     }
     for wheels in WHEELS {
-        let [first, second] = ["dead_time", "camera_latency"].map(|id| Carried::typical(card(id), None));
+        let [first, second] = ["dead_time", "camera_latency"].map(|id| EffectInstance::typical(card(id), None));
         let case = BenchmarkCase { seed: seed(), wheels, hidden: HiddenCause::Effect(first), length: Length::Short };
         let name = format!("`dead_time` and `camera_latency` on {wheels} wheels");
         all.push(FrozenCase { name, made: Made::Pair(case, second) });

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
-use omni_gap::simulate::{Plan, Recording, Sensing};
+use omni_gap::simulate::{Plan, Sensing, SensorSetup};
 
 use crate::catalogue::sessions::truth;
 
@@ -56,8 +56,8 @@ impl StudyCase {
     }
 
     /// How it is recorded.
-    pub fn recording(&self) -> Recording {
-        Recording { camera_correlation: self.camera_correlation, ..self.sensing.recording() }
+    pub fn recording(&self) -> SensorSetup {
+        SensorSetup { camera_correlation: self.camera_correlation, ..self.sensing.recording() }
     }
 
     /// The robot as it is, its file stating the noise that it is recorded with.

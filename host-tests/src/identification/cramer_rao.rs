@@ -1,7 +1,7 @@
 //! What no unbiased estimator can go below.
 
 use omni_gap::identify::{IDENTIFIED, Shots, Windows, linearise};
-use omni_gap::simulate::{Model, Recorded, Slot};
+use omni_gap::simulate::{AlignedRun, Model, Slot};
 
 use super::joint_fit::freely_driven;
 use super::prior::NUMBERS;
@@ -14,14 +14,14 @@ use super::prior::NUMBERS;
 /// Where the runs do not tell all numbers.
 pub fn cramer_rao_bound<const N: usize>(
     truth: &Model<N>,
-    runs: &[Recorded<N>],
+    runs: &[AlignedRun<N>],
     camera_correlation: f64,
 ) -> [f64; NUMBERS] {
-    let mut runs: Vec<Recorded<N>> = freely_driven(runs).into_iter().cloned().collect();
+    let mut runs: Vec<AlignedRun<N>> = freely_driven(runs).into_iter().cloned().collect();
     for run in &mut runs {
         run.correlation_time[2 * N..2 * N + 3].fill(camera_correlation);
     }
-    let runs: Vec<&Recorded<N>> = runs.iter().collect();
+    let runs: Vec<&AlignedRun<N>> = runs.iter().collect();
     let windows: Vec<Windows> = runs.iter().map(|run| Windows::whole(run)).collect();
     let at_rest = vec![vec![[0.0; 6]]; runs.len()];
     let slots = IDENTIFIED.map(Slot::Nominal);

@@ -1,6 +1,6 @@
 //! What the fit says where it cannot tell everything: words, trade-offs, refusals.
 
-use omni_gap::identify::{IDENTIFIED, Refused, TradeOff, Word};
+use omni_gap::identify::{IDENTIFIED, Identifiability, Refused, TradeOff};
 
 use super::joint_fit::{FittedNumber, JointAnswer};
 use super::missing_group::MissingGroup;
@@ -9,15 +9,21 @@ use super::prior::symbol;
 use super::significant_figures::{percent, two_figures};
 
 /// In the order in which they are told.
-const WORDS: [Word; 5] = [Word::Identified, Word::Weak, Word::Combined, Word::NotSeen, Word::AtBound];
+const WORDS: [Identifiability; 5] = [
+    Identifiability::Identified,
+    Identifiability::Weak,
+    Identifiability::Combined,
+    Identifiability::NotSeen,
+    Identifiability::AtBound,
+];
 
-const fn word(word: Word) -> &'static str {
+const fn word(word: Identifiability) -> &'static str {
     match word {
-        Word::Identified => "identified",
-        Word::Weak => "weak",
-        Word::Combined => "combined",
-        Word::AtBound => "at bound",
-        Word::NotSeen => "not seen",
+        Identifiability::Identified => "identified",
+        Identifiability::Weak => "weak",
+        Identifiability::Combined => "combined",
+        Identifiability::AtBound => "at bound",
+        Identifiability::NotSeen => "not seen",
     }
 }
 
@@ -54,7 +60,7 @@ fn said(m: &MissingGroup, k: usize) -> String {
             continue;
         }
         let often = if those.len() == numbers.len() { String::new() } else { format!("{} × ", those.len()) };
-        let error = if kind == Word::Identified {
+        let error = if kind == Identifiability::Identified {
             let largest = |of: &dyn Fn(&FittedNumber) -> f64| those.iter().map(|t| of(t)).fold(0.0, f64::max);
             let (error, off) = (largest(&|t| (t.factor - 1.0).abs()), largest(&FittedNumber::off));
             format!(" {} % ({off:.1} σ)", percent(error))

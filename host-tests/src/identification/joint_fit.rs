@@ -1,7 +1,7 @@
 //! What the joint fit answers, held against the truth.
 
-use omni_gap::identify::{IDENTIFIED, Refused, TradeOff, Word, joint};
-use omni_gap::simulate::{Experiment, Model, Recorded};
+use omni_gap::identify::{IDENTIFIED, Identifiability, Refused, TradeOff, joint};
+use omni_gap::simulate::{AlignedRun, Experiment, Model};
 
 use super::prior::{NUMBERS, PriorRobot};
 
@@ -9,7 +9,7 @@ use super::prior::{NUMBERS, PriorRobot};
 #[derive(Clone, Copy, Debug)]
 pub struct FittedNumber {
     /// What the runs say of it.
-    pub word: Word,
+    pub word: Identifiability,
     /// Found over true.
     pub factor: f64,
     /// One sigma of it.
@@ -37,7 +37,7 @@ pub struct JointAnswer {
 impl JointAnswer {
     /// Those that are called identified.
     pub fn identified(&self) -> impl Iterator<Item = &FittedNumber> {
-        self.numbers.iter().filter(|number| number.word == Word::Identified)
+        self.numbers.iter().filter(|number| number.word == Identifiability::Identified)
     }
 }
 
@@ -48,7 +48,7 @@ impl JointAnswer {
 pub fn joint_fit<const N: usize>(
     prior: &PriorRobot,
     supply: f64,
-    recorded: &[Recorded<N>],
+    recorded: &[AlignedRun<N>],
 ) -> Result<JointAnswer, Refused> {
     let model = Model::<N>::nominal(&prior.file, supply);
     let found = joint(&model, &prior.file, &freely_driven(recorded))?;
@@ -60,6 +60,6 @@ pub fn joint_fit<const N: usize>(
 }
 
 /// The runs without those of the motor experiment.
-pub fn freely_driven<const N: usize>(recorded: &[Recorded<N>]) -> Vec<&Recorded<N>> {
+pub fn freely_driven<const N: usize>(recorded: &[AlignedRun<N>]) -> Vec<&AlignedRun<N>> {
     recorded.iter().filter(|run| Experiment::of(&run.name) != Some(Experiment::Motor)).collect()
 }

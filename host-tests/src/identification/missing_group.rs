@@ -2,8 +2,8 @@
 
 use omni_gap::identify::Refused;
 use omni_gap::log::Run;
-use omni_gap::rehearse::rehearse;
-use omni_gap::simulate::{Recorded, Sensing};
+use omni_gap::simulate::{AlignedRun, Sensing};
+use omni_gap::simulate_experiments::simulate_experiments;
 use rayon::prelude::*;
 
 use super::case::StudyCase;
@@ -75,10 +75,10 @@ pub fn without_group(wheels: usize, group: SensorGroup, seeds: u64) -> MissingGr
 fn trial<const N: usize>(case: StudyCase, group: SensorGroup, seed: u64) -> Result<JointAnswer, Refused> {
     let truth = case.truth();
     let prior = PriorRobot::drawn(&truth, seed);
-    let mut runs = rehearse(&truth, &case.plan(), &case.recording(), seed);
+    let mut runs = simulate_experiments(&truth, &case.plan(), &case.recording(), seed);
     for run in &mut runs {
         group.remove_from(run);
     }
-    let recorded: Vec<Recorded<N>> = runs.iter().filter_map(|run| Recorded::new(run, &prior.file)).collect();
+    let recorded: Vec<AlignedRun<N>> = runs.iter().filter_map(|run| AlignedRun::new(run, &prior.file)).collect();
     joint_fit(&prior, case.plan().voltage, &recorded)
 }

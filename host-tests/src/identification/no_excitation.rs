@@ -3,8 +3,8 @@
 use model_core::plant::Input;
 use omni_gap::identify::Refused;
 use omni_gap::log::Run;
-use omni_gap::rehearse::rehearse;
-use omni_gap::simulate::{Model, Recorded, Sensing, record};
+use omni_gap::simulate::{AlignedRun, Model, Sensing, record};
+use omni_gap::simulate_experiments::simulate_experiments;
 use rayon::prelude::*;
 
 use super::case::StudyCase;
@@ -91,12 +91,12 @@ fn answer<const N: usize>(case: StudyCase, missing: MissingExcitation, seed: u64
     let runs = match missing {
         MissingExcitation::Motion => vec![standing::<N>(case, seed)],
         _ => {
-            let mut runs = rehearse(&truth, &case.plan(), &case.recording(), seed);
+            let mut runs = simulate_experiments(&truth, &case.plan(), &case.recording(), seed);
             runs.retain(|run| !missing.leaves_out(&run.name));
             runs
         }
     };
-    let recorded: Vec<Recorded<N>> = runs.iter().filter_map(|run| Recorded::new(run, &prior.file)).collect();
+    let recorded: Vec<AlignedRun<N>> = runs.iter().filter_map(|run| AlignedRun::new(run, &prior.file)).collect();
     joint_fit(&prior, case.plan().voltage, &recorded)
 }
 

@@ -3,7 +3,7 @@
 //! It holds no time of day and no duration, so that the same program writes the same page.
 
 use omni_gap::identify::IDENTIFIED;
-use omni_gap::simulate::{Recording, Sensing, SpeedSensor};
+use omni_gap::simulate::{Sensing, SensorSetup, SpeedSensor};
 
 use super::Results;
 use super::case::{CASES, FIELD, VOLTAGE};
@@ -94,7 +94,7 @@ fn measured() -> String {
     )
 }
 
-fn sensors(how: &Recording, rate: f64) -> String {
+fn sensors(how: &SensorSetup, rate: f64) -> String {
     let s = how.sensors;
     let lost = if how.dropouts > 0.0 { format!(", {:.0} % lost", 100.0 * how.dropouts) } else { String::new() };
     let speeds = match how.speed {

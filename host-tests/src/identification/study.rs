@@ -7,8 +7,8 @@ use model_core::plant::robot::Nominal;
 use omni_gap::identify::IDENTIFIED;
 use omni_gap::identify::experiments::{Estimate, classic};
 use omni_gap::log::RobotFile;
-use omni_gap::rehearse::rehearse;
-use omni_gap::simulate::{Model, Recorded};
+use omni_gap::simulate::{AlignedRun, Model};
+use omni_gap::simulate_experiments::simulate_experiments;
 use rayon::prelude::*;
 
 use super::case::StudyCase;
@@ -59,9 +59,9 @@ pub fn study(case: StudyCase) -> StudyResult {
 
 fn of_wheels<const N: usize>(case: StudyCase) -> StudyResult {
     let truth = case.truth();
-    let played = rehearse(&truth, &case.plan(), &case.recording(), 0);
+    let played = simulate_experiments(&truth, &case.plan(), &case.recording(), 0);
     let size = (played.len(), played.iter().map(|r| r.duration_s()).sum(), played.iter().map(|r| r.rows()).sum());
-    let recorded: Vec<Recorded<N>> = played.iter().filter_map(|run| Recorded::new(run, &truth)).collect();
+    let recorded: Vec<AlignedRun<N>> = played.iter().filter_map(|run| AlignedRun::new(run, &truth)).collect();
     let bound = cramer_rao_bound(&Model::nominal(&truth, case.plan().voltage), &recorded, case.camera_correlation);
     let trials = (1..=case.seeds).into_par_iter().map(|seed| trial::<N>(&truth, case, seed)).collect();
     StudyResult { case, trials, bound, size }
@@ -69,8 +69,8 @@ fn of_wheels<const N: usize>(case: StudyCase) -> StudyResult {
 
 fn trial<const N: usize>(truth: &RobotFile, case: StudyCase, seed: u64) -> Trial {
     let prior = PriorRobot::drawn(truth, seed);
-    let runs = rehearse(truth, &case.plan(), &case.recording(), seed);
-    let recorded: Vec<Recorded<N>> = runs.iter().filter_map(|run| Recorded::new(run, &prior.file)).collect();
+    let runs = simulate_experiments(truth, &case.plan(), &case.recording(), seed);
+    let recorded: Vec<AlignedRun<N>> = runs.iter().filter_map(|run| AlignedRun::new(run, &prior.file)).collect();
     let supply = case.plan().voltage;
     let classic = classic(&Model::<N>::nominal(&prior.file, supply), &recorded);
     let of_truth = |k: usize, e: Estimate| {

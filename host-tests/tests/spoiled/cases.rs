@@ -4,7 +4,7 @@ use std::path::Path;
 
 use omni_gap::known_effects;
 use omni_gap::log::{Channel, Group, Missing, Run};
-use omni_gap::stage::{Stage, stage};
+use omni_gap::synthesize::{Scenario, synthesize};
 
 /// A session as files: the text of the robot file, and the runs with their file names.
 #[derive(Clone)]
@@ -38,8 +38,8 @@ use Expected::{Fatal, Nothing, Refused, Slight};
 /// The sound one: three runs of three seconds of the four-wheel robot at 200 rows a second.
 pub fn sound() -> Files {
     let text = include_str!("../../../examples/feup-4w/robot.toml");
-    let plan = Stage { runs: 3, duration: 3.0, rate: 200.0, ..Stage::default() };
-    let session = stage(text, &plan, &known_effects()).expect("the example is sound");
+    let plan = Scenario { runs: 3, duration: 3.0, rate: 200.0, ..Scenario::default() };
+    let session = synthesize(text, &plan, &known_effects()).expect("the example is sound");
     let runs = session.runs.into_iter().map(|run| (format!("{}.csv", run.name), run)).collect();
     Files { robot: session.robot_text, runs }
 }

@@ -25,7 +25,7 @@ impl fmt::Display for Finding {
 #[track_caller]
 pub fn none(findings: Vec<Finding>) {
     let lines: Vec<String> = findings.iter().map(Finding::to_string).collect();
-    assert!(findings.is_empty(), "{} to mend:\n{}", findings.len(), lines.join("\n"));
+    assert!(findings.is_empty(), "{} to fix:\n{}", findings.len(), lines.join("\n"));
 }
 
 /// The first line beyond `most`.
@@ -44,7 +44,7 @@ fn a_file_may_be_full_but_not_overfull() {
 }
 
 #[test]
-#[should_panic(expected = "1 to mend:\na.rs:7: mend me")]
+#[should_panic(expected = "1 to fix:\na.rs:7: mend me")]
 fn a_finding_fails_the_test_with_file_and_line() {
     none(vec![Finding { file: "a.rs".into(), line: 7, what: "mend me".into() }]);
 }

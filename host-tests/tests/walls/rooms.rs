@@ -113,7 +113,7 @@ fn who_stands_above_imports_all_and_is_imported_by_no_room() {
     for above in ["lib.rs", "main.rs", "commands/diagnose.rs", "diagnosis/mod.rs", "stage.rs", "known.rs"] {
         assert_eq!(found_in(&format!("{HOUSE}{above}"), "use crate::{error, report, commands};"), [""; 0]);
     }
-    for import in ["commands::Args", "diagnosis::Options", "stage::Stage", "known::known_effects", "*"] {
+    for import in ["commands::Args", "diagnosis::Options", "synthesize::Scenario", "known::known_effects", "*"] {
         assert_eq!(found_in("omni-gap/src/report.rs", &format!("use crate::{import};")).len(), 1, "{import}");
     }
 }

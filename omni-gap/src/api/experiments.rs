@@ -6,7 +6,7 @@ use super::identify::refuse_faulty;
 use crate::error::{Error, Result};
 use crate::identify::{Answer, Asked, Refused, answer};
 use crate::log::Session;
-use crate::simulate::{Experiment, Recorded, drivable};
+use crate::simulate::{AlignedRun, Experiment, drivable};
 
 /// Asks the paper's experiments in a session, and fits the model to all their runs from scratch; `place` is where the
 /// runs stand, for messages about all of them.
@@ -36,8 +36,8 @@ fn refuse_without_runs(asked: Asked, session: &Session, runs: &Path) -> Result<(
         }
     };
     let problem = format!("there is no run of {what}; its runs are told by their names: {names}");
-    let mend = "`omni-gap experiment ROBOT.toml --out DIR` writes what to play and how to name the logs";
-    Err(Error::input(runs, problem, mend))
+    let fix = "`omni-gap experiment ROBOT.toml --out DIR` writes what to play and how to name the logs";
+    Err(Error::input(runs, problem, fix))
 }
 
 fn answered<const N: usize>(asked: Asked, session: &Session, place: &Path) -> Result<Answer> {
@@ -45,7 +45,7 @@ fn answered<const N: usize>(asked: Asked, session: &Session, place: &Path) -> Re
     for run in taken() {
         drivable::<N>(run, &session.robot)?;
     }
-    let runs: Vec<Recorded<N>> = session.runs.iter().filter_map(|run| Recorded::new(run, &session.robot)).collect();
+    let runs: Vec<AlignedRun<N>> = session.runs.iter().filter_map(|run| AlignedRun::new(run, &session.robot)).collect();
     answer(&session.robot, &runs, asked).map_err(|why| refused(why, asked, place))
 }
 

@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use crate::check::check;
 use crate::error::{Error, Result};
-use crate::identify::{Fit, FitSettings, Prior, Shots, WINDOW_S, Windows, fit_tempered, nominal_free};
+use crate::identify::{Fit, FitSettings, Prior, Shots, WINDOW_S, Windows, fit_with_dispersion, nominal_free};
 use crate::log::{RobotFile, Session, corrected};
-use crate::simulate::{Model, NOMINAL_KEYS, NominalKey, Recorded, Slot, supply_seen};
+use crate::simulate::{AlignedRun, Model, NOMINAL_KEYS, NominalKey, Slot, supply_seen};
 
 /// A fit with a larger error per sample leaves something unexplained [σ]
 const MORE_THAN_NOISE: f64 = 1.2;
@@ -84,11 +84,11 @@ pub fn identify(session: &Session) -> Result<Identification> {
 pub(super) fn refuse_faulty(session: &Session) -> Result<()> {
     let Some(fault) = check(session).into_iter().find(|fault| fault.fatal) else { return Ok(()) };
     let problem = format!("lines {} to {}: {}", fault.lines.0, fault.lines.1, fault.sentence);
-    Err(Error::Faulty { code: fault.code, file: fault.file, problem, mend: fault.mend })
+    Err(Error::Faulty { code: fault.code, file: fault.file, problem, fix: fault.fix })
 }
 
 fn identified<const N: usize>(session: &Session) -> Result<Identification> {
-    let runs: Vec<Recorded<N>> = session.runs.iter().filter_map(|r| Recorded::new(r, &session.robot)).collect();
+    let runs: Vec<AlignedRun<N>> = session.runs.iter().filter_map(|r| AlignedRun::new(r, &session.robot)).collect();
     if runs.is_empty() {
         let problem =
             "no run has a voltage, a signed current, a wheel speed or a commanded speed to drive the model with";
@@ -97,10 +97,10 @@ fn identified<const N: usize>(session: &Session) -> Result<Identification> {
     }
     let model = Model::<N>::nominal(&session.robot, supply_seen(&runs));
     let windows: Vec<Windows> = runs.iter().map(|r| Windows::new(r, WINDOW_S)).collect();
-    let runs: Vec<&Recorded<N>> = runs.iter().collect();
+    let runs: Vec<&AlignedRun<N>> = runs.iter().collect();
     let (settings, prior) = (FitSettings::default(), Prior::stated(&session.robot));
     let shots = Shots { runs: &runs, windows: &windows };
-    let fit = fit_tempered(model, shots, None, &nominal_free(&settings), &prior, &settings);
+    let fit = fit_with_dispersion(model, shots, None, &nominal_free(&settings), &prior, &settings);
     let changes: Vec<_> =
         NOMINAL_KEYS.iter().flat_map(|key| key.scaled(&session.robot, key.factor(&fit.model.factor))).collect();
     let error_sigma = (fit.cost / fit.samples.max(1) as f64).sqrt();

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::log::{Channel, Group, Missing, RobotFile, Run, SensorsFile};
-use crate::simulate::{Model, Recording, drivable, record, supply_seen};
+use crate::simulate::{Model, SensorSetup, drivable, record, supply_seen};
 
 /// Steps of the recorded robot for each that a prediction would take.
 const FINER: usize = 10;
@@ -33,12 +33,12 @@ fn simulated<const N: usize>(robot: &RobotFile, input: &Run, noise_seed: Option<
     };
     let rows = recorded.rows();
     let mean: usize = (0..rows).map(|row| recorded.steps(row)).sum::<usize>().div_ceil(rows);
-    let how = Recording {
+    let how = SensorSetup {
         steps_a_row: FINER * mean,
         camera_rate: EVERY_ROW,
         dropouts: 0.0,
         sensors: if noise_seed.is_some() { robot.sensors } else { silent },
-        ..Recording::default()
+        ..SensorSetup::default()
     };
     let inputs: Vec<_> = (0..rows).map(|row| recorded.input(row)).collect();
     let mut run = record(&plant, &input.name, &input.t_s, &inputs, &how, noise_seed.unwrap_or_default());

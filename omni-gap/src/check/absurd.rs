@@ -16,8 +16,8 @@ pub(super) fn check(run: &Run) -> Vec<Fault> {
             "`{name}` holds {value:e} and {} more number(s) beyond {MOST:e}, expected what a sensor can give.",
             count - 1
         );
-        let mend = "Correct the column, or leave fields empty where nothing was measured.";
-        faults.push(Fault::of(run, "absurd_value", name, true).at(first, last).says(sentence, mend));
+        let fix = "Correct the column, or leave fields empty where nothing was measured.";
+        faults.push(Fault::of(run, "absurd_value", name, true).at(first, last).says(sentence, fix));
     }
     faults
 }

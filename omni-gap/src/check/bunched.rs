@@ -37,6 +37,6 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
         found.len(),
         100.0 * share
     );
-    let mend = "Stamp samples where they are taken; or leave out both rows of each pair.";
-    Some(Fault::of(run, "bunched", "w", share > 0.05).at(first, last + 1).says(sentence, mend))
+    let fix = "Stamp samples where they are taken; or leave out both rows of each pair.";
+    Some(Fault::of(run, "bunched", "w", share > 0.05).at(first, last + 1).says(sentence, fix))
 }

@@ -24,21 +24,21 @@ pub(super) fn check(runs: &[&Run], robot: &RobotFile) -> Option<Fault> {
     let driven = |run: &Run| [&run.u, &run.i, &run.w, &run.wset].iter().filter(|group| group.is_some()).count();
     if all(&|run| driven(run) == 0) {
         let sentence = "Only the pose was logged, expected what drives the robot beside it.";
-        let mend = "Log at least one of u, i, w or wset for every wheel.";
-        return Some(Fault::of(first, "nothing_drives_the_model", "", true).says(sentence, mend));
+        let fix = "Log at least one of u, i, w or wset for every wheel.";
+        return Some(Fault::of(first, "nothing_drives_the_model", "", true).says(sentence, fix));
     }
     if all(&|run| driven(run) == 1 && run.pose.is_none()) {
         let sentence = "What drives the model is all that was measured, so nothing is left to compare it with.";
-        let mend = "Log the pose, or voltages beside the wheel speeds.";
-        return Some(Fault::of(first, "nothing_to_compare", "", true).says(sentence, mend));
+        let fix = "Log the pose, or voltages beside the wheel speeds.";
+        return Some(Fault::of(first, "nothing_to_compare", "", true).says(sentence, fix));
     }
     if let Some(fault) = too_little(runs) {
         return Some(fault);
     }
     if all(&|run| stands_still(run, robot)) {
         let sentence = "The robot never moves in this session: neither its wheels nor its pose leave their noise.";
-        let mend = "Check that the motors were enabled, and record runs in which the robot drives on all three axes.";
-        return Some(Fault::of(first, "never_moves", "w, x_m, y_m, theta_rad", true).says(sentence, mend));
+        let fix = "Check that the motors were enabled, and record runs in which the robot drives on all three axes.";
+        return Some(Fault::of(first, "never_moves", "w, x_m, y_m, theta_rad", true).says(sentence, fix));
     }
     None
 }
@@ -54,8 +54,8 @@ fn too_little(runs: &[&Run]) -> Option<Fault> {
         "{LEAST_S} s and {LEAST_ROWS} rows are needed, in runs of {WINDOW_S} s or more; {} run(s) with {time_s:.3} s and {rows} rows are given, the longest run of {longest_s:.3} s.",
         runs.len()
     );
-    let mend = "Record more: several runs of some seconds each, on all three axes, with rests and reversals.";
-    Some(Fault::of(runs[0], "too_little_data", "", true).says(sentence, mend))
+    let fix = "Record more: several runs of some seconds each, on all three axes, with rests and reversals.";
+    Some(Fault::of(runs[0], "too_little_data", "", true).says(sentence, fix))
 }
 
 /// Whether neither wheels nor pose say that the robot moves; false where neither was logged.
@@ -103,6 +103,6 @@ pub(super) fn frictionless(robot: &RobotFile) -> Option<Fault> {
     }
     let sentence =
         "The robot file has no friction: [friction] is missing or all zero, and zero is what the model takes.";
-    let mend = "Add [friction] with estimates, and say in [uncertainty] how rough they are (1 is 100 %).";
-    Some(Fault::of_robot("no_friction", "[friction]").says(sentence, mend))
+    let fix = "Add [friction] with estimates, and say in [uncertainty] how rough they are (1 is 100 %).";
+    Some(Fault::of_robot("no_friction", "[friction]").says(sentence, fix))
 }

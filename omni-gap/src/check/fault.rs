@@ -22,7 +22,7 @@ pub struct Fault {
     /// What was seen.
     pub sentence: String,
     /// How to mend it.
-    pub mend: String,
+    pub fix: String,
     /// Whether nothing may be fitted on this log.
     pub fatal: bool,
 }
@@ -32,17 +32,17 @@ impl Fault {
     pub(super) fn of(run: &Run, code: &'static str, signal: impl Into<String>, fatal: bool) -> Fault {
         let rows = (0, run.rows().saturating_sub(1));
         let lines = (run.line_of(rows.0), run.line_of(rows.1));
-        let (sentence, mend) = (String::new(), String::new());
+        let (sentence, fix) = (String::new(), String::new());
         let (run, file) = (run.name.clone(), run.path.clone());
-        Fault { code, run, file, lines, rows, signal: signal.into(), sentence, mend, fatal }
+        Fault { code, run, file, lines, rows, signal: signal.into(), sentence, fix, fatal }
     }
 
     /// A fault of a key or table of the robot file.
     pub(super) fn of_robot(code: &'static str, key: &str) -> Fault {
         let name = "robot.toml".to_string();
         let (file, signal) = (PathBuf::from(&name), key.to_string());
-        let (sentence, mend) = (String::new(), String::new());
-        Fault { code, run: name, file, lines: (1, 1), rows: (0, 0), signal, sentence, mend, fatal: false }
+        let (sentence, fix) = (String::new(), String::new());
+        Fault { code, run: name, file, lines: (1, 1), rows: (0, 0), signal, sentence, fix, fatal: false }
     }
 
     /// Whether it is one of this run.
@@ -57,9 +57,9 @@ impl Fault {
         self
     }
 
-    pub(super) fn says(mut self, sentence: impl Into<String>, mend: impl Into<String>) -> Fault {
+    pub(super) fn says(mut self, sentence: impl Into<String>, fix: impl Into<String>) -> Fault {
         self.sentence = sentence.into();
-        self.mend = mend.into();
+        self.fix = fix.into();
         self
     }
 }

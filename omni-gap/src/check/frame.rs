@@ -138,9 +138,9 @@ impl Evidence for Seen {
     }
 }
 
-pub(super) fn told(run: &Run, guess: &Guess) -> Fault {
+pub(super) fn describe(run: &Run, guess: &Guess) -> Fault {
     let better = guess.better;
-    let (code, signal, what, mend) = match &guess.what {
+    let (code, signal, what, fix) = match &guess.what {
         What::Degrees => {
             let sentence =
                 format!("Pose and wheel speeds agree {better:.0} times better if the heading is in degrees.");
@@ -173,12 +173,12 @@ pub(super) fn told(run: &Run, guess: &Guess) -> Fault {
         ),
     };
     let sentence = format!("Pose and wheel speeds agree {better:.0} times better if {what}.");
-    Fault::of(run, code, signal, true).says(sentence, mend)
+    Fault::of(run, code, signal, true).says(sentence, fix)
 }
 
 pub(super) fn degrees(run: &Run, sentence: String) -> Fault {
-    let mend = "Convert the heading to radians, or state unit = \"deg\" in columns.toml.";
-    Fault::of(run, "wrong_unit", "theta_rad", true).says(format!("{sentence} It looks like degrees."), mend)
+    let fix = "Convert the heading to radians, or state unit = \"deg\" in columns.toml.";
+    Fault::of(run, "wrong_unit", "theta_rad", true).says(format!("{sentence} It looks like degrees."), fix)
 }
 
 fn in_radians(windows: &[Window]) -> Vec<Window> {

@@ -26,7 +26,7 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
                         && (drive_moves(robot, (name, &drive.channels[j]), channel.get(a) == Ok(0.0), (a, b))
                             || turned(run, j, (a, b)))
             };
-            faults.extend(stretches(run, channel, moved).map(|s| told(run, &format!("w{j}_rad_s"), s)));
+            faults.extend(stretches(run, channel, moved).map(|s| describe(run, &format!("w{j}_rad_s"), s)));
         }
     }
     if let (Some(current), Some(_), Some(_)) = (&run.i, &run.u, &run.w) {
@@ -37,7 +37,7 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
                 dead || noisy && alive(&current.channels, j, (a, b))
                     || current_asked(run, robot, j, (a, b)).is_some_and(|asked| asked > 10.0 * step)
             };
-            faults.extend(stretches(run, channel, moved).map(|s| told(run, &format!("i{j}_A"), s)));
+            faults.extend(stretches(run, channel, moved).map(|s| describe(run, &format!("i{j}_A"), s)));
         }
     }
     if let Some(pose) = &run.pose {
@@ -48,7 +48,7 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
                     || travelled(run, robot, (a, b))
                         .is_some_and(|by| by[axis].abs() > if axis < 2 { TRAVEL_M } else { TURN_RAD })
             };
-            faults.extend(stretches(run, &pose.channels[axis], moved).map(|s| told(run, name, s)));
+            faults.extend(stretches(run, &pose.channels[axis], moved).map(|s| describe(run, name, s)));
         }
     }
     faults
@@ -98,12 +98,12 @@ fn noisy(channel: &Channel) -> bool {
     steps >= LONG_ROWS && (same as f64) < 0.02 * steps as f64 && turns as f64 > 0.2 * steps as f64
 }
 
-fn told(run: &Run, signal: &str, (first, last, length_s): (usize, usize, f64)) -> Fault {
+fn describe(run: &Run, signal: &str, (first, last, length_s): (usize, usize, f64)) -> Fault {
     let fatal = length_s > 0.1 * run.duration_s();
     let sentence =
         format!("`{signal}` repeats one value to the last digit for {length_s:.1} s while the robot is driven.");
-    let mend = "Check the sensor and its cable; leave fields empty where nothing was measured.";
-    Fault::of(run, "frozen", signal, fatal).at(first, last).says(sentence, mend)
+    let fix = "Check the sensor and its cable; leave fields empty where nothing was measured.";
+    Fault::of(run, "frozen", signal, fatal).at(first, last).says(sentence, fix)
 }
 
 fn range(channel: &Channel, (first, last): (usize, usize)) -> Option<(f64, f64, f64)> {

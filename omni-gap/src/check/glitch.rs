@@ -37,8 +37,8 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
             "`{name}` jumps away and back within one row in {} place(s), the farthest to {value}; no robot moves so.",
             rows.len()
         );
-        let mend = "Leave these fields empty, and look for a counter that overflows or a telegram without a checksum.";
-        faults.push(Fault::of(run, "glitches", name, true).at(rows[0], rows[rows.len() - 1]).says(sentence, mend));
+        let fix = "Leave these fields empty, and look for a counter that overflows or a telegram without a checksum.";
+        faults.push(Fault::of(run, "glitches", name, true).at(rows[0], rows[rows.len() - 1]).says(sentence, fix));
     }
     faults
 }

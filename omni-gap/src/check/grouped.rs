@@ -17,10 +17,10 @@ pub(super) fn grouped(faults: Vec<Fault>) -> Vec<Fault> {
             None => kept.push((fault, Vec::new())),
         }
     }
-    kept.into_iter().map(|(fault, others)| told(fault, &others)).collect()
+    kept.into_iter().map(|(fault, others)| describe(fault, &others)).collect()
 }
 
-fn told(mut fault: Fault, others: &[String]) -> Fault {
+fn describe(mut fault: Fault, others: &[String]) -> Fault {
     fault.sentence += &match others.len() {
         0 => String::new(),
         n if n <= NAMED => format!(" So it is in {} too.", others.join(", ")),

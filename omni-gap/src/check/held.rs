@@ -50,6 +50,6 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
     let sentence = format!(
         "The pose repeats its last value to the last digit on {repeated} of {all} rows on which the robot moves: the camera is slower than the log."
     );
-    let mend = "Leave x_m, y_m and theta_rad empty on rows without a new frame.";
-    Some(Fault::of(run, "held_pose", "x_m, y_m, theta_rad", true).at(first, last).says(sentence, mend))
+    let fix = "Leave x_m, y_m and theta_rad empty on rows without a new frame.";
+    Some(Fault::of(run, "held_pose", "x_m, y_m, theta_rad", true).at(first, last).says(sentence, fix))
 }

@@ -261,7 +261,7 @@ pub(super) fn check<'a>(runs: &[&'a Run], robot: &RobotFile) -> Vec<Fault> {
         let (runs, motors): (Vec<&Run>, Vec<Motors>) = rest.unzip();
         let found = agree::guesses(&motors);
         faults.extend(found.into_iter().map(|(guess, which)| {
-            let fault = told(runs[which[0]], &motors[which[0]], &guess);
+            let fault = describe(runs[which[0]], &motors[which[0]], &guess);
             let sentence = fault.sentence.clone() + &agree::in_which(which.len(), runs.len());
             Fault { sentence, ..fault }
         }));
@@ -271,7 +271,7 @@ pub(super) fn check<'a>(runs: &[&'a Run], robot: &RobotFile) -> Vec<Fault> {
     faults
 }
 
-fn told(run: &Run, motors: &Motors, guess: &Guess) -> Fault {
+fn describe(run: &Run, motors: &Motors, guess: &Guess) -> Fault {
     let stem = |blame: Blame| match blame {
         Blame::Drive => motors.drive,
         Blame::Speed => "w",
@@ -289,7 +289,7 @@ fn told(run: &Run, motors: &Motors, guess: &Guess) -> Fault {
     let signal = [&[guess.blame], &guess.or[..]].concat().into_iter().map(stem).collect::<Vec<_>>().join(", ");
     let better = format!("the `{name}` columns fit the {with} {:.0} times better so.", guess.better);
     let or: String = guess.or.iter().map(|&b| format!(" It may be the `{}` columns instead.", stem(b))).collect();
-    let (code, what, mend) = match &guess.what {
+    let (code, what, fix) = match &guess.what {
         What::Unit(unit) => (
             "wrong_unit",
             format!("The `{name}` columns look like {}", unit.name),
@@ -300,7 +300,7 @@ fn told(run: &Run, motors: &Motors, guess: &Guess) -> Fault {
         }
         What::Wheels(order) => ("wrong_sign", order.words(name), "Turn the sign, or set sign = -1 in columns.toml."),
     };
-    Fault::of(run, code, signal, true).says(format!("{what}: {better}{or}"), mend)
+    Fault::of(run, code, signal, true).says(format!("{what}: {better}{or}"), fix)
 }
 
 /// By what factor the drive of each run is a duty cycle. A log writes one or the other, so that what half of the runs
@@ -326,8 +326,8 @@ fn duty_told(run: &Run, factor: f64) -> Fault {
     let sentence = format!(
         "The `u` columns are {factor} for the wheel speeds and currents, all by one factor: they look like a duty cycle, expected volts."
     );
-    let mend = "Multiply the duty by the supply voltage over its full scale, with `scale` in columns.toml.";
-    Fault::of(run, "duty_for_volts", "u", true).says(sentence, mend)
+    let fix = "Multiply the duty by the supply voltage over its full scale, with `scale` in columns.toml.";
+    Fault::of(run, "duty_for_volts", "u", true).says(sentence, fix)
 }
 
 /// Currents far above what the supply could drive through a motor held still.
@@ -344,6 +344,6 @@ fn stall(run: &Run, robot: &RobotFile) -> Option<Fault> {
         "The `i` columns look like milliamperes: a tenth of them exceed {high:.0} A, a stalled motor draws {:.1} A.",
         stall_a / 2.0
     );
-    let mend = "Convert the columns to amperes, or state `unit` in columns.toml.";
-    Some(Fault::of(run, "wrong_unit", "i", true).says(sentence, mend))
+    let fix = "Convert the columns to amperes, or state `unit` in columns.toml.";
+    Some(Fault::of(run, "wrong_unit", "i", true).says(sentence, fix))
 }

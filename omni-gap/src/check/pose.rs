@@ -23,7 +23,7 @@ pub(super) fn check<'a>(runs: &[&'a Run], robot: &RobotFile) -> Vec<Fault> {
         .collect();
     if faults.is_empty() {
         faults.extend(agree::guesses(&evidence).into_iter().map(|(guess, which)| {
-            let fault = frame::told(seen_runs[which[0]], &guess);
+            let fault = frame::describe(seen_runs[which[0]], &guess);
             let sentence = fault.sentence.clone() + &agree::in_which(which.len(), seen_runs.len());
             Fault { sentence, ..fault }
         }));
@@ -59,11 +59,11 @@ fn wrong_unit(run: &Run, robot: &RobotFile, windows: &[Window]) -> Option<Fault>
     let pairs = |f: &dyn Fn(&Window) -> Pair| windows.iter().map(f).collect::<Vec<_>>();
     let turn = ratio(&pairs(&|w| (w.yaw, w.twist[2])));
     let go = ratio(&pairs(&|w| (w.world[0].hypot(w.world[1]), w.twist[0].hypot(w.twist[1]))));
-    let told = |signal: &str, name: &str, times: f64| {
+    let wrong_unit = |signal: &str, name: &str, times: f64| {
         let sentence =
             format!("The `{signal}` columns look like {name}: pose and wheel speeds differ by a factor of {times:.1}.");
-        let mend = "Convert the columns to SI units, or state `unit` in columns.toml.";
-        Some(Fault::of(run, "wrong_unit", signal, true).says(sentence, mend))
+        let fix = "Convert the columns to SI units, or state `unit` in columns.toml.";
+        Some(Fault::of(run, "wrong_unit", signal, true).says(sentence, fix))
     };
     // against the rims, lest a robot that spins on the spot be taken for one that is too fast for its wheels
     let rims = windows.iter().map(|w| w.rims.iter().map(|v| v * v).sum::<f64>() / w.rims.len() as f64).sum::<f64>();
@@ -81,7 +81,7 @@ fn wrong_unit(run: &Run, robot: &RobotFile, windows: &[Window]) -> Option<Fault>
         return Some(frame::degrees(run, format!("The heading turns {times:.0} times as fast as the wheels say.")));
     }
     if let Some(unit) = lengths {
-        return told("x_m, y_m", unit.name, unit.per_unit);
+        return wrong_unit("x_m, y_m", unit.name, unit.per_unit);
     }
     // a body that is too slow for its wheels may slip; speeds that the motors confirm, or could reach, are no fault
     if super::motor::knows_speeds(run) || !out_of_reach(run, robot) {
@@ -92,7 +92,7 @@ fn wrong_unit(run: &Run, robot: &RobotFile, windows: &[Window]) -> Option<Fault>
     }
     let unit = units::explains(&units::SPEEDS, 1.0 / going?)?;
     let turns = turning.is_none_or(|turn| units::explains(&units::SPEEDS, 1.0 / turn).is_some());
-    if turns { told("w", unit.name, unit.per_unit) } else { None }
+    if turns { wrong_unit("w", unit.name, unit.per_unit) } else { None }
 }
 
 /// Whether the wheels turn faster than the supply could drive them; where no supply is known they may.

@@ -59,8 +59,8 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
         rows.len(),
         run.t_s[first]
     );
-    let mend = "Leave the robot alone while it records, or cut these rows out.";
-    Some(Fault::of(run, "pushed", "w", steep && share > 0.2).at(first, last).says(sentence, mend))
+    let fix = "Leave the robot alone while it records, or cut these rows out.";
+    Some(Fault::of(run, "pushed", "w", steep && share > 0.2).at(first, last).says(sentence, fix))
 }
 
 /// The largest growth of a speed within rows without drive: from the lowest to the highest after it.

@@ -40,8 +40,8 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
     let sentence = format!(
         "The heading never leaves ±{top:.2}, and twice its arc sine turns as the wheels say: it is the z of a quaternion, not an angle."
     );
-    let mend = "Log theta_rad = atan2(2 (w z + x y), 1 − 2 (y² + z²)), which is 2 atan2(z, w) on level floor.";
-    Some(Fault::of(run, "quaternion_for_heading", "theta_rad", true).says(sentence, mend))
+    let fix = "Log theta_rad = atan2(2 (w z + x y), 1 − 2 (y² + z²)), which is 2 atan2(z, w) on level floor.";
+    Some(Fault::of(run, "quaternion_for_heading", "theta_rad", true).says(sentence, fix))
 }
 
 /// What remains of the second numbers as a share, the first times the best factor within bounds taken away.

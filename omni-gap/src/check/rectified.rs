@@ -24,8 +24,8 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
         return None;
     }
     let sentence = "No current is below zero though the voltages go both ways: the log keeps magnitudes.";
-    let mend = "Log the currents with their sign, or set unsigned = true for group i in columns.toml.";
-    Some(Fault::of(run, "unsigned_currents", "i", true).says(sentence, mend))
+    let fix = "Log the currents with their sign, or set unsigned = true for group i in columns.toml.";
+    Some(Fault::of(run, "unsigned_currents", "i", true).says(sentence, fix))
 }
 
 fn is_rectified(run: &Run, robot: &RobotFile, wheel: usize) -> Option<bool> {

@@ -26,6 +26,6 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
         return None;
     }
     let sentence = format!("{} of {moved} moving rows repeat the row above in every measured column.", rows.len());
-    let mend = "Log each sample once; leave fields empty on rows without a new sample.";
-    Some(Fault::of(run, "duplicate_rows", "all", false).at(rows[0], rows[rows.len() - 1]).says(sentence, mend))
+    let fix = "Log each sample once; leave fields empty on rows without a new sample.";
+    Some(Fault::of(run, "duplicate_rows", "all", false).at(rows[0], rows[rows.len() - 1]).says(sentence, fix))
 }

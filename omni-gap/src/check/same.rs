@@ -9,7 +9,7 @@ use crate::log::Run;
 /// Rows that must agree one after the other, and how many different ones there must be among them.
 const FEWEST: usize = 20;
 const DIFFERENT: usize = 10;
-/// A smaller share of the shorter run is told, but forbids nothing.
+/// A smaller share of the shorter run is describe, but forbids nothing.
 const SHARE: f64 = 0.2;
 
 /// A number for each row's measured samples; none for a row without any.
@@ -24,13 +24,13 @@ pub(super) fn check(runs: &[&Run]) -> Vec<Fault> {
     for later in 1..runs.len() {
         let same = (0..later).find_map(|earlier| Some((earlier, overlap(&marks[earlier], &marks[later])?)));
         if let Some((earlier, (rows, first, other_first))) = same {
-            faults.push(told(runs[later], runs[earlier], rows, (first, other_first)));
+            faults.push(describe(runs[later], runs[earlier], rows, (first, other_first)));
         }
     }
     faults
 }
 
-fn told(run: &Run, other: &Run, rows: usize, (first, other_first): (usize, usize)) -> Fault {
+fn describe(run: &Run, other: &Run, rows: usize, (first, other_first): (usize, usize)) -> Fault {
     let fatal = rows as f64 > SHARE * run.rows().min(other.rows()) as f64;
     let count = if rows == run.rows() { format!("All {rows}") } else { format!("{rows} of {}", run.rows()) };
     let sentence = format!(
@@ -38,8 +38,8 @@ fn told(run: &Run, other: &Run, rows: usize, (first, other_first): (usize, usize
         other.place().display(),
         other.line_of(other_first)
     );
-    let mend = "Keep one of the two, or record another run.";
-    Fault::of(run, "same_run_twice", "all", fatal).at(first, first + rows - 1).says(sentence, mend)
+    let fix = "Keep one of the two, or record another run.";
+    Fault::of(run, "same_run_twice", "all", fatal).at(first, first + rows - 1).says(sentence, fix)
 }
 
 fn marks(run: &Run) -> Marks {

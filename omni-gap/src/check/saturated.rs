@@ -18,14 +18,16 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
                 )
             };
             let step = robot.sensors.current_noise_a;
-            faults.extend(extremes(run, i, channel, step, asked).map(|found| told(run, &format!("i{j}_A"), found)));
+            faults.extend(extremes(run, i, channel, step, asked).map(|found| describe(run, &format!("i{j}_A"), found)));
         }
     }
     if let Some(w) = &run.w {
         for (j, channel) in w.channels.iter().enumerate() {
             let asked = |row| Some(u.channels[j].get(row).ok()? / per_speed);
             let step = robot.sensors.wheel_speed_noise_rad_s;
-            faults.extend(extremes(run, w, channel, step, asked).map(|found| told(run, &format!("w{j}_rad_s"), found)));
+            faults.extend(
+                extremes(run, w, channel, step, asked).map(|found| describe(run, &format!("w{j}_rad_s"), found)),
+            );
         }
     }
     faults
@@ -95,7 +97,7 @@ fn extremes(
     })
 }
 
-fn told(run: &Run, signal: &str, found: Found) -> Fault {
+fn describe(run: &Run, signal: &str, found: Found) -> Fault {
     let fatal = found.share > 0.05 && !found.coarse;
     let sentence = format!(
         "`{signal}` stands at {:.4} on {} rows, {:.0} % of those in which it moves, while it should go beyond.",
@@ -103,6 +105,6 @@ fn told(run: &Run, signal: &str, found: Found) -> Fault {
         found.count,
         100.0 * found.share
     );
-    let mend = "Widen the sensor's range, or drive more gently; leave saturated fields empty.";
-    Fault::of(run, "saturated", signal, fatal).at(found.rows.0, found.rows.1).says(sentence, mend)
+    let fix = "Widen the sensor's range, or drive more gently; leave saturated fields empty.";
+    Fault::of(run, "saturated", signal, fatal).at(found.rows.0, found.rows.1).says(sentence, fix)
 }

@@ -29,15 +29,15 @@ pub(super) fn check(run: &Run) -> Vec<Fault> {
             run.duration_s()
         );
         let fatal = lost_s > 0.5 * run.duration_s();
-        let mend = "Log over a link that keeps up, or split the run at the gaps.";
-        faults.push(Fault::of(run, "time_gap", "t_s", fatal).at(first - 1, last).says(sentence, mend));
+        let fix = "Log over a link that keeps up, or split the run at the gaps.";
+        faults.push(Fault::of(run, "time_gap", "t_s", fatal).at(first - 1, last).says(sentence, fix));
     }
     let uneven = (1..t.len()).filter(|&row| !(0.5..=1.5).contains(&((t[row] - t[row - 1]) / usual))).count();
     if uneven as f64 > 0.2 * t.len() as f64 {
         let sentence =
             format!("{uneven} of {} steps differ from the usual {usual:.4} s by more than half.", t.len() - 1);
-        let mend = "Take the time where the sample is taken, not where it is received.";
-        faults.push(Fault::of(run, "uneven_steps", "t_s", false).says(sentence, mend));
+        let fix = "Take the time where the sample is taken, not where it is received.";
+        faults.push(Fault::of(run, "uneven_steps", "t_s", false).says(sentence, fix));
     }
     faults
 }

@@ -26,17 +26,17 @@ pub(super) fn by_rows(run: &Run) -> Option<Fault> {
     }
     if step < FASTEST_S {
         let sentence = format!("The rows lie {step:e} s apart, closer than any log: the clock is no clock in seconds.");
-        let mend = "Write `t_s` in seconds, and state its unit in columns.toml only once.";
-        return Some(Fault::of(run, "wrong_time_unit", "t_s", true).says(sentence, mend));
+        let fix = "Write `t_s` in seconds, and state its unit in columns.toml only once.";
+        return Some(Fault::of(run, "wrong_time_unit", "t_s", true).says(sentence, fix));
     }
     let unit = UNITS.iter().find(|(.., per_s)| step / per_s < USUAL_S).unwrap_or(&UNITS[2]);
     let apart = if step < 1e6 { format!("{step:.3}") } else { format!("{step:e}") };
-    Some(told(run, format!("The rows lie {apart} s apart, expected less than {SLOWEST_S} s"), unit))
+    Some(describe(run, format!("The rows lie {apart} s apart, expected less than {SLOWEST_S} s"), unit))
 }
 
-fn told(run: &Run, found: String, (name, short, per_s): &(&str, &str, f64)) -> Fault {
-    let mend = format!("Divide `t_s` by {per_s:e}, or state unit = \"{short}\" for it in columns.toml.");
-    Fault::of(run, "wrong_time_unit", "t_s", true).says(format!("{found}: the clock looks like {name}."), mend)
+fn describe(run: &Run, found: String, (name, short, per_s): &(&str, &str, f64)) -> Fault {
+    let fix = format!("Divide `t_s` by {per_s:e}, or state unit = \"{short}\" for it in columns.toml.");
+    Fault::of(run, "wrong_time_unit", "t_s", true).says(format!("{found}: the clock looks like {name}."), fix)
 }
 
 /// How well wheels and pose must go together (correlation).
@@ -54,14 +54,14 @@ pub(super) fn by_wheels(run: &Run, robot: &RobotFile) -> Option<Fault> {
     let near = |per_s: f64| (ratio * per_s).ln().abs() < NEAR.ln();
     if let Some(unit) = UNITS.iter().find(|(.., per_s)| near(*per_s)) {
         let found = format!("By its wheels the robot moved {:.0} times as far as its pose says", 1.0 / ratio);
-        return Some(told(run, found, unit));
+        return Some(describe(run, found, unit));
     }
     UNITS.iter().find(|(.., per_s)| near(1.0 / per_s)).map(|_| {
         let sentence = format!(
             "By its pose the robot moved {ratio:.0} times as far as its wheels say: the clock runs too slowly."
         );
-        let mend = "Write `t_s` in seconds, and state its unit in columns.toml only once.";
-        Fault::of(run, "wrong_time_unit", "t_s", true).says(sentence, mend)
+        let fix = "Write `t_s` in seconds, and state its unit in columns.toml only once.";
+        Fault::of(run, "wrong_time_unit", "t_s", true).says(sentence, fix)
     })
 }
 

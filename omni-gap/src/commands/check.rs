@@ -5,9 +5,9 @@ use std::path::Path;
 use omni_gap::Verdict;
 use omni_gap::check::{Fault, check};
 
+use super::console::wrapped;
 use super::given::GivenSession;
-use super::voice::wrapped;
-use super::{DONE, Done, Voice};
+use super::{Console, DONE, Done};
 
 /// Look for faults of the recordings, and say how to mend them
 #[derive(Debug, clap::Args)]
@@ -22,11 +22,11 @@ pub struct Check {
 
 impl Check {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
-        let session = self.session.load(voice)?;
-        voice.phase("checking the recordings");
+    pub fn run(&self, console: &Console) -> Done {
+        let session = self.session.load(console)?;
+        console.phase("checking the recordings");
         let faults = check(&session);
-        let mut page: String = faults.iter().map(told).collect();
+        let mut page: String = faults.iter().map(summary).collect();
         for notice in &session.notices {
             page += &wrapped(0, &format!("notice: {notice}"));
         }
@@ -37,13 +37,13 @@ impl Check {
             (n, 0) => format!("{runs} run(s) checked: {n} fault(s), none of which forbids a diagnosis.\n"),
             (n, _) => format!("{runs} run(s) checked: {n} fault(s), {fatal} to be mended before a diagnosis.\n"),
         };
-        voice.say(&page)?;
+        console.say(&page)?;
         Ok(if fatal > 0 && self.exit_code { Verdict::UnfitData.exit_code() } else { DONE })
     }
 }
 
 /// "fault: runs/run02.csv, lines 317 to 400, w1_rad_s: …"
-fn told(fault: &Fault) -> String {
+fn summary(fault: &Fault) -> String {
     let word = if fault.fatal { "fault" } else { "slight fault" };
     let lines = match fault.lines {
         (first, last) if first == last => format!("line {first}"),
@@ -52,5 +52,5 @@ fn told(fault: &Fault) -> String {
     let file = if fault.file == Path::new("") { fault.run.clone() } else { fault.file.display().to_string() };
     let signal = if fault.signal.is_empty() { String::new() } else { format!(", {}", fault.signal) };
     let head = format!("{word}: {file}, {lines}{signal} [{}]: {}", fault.code, fault.sentence);
-    wrapped(0, &head) + &wrapped(4, &format!("To mend it: {}", fault.mend))
+    wrapped(0, &head) + &wrapped(4, &format!("To mend it: {}", fault.fix))
 }

@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use omni_gap::log::{write_whole, write_whole_with};
 use omni_gap::report::{self, estimate};
-use omni_gap::simulate::{Carried, HORIZON_S};
-use omni_gap::stage::{Stage, stage};
+use omni_gap::simulate::{EffectInstance, HORIZON_S};
+use omni_gap::synthesize::{Scenario, synthesize};
 use omni_gap::{Error, Report, Session, known_effects};
 
+use super::console::wrapped;
 use super::diagnose::{FILES, diagnosed};
-use super::place::{self, NewFolder};
-use super::voice::wrapped;
-use super::{DONE, Done, Voice};
+use super::output_path::{self, NewFolder};
+use super::{Console, DONE, Done};
 
 /// Record a robot whose real behaviour has an effect that its simulator lacks, and diagnose it
 #[derive(Debug, clap::Args)]
@@ -27,37 +27,37 @@ const ROBOT: &str = include_str!("../../../examples/feup-4w/robot.toml");
 const MARK: &str = "# Made by `omni-gap demo`: ";
 
 /// What the true robot has and its simulator lacks.
-fn hidden() -> Carried {
-    Carried { id: "dead_time", wheel: None, params: vec![0.35, 0.05] }
+fn hidden() -> EffectInstance {
+    EffectInstance { id: "dead_time", wheel: None, params: vec![0.35, 0.05] }
 }
 
-fn plan() -> Stage {
-    Stage { hidden: vec![hidden()], runs: 6, duration: 3.0, rate: 200.0, seed: 2008, ..Stage::default() }
+fn plan() -> Scenario {
+    Scenario { hidden: vec![hidden()], runs: 6, duration: 3.0, rate: 200.0, seed: 2008, ..Scenario::default() }
 }
 
 impl Demo {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
+    pub fn run(&self, console: &Console) -> Done {
         let (at, out) = (self.out.join("session"), self.out.join("report"));
-        place::folder(&at, &["robot.toml"])?;
-        place::folder(&out, &FILES)?;
+        output_path::folder(&at, &["robot.toml"])?;
+        output_path::folder(&out, &FILES)?;
         only_ours(&at)?;
 
-        voice.phase("recording a robot that is not what its file says");
-        let staged = stage(ROBOT, &plan(), &known_effects())?;
+        console.phase("recording a robot that is not what its file says");
+        let staged = synthesize(ROBOT, &plan(), &known_effects())?;
         let folder = NewFolder::make(&at)?;
         write_session(&at, &staged)?;
         drop(staged); // what follows knows the files alone
 
-        voice.phase("reading the recordings");
+        console.phase("reading the recordings");
         let session = Session::load(&at, None, &known_effects())?;
-        let (report, written) = diagnosed(&session, Some("session".to_owned()), HORIZON_S, &out, voice)?;
+        let (report, written) = diagnosed(&session, Some("session".to_owned()), HORIZON_S, &out, console)?;
         folder.keep();
 
         let runs = session.runs.len();
-        voice.say(&format!("Recorded {runs} runs of {} into {}.\n\n", session.robot.name, at.display()))?;
-        voice.say(&report::terminal(&report, Some(&written)))?;
-        voice.say(&format!("\n{}", unveiled(&report)))?;
+        console.say(&format!("AlignedRun {runs} runs of {} into {}.\n\n", session.robot.name, at.display()))?;
+        console.say(&report::terminal(&report, Some(&written)))?;
+        console.say(&format!("\n{}", unveiled(&report)))?;
         Ok(DONE)
     }
 }

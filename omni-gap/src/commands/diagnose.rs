@@ -8,8 +8,8 @@ use omni_gap::simulate::HORIZON_S;
 use omni_gap::{Diagnosis, Options, Report, Session};
 
 use super::given::{GivenSession, seconds};
-use super::place::{self, NewFolder};
-use super::{DONE, Done, Stop, Voice};
+use super::output_path::{self, NewFolder};
+use super::{CliError, Console, DONE, Done};
 
 /// Say where the gap lies, which cause it has and how far it shrinks
 #[derive(Debug, clap::Args)]
@@ -35,11 +35,11 @@ pub const FILES: [&str; 3] = ["report.json", "report.html", "corrected_robot.tom
 
 impl Diagnose {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
-        place::folder(&self.out, &FILES)?;
-        let session = self.session.load(voice)?;
-        let (report, written) = diagnosed(&session, self.session.name(), self.horizon, &self.out, voice)?;
-        voice.say(&report::terminal(&report, Some(&written)))?;
+    pub fn run(&self, console: &Console) -> Done {
+        output_path::folder(&self.out, &FILES)?;
+        let session = self.session.load(console)?;
+        let (report, written) = diagnosed(&session, self.session.name(), self.horizon, &self.out, console)?;
+        console.say(&report::terminal(&report, Some(&written)))?;
         Ok(if self.exit_code { report.verdict.exit_code() } else { DONE })
     }
 }
@@ -50,15 +50,16 @@ pub fn diagnosed(
     name: Option<String>,
     horizon_s: f64,
     out: &Path,
-    voice: &Voice,
-) -> Result<(Report, Written), Stop> {
+    console: &Console,
+) -> Result<(Report, Written), CliError> {
     let mut knobs = Knobs::default();
     knobs.measure.horizon_s = horizon_s;
-    let diagnosis = Diagnosis::of(session, &Options { session: name, knobs, progress: &|phrase| voice.phase(phrase) });
+    let diagnosis =
+        Diagnosis::of(session, &Options { session: name, knobs, progress: &|phrase| console.phase(phrase) });
     let page = report::html(&diagnosis.report, &diagnosis.pictures);
     let folder = NewFolder::make(out)?;
     let written = report::write(out, &diagnosis.report, &page, &diagnosis.corrected_robot)?;
     folder.keep();
-    voice.end_phase();
+    console.end_phase();
     Ok((diagnosis.report, written))
 }

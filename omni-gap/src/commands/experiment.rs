@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use omni_gap::log::{Change, RobotFile, SensorsFile, corrected, write_whole, write_whole_with};
-use omni_gap::rehearse::{drag_a_load, rehearse_some};
 use omni_gap::report::{Instructions, ScriptSaid, instructions, num};
 use omni_gap::simulate::{Allowed, Experiment, Lowered, Plan, Sensing, USUAL_FIELD, allowed, usual_voltage};
+use omni_gap::simulate_experiments::{drag_a_load, simulate_some_experiments};
 use omni_gap::{Error, known_effects};
 
 use super::given::volts;
-use super::place::{self, NewFolder};
-use super::{DONE, Done, Stop, Voice};
+use super::output_path::{self, NewFolder};
+use super::{CliError, Console, DONE, Done};
 
 /// Write the scripts of the experiments that tell a robot's parameters, and how to do them
 #[derive(Debug, clap::Args)]
@@ -61,24 +61,24 @@ const MADE: [&str; 3] = ["README.md", "scripts", "session"];
 
 impl Experiments {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
-        place::folder(&self.out, &[])?;
+    pub fn run(&self, console: &Console) -> Done {
+        output_path::folder(&self.out, &[])?;
         if let Some(there) = MADE.iter().map(|name| self.out.join(name)).find(|path| path.exists()) {
-            let mend = "Name another folder with --out, or move it away";
-            return Err(Error::output(&there, "it is there already", mend).into());
+            let fix = "Name another folder with --out, or move it away";
+            return Err(Error::output(&there, "it is there already", fix).into());
         }
         let file = RobotFile::load(&self.robot, &known_effects())?;
         let plan = self.plan(&file)?;
-        voice.phase("planning the experiments");
+        console.phase("planning the experiments");
         let said = match file.wheel.len() {
-            3 => self.written::<3>(&file, &plan, voice),
-            _ => self.written::<4>(&file, &plan, voice),
+            3 => self.written::<3>(&file, &plan, console),
+            _ => self.written::<4>(&file, &plan, console),
         }?;
-        voice.say(&said)?;
+        console.say(&said)?;
         Ok(DONE)
     }
 
-    fn plan(&self, file: &RobotFile) -> Result<Plan, Stop> {
+    fn plan(&self, file: &RobotFile) -> Result<Plan, CliError> {
         let voltage = self.voltage.unwrap_or_else(|| usual_voltage(file));
         if let Some(supply) = file.supply.filter(|supply| voltage > supply.voltage_v) {
             let problem =
@@ -99,7 +99,7 @@ impl Experiments {
         Experiment::ALL.into_iter().filter(|e| self.only.is_empty() || self.only.contains(e)).collect()
     }
 
-    fn written<const N: usize>(&self, file: &RobotFile, plan: &Plan, voice: &Voice) -> Result<String, Stop> {
+    fn written<const N: usize>(&self, file: &RobotFile, plan: &Plan, console: &Console) -> Result<String, CliError> {
         let wanted = self.wanted();
         let all: Allowed<N> =
             allowed(file, plan, |script| Experiment::of(&script.name).is_some_and(|e| wanted.contains(&e)));
@@ -110,8 +110,8 @@ impl Experiments {
                 num(0.5 * all.plan.voltage),
                 notes.join(" ")
             );
-            let mend = "Ask for more with --voltage, widen [limits], or correct [friction]";
-            return Err(Error::input(&self.robot, told.trim().trim_end_matches('.'), mend).into());
+            let fix = "Ask for more with --voltage, widen [limits], or correct [friction]";
+            return Err(Error::input(&self.robot, told.trim().trim_end_matches('.'), fix).into());
         }
         let folder = NewFolder::make(&self.out)?;
         let scripts = NewFolder::make(&self.out.join("scripts"))?;
@@ -120,7 +120,7 @@ impl Experiments {
             let path = self.out.join(format!("scripts/{}.csv", script.name));
             write_whole_with(&path, |out| script.to_run().write_csv(out))?;
         }
-        self.write_session(file, &all.plan, voice)?;
+        self.write_session(file, &all.plan, console)?;
         let page = self.page(file, &all, notes.clone());
         write_whole(&self.out.join("README.md"), page.as_bytes())?;
         [folder, scripts, session].into_iter().for_each(NewFolder::keep);
@@ -128,17 +128,17 @@ impl Experiments {
     }
 
     /// The robot file, and where it is rehearsed the recordings.
-    fn write_session(&self, file: &RobotFile, plan: &Plan, voice: &Voice) -> Result<(), Stop> {
+    fn write_session(&self, file: &RobotFile, plan: &Plan, console: &Console) -> Result<(), CliError> {
         let text = std::fs::read_to_string(&self.robot).map_err(|why| {
             Error::input(&self.robot, format!("cannot be read: {why}"), "Check the file's permissions")
         })?;
         let Some(sensing) = self.rehearse else {
             return Ok(write_whole(&self.out.join("session/robot.toml"), text.as_bytes())?);
         };
-        voice.phase("rehearsing them");
+        console.phase("rehearsing them");
         let how = sensing.recording();
         let truth = RobotFile { sensors: how.sensors, ..file.clone() };
-        for run in rehearse_some(&truth, plan, &self.wanted(), &how, self.seed) {
+        for run in simulate_some_experiments(&truth, plan, &self.wanted(), &how, self.seed) {
             let path = self.out.join(format!("session/runs/{}.csv", run.name));
             write_whole_with(&path, |out| run.write_csv(out))?;
         }

@@ -9,8 +9,8 @@ use omni_gap::log::nearest;
 use omni_gap::report::num;
 use omni_gap::simulate::NOMINAL_KEYS;
 
-use super::voice::wrapped;
-use super::{DONE, Done, Stop, Voice};
+use super::console::wrapped;
+use super::{CliError, Console, DONE, Done};
 
 /// Explain an effect or a parameter that can be the cause of a gap; without a name, list all
 #[derive(Debug, clap::Args)]
@@ -26,7 +26,7 @@ fn cards() -> impl Iterator<Item = &'static Card> {
 
 impl Explain {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
+    pub fn run(&self, console: &Console) -> Done {
         let page = match &self.name {
             None => list(),
             Some(name) => match (cards().find(|c| c.id == name), NOMINAL.iter().find(|p| p.id == name)) {
@@ -35,18 +35,18 @@ impl Explain {
                 (None, None) => return Err(unknown(name)),
             },
         };
-        voice.say(&page)?;
+        console.say(&page)?;
         Ok(DONE)
     }
 }
 
-fn unknown(name: &str) -> Stop {
+fn unknown(name: &str) -> CliError {
     let near = nearest(name, cards().map(|c| c.id).chain(NOMINAL.iter().map(|p| p.id)));
-    let mend = match near {
+    let fix = match near {
         Some(near) => format!("Did you mean `{near}`?"),
         None => "`omni-gap explain` lists all names".to_owned(),
     };
-    Stop::UnknownName { name: name.to_owned(), mend }
+    CliError::UnknownName { name: name.to_owned(), fix }
 }
 
 fn list() -> String {

@@ -6,8 +6,8 @@ use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, write_whole};
 use omni_gap::wire::block::{Exported, export};
 
-use super::voice::wrapped;
-use super::{DONE, Done, Voice, place};
+use super::console::wrapped;
+use super::{Console, DONE, Done, output_path};
 
 /// Write the parameter block that a robot accepts, from a robot file with its [controller] table
 #[derive(Debug, clap::Args)]
@@ -23,19 +23,19 @@ pub struct Export {
 
 impl Export {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
-        place::file(&self.out, &[&self.robot])?;
+    pub fn run(&self, console: &Console) -> Done {
+        output_path::file(&self.out, &[&self.robot])?;
         let robot = RobotFile::load(&self.robot, &known_effects())?;
         let exported = export(&robot, &self.robot)?;
         write_whole(&self.out, &exported.bytes)?;
         let (bytes, check) = (exported.bytes.len(), exported.checksum);
         let written = format!("{}: {bytes} bytes, checksum {check:08x}, written to {}", robot.name, self.out.display());
-        voice.say(&(written + "\n" + &told(&exported)))?;
+        console.say(&(written + "\n" + &summary(&exported)))?;
         Ok(DONE)
     }
 }
 
-fn told(exported: &Exported) -> String {
+fn summary(exported: &Exported) -> String {
     let limits = &exported.limits;
     let [v, vn, w] = limits.acceleration;
     let mut text = wrapped(

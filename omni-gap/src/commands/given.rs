@@ -6,7 +6,7 @@ use clap::Args;
 use omni_gap::log::{Columns, RobotFile, Run};
 use omni_gap::{Session, known_effects};
 
-use super::{Stop, Voice};
+use super::{CliError, Console};
 
 /// A session: a folder, or a robot file and runs that lie anywhere.
 #[derive(Debug, Args)]
@@ -26,24 +26,24 @@ pub struct GivenSession {
 
 impl GivenSession {
     /// Reads it.
-    pub fn load(&self, voice: &Voice) -> Result<Session, Stop> {
-        voice.phase("reading the recordings");
+    pub fn load(&self, console: &Console) -> Result<Session, CliError> {
+        console.phase("reading the recordings");
         let columns = self.columns.as_deref();
         let session = match (&self.robot, self.paths.as_slice()) {
             (Some(robot), runs) => Session::load_from(robot, columns, runs, &known_effects())?,
             (None, [folder]) => Session::load(folder, columns, &known_effects())?,
             (None, _) => {
                 let told = "several paths were given: name one session folder, or the robot file with --robot ROBOT.toml and then the run logs.";
-                return Err(Stop::Unclear(told));
+                return Err(CliError::Unclear(told));
             }
         };
-        voice.end_phase();
+        console.end_phase();
         for notice in &session.notices {
-            voice.more(notice);
+            console.more(notice);
         }
         let rows: usize = session.runs.iter().chain(&session.heldout).map(Run::rows).sum();
         let runs = session.runs.len();
-        voice.more(format!("{}: {runs} run(s), {} held out, {rows} rows", session.robot.name, session.heldout.len()));
+        console.more(format!("{}: {runs} run(s), {} held out, {rows} rows", session.robot.name, session.heldout.len()));
         Ok(session)
     }
 
@@ -75,14 +75,19 @@ pub struct RobotAndRun {
 }
 
 /// Reads a robot file and a run of that robot.
-pub fn robot_and_run(robot: &Path, run: &Path, columns: Option<&Path>, voice: &Voice) -> Result<RobotAndRun, Stop> {
-    voice.phase("reading the robot file and the run");
+pub fn robot_and_run(
+    robot: &Path,
+    run: &Path,
+    columns: Option<&Path>,
+    console: &Console,
+) -> Result<RobotAndRun, CliError> {
+    console.phase("reading the robot file and the run");
     let robot = RobotFile::load(robot, &known_effects())?;
     let columns = columns.map(Columns::load).transpose()?;
     let (run, notices) = Run::load(run, robot.wheel.len(), columns.as_ref())?;
-    voice.end_phase();
+    console.end_phase();
     for notice in notices {
-        voice.more(notice);
+        console.more(notice);
     }
     Ok(RobotAndRun { robot, run })
 }

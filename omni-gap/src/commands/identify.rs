@@ -10,7 +10,7 @@ use omni_gap::log::write_whole;
 use omni_gap::report::num;
 
 use super::given::GivenSession;
-use super::{DONE, Done, Voice, place};
+use super::{Console, DONE, Done, output_path};
 
 /// Fit the robot file's numbers to the recordings, within their stated uncertainty
 #[derive(Debug, clap::Args)]
@@ -34,16 +34,16 @@ pub struct Identify {
 
 impl Identify {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
-        place::file(&self.out, &[&self.session.robot_path()])?;
+    pub fn run(&self, console: &Console) -> Done {
+        output_path::file(&self.out, &[&self.session.robot_path()])?;
         if let Some(asked) = self.experiment {
-            return by_experiment::run(asked, self, voice);
+            return by_experiment::run(asked, self, console);
         }
-        let session = self.session.load(voice)?;
-        voice.phase("fitting the numbers of the robot file");
+        let session = self.session.load(console)?;
+        console.phase("fitting the numbers of the robot file");
         let found = api::identify(&session)?;
         write_whole(&self.out, found.robot_text.as_bytes())?;
-        voice.say(&format!("{}\nwritten to {}\n", table(&found), self.out.display()))?;
+        console.say(&format!("{}\nwritten to {}\n", table(&found), self.out.display()))?;
         Ok(DONE)
     }
 }

@@ -1,10 +1,12 @@
 //! # Commands: one file a verb
 //!
-//! [`stop`] is why a command ends early, [`voice`] says things on the terminal, [`given`] reads what the command line
-//! names, [`place`] looks at outputs before any work is done for them. Bad input ends with one message on standard error
+//! [`cli_error`] is why a command ends early, [`console`] says things on the terminal, [`given`] reads what the command line
+//! names, [`output_path`] looks at outputs before any work is done for them. Bad input ends with one message on standard error
 //! and exit code 2; what a command writes is whole or not there.
 
 mod check;
+mod cli_error;
+mod console;
 mod demo;
 mod diagnose;
 mod experiment;
@@ -12,19 +14,17 @@ mod explain;
 mod export;
 mod given;
 mod identify;
-mod place;
+mod output_path;
 mod predict;
 mod record;
 mod sensitivity;
 mod simulate;
-mod stop;
 mod validate;
-mod voice;
 
 use clap::{Parser, Subcommand};
 
-use stop::Stop;
-use voice::Voice;
+use cli_error::CliError;
+use console::Console;
 
 /// Tells why an omnidirectional robot does not do what its simulator says.
 #[derive(Debug, Parser)]
@@ -64,26 +64,26 @@ const BAD_INPUT: u8 = 2;
 impl Cli {
     /// Does what was asked and returns the exit code.
     pub fn run(self) -> u8 {
-        let voice = Voice::new(self.quiet, self.verbose);
+        let console = Console::new(self.quiet, self.verbose);
         let done = match &self.command {
-            Command::Demo(c) => c.run(&voice),
-            Command::Diagnose(c) => c.run(&voice),
-            Command::Check(c) => c.run(&voice),
-            Command::Experiment(c) => c.run(&voice),
-            Command::Identify(c) => c.run(&voice),
-            Command::Predict(c) => c.run(&voice),
-            Command::Validate(c) => c.run(&voice),
-            Command::Simulate(c) => c.run(&voice),
-            Command::Sensitivity(c) => c.run(&voice),
-            Command::Explain(c) => c.run(&voice),
-            Command::Export(c) => c.run(&voice),
-            Command::Record(c) => c.run(&voice),
+            Command::Demo(c) => c.run(&console),
+            Command::Diagnose(c) => c.run(&console),
+            Command::Check(c) => c.run(&console),
+            Command::Experiment(c) => c.run(&console),
+            Command::Identify(c) => c.run(&console),
+            Command::Predict(c) => c.run(&console),
+            Command::Validate(c) => c.run(&console),
+            Command::Simulate(c) => c.run(&console),
+            Command::Sensitivity(c) => c.run(&console),
+            Command::Explain(c) => c.run(&console),
+            Command::Export(c) => c.run(&console),
+            Command::Record(c) => c.run(&console),
         };
-        voice.end_phase();
+        console.end_phase();
         match done {
             Ok(code) => code,
             Err(stop) => {
-                voice.error(&stop);
+                console.error(&stop);
                 BAD_INPUT
             }
         }
@@ -94,7 +94,7 @@ impl Cli {
 const DONE: u8 = 0;
 
 /// How every command ends.
-type Done = Result<u8, Stop>;
+type Done = Result<u8, CliError>;
 
 #[cfg(test)]
 mod tests {

@@ -7,7 +7,7 @@ use omni_gap::log::{Channel, Group, Run, write_whole_with};
 use omni_gap::simulate::HORIZON_S;
 
 use super::given::{robot_and_run, seconds};
-use super::{DONE, Done, Voice, place};
+use super::{Console, DONE, Done, output_path};
 
 /// Predict the measured columns of a run by free runs, restarted every horizon
 #[derive(Debug, clap::Args)]
@@ -35,17 +35,17 @@ pub struct Predict {
 
 impl Predict {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
-        place::file(&self.out, &[&self.robot, &self.run])?;
-        let given = robot_and_run(&self.robot, &self.run, self.columns.as_deref(), voice)?;
-        voice.phase("predicting");
+    pub fn run(&self, console: &Console) -> Done {
+        output_path::file(&self.out, &[&self.robot, &self.run])?;
+        let given = robot_and_run(&self.robot, &self.run, self.columns.as_deref(), console)?;
+        console.phase("predicting");
         let mut run = given.run;
         if self.columns.is_none() {
             with_blank_columns(&mut run, given.robot.wheel.len());
         }
         let predicted = api::predict(&given.robot, &run, self.horizon)?;
         write_whole_with(&self.out, |out| predicted.write_csv(out))?;
-        voice.say(&format!("{} rows predicted, written to {}\n", predicted.rows(), self.out.display()))?;
+        console.say(&format!("{} rows predicted, written to {}\n", predicted.rows(), self.out.display()))?;
         Ok(DONE)
     }
 }

@@ -12,8 +12,8 @@ use omni_gap::wire::capture::Capture;
 use omni_gap::wire::run::{columns, faults, run};
 use omni_gap::wire::source::Source;
 
-use super::voice::wrapped;
-use super::{DONE, Done, Voice, given, place};
+use super::console::wrapped;
+use super::{Console, DONE, Done, given, output_path};
 
 /// Record what a robot sends into a session: a run, the robot file, and how to read the columns
 #[derive(Debug, clap::Args)]
@@ -51,7 +51,7 @@ const USUAL_SECONDS: f64 = 10.0;
 
 impl Record {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
+    pub fn run(&self, console: &Console) -> Done {
         let source = Source::named(&self.from);
         let robot = RobotFile::load(&self.robot, &known_effects())?;
         let text = std::fs::read_to_string(&self.robot)
@@ -59,30 +59,30 @@ impl Record {
         let columns = columns(robot.wheel.len());
         let runs = self.out.join("runs");
         let file = runs.join(format!("{}.csv", self.name));
-        place::folder(&self.out, &["robot.toml", "columns.toml"])?;
+        output_path::folder(&self.out, &["robot.toml", "columns.toml"])?;
         fits(&self.out.join("robot.toml"), &text)?;
         fits(&self.out.join("columns.toml"), &columns)?;
         if file.exists() {
             return Err(Error::output(&file, "a run of this name is there", "Name another with --name").into());
         }
         if source.file().is_none() {
-            voice.phase("recording");
+            console.phase("recording");
         }
         let seconds = self.seconds.or(source.is_live().then_some(USUAL_SECONDS));
         let wanted = seconds.map(|seconds| (seconds * TURNS_A_SECOND).min(f64::from(u32::MAX / 2)) as u32);
         let mut capture = Capture::new(wanted);
         source.read(self.baud, |bytes| capture.take(bytes))?;
         let run = run(&capture, &source, &self.name, robot.wheel.len())?;
-        voice.end_phase();
+        console.end_phase();
 
-        let made = place::NewFolder::make(&runs)?;
+        let made = output_path::NewFolder::make(&runs)?;
         let fresh = [("robot.toml", &text), ("columns.toml", &columns)];
         for (name, text) in fresh.into_iter().filter(|(name, _)| !self.out.join(name).exists()) {
             write_whole(&self.out.join(name), text.as_bytes())?;
         }
         write_whole_with(&file, |out| run.write_csv(out))?;
         made.keep();
-        voice.say(&told(&capture, &run, &file, &robot, &self.robot))?;
+        console.say(&summary(&capture, &run, &file, &robot, &self.robot))?;
         Ok(DONE)
     }
 }
@@ -96,7 +96,7 @@ fn fits(path: &Path, text: &str) -> Result<()> {
     Ok(())
 }
 
-fn told(capture: &Capture, run: &Run, file: &Path, robot: &RobotFile, path: &Path) -> String {
+fn summary(capture: &Capture, run: &Run, file: &Path, robot: &RobotFile, path: &Path) -> String {
     let mut text = format!("{} rows, {:.3} s, written to {}\n", run.rows(), run.duration_s(), file.display());
     let mut add = |line: String| text += &wrapped(2, &line);
     let (on_the_way, no_room) = capture.lost();

@@ -8,8 +8,8 @@ use omni_gap::simulate::{StepPlan, sensitivity};
 use omni_gap::{Error, known_effects};
 
 use super::given::volts;
-use super::place::{self, NewFolder};
-use super::{DONE, Done, Stop, Voice};
+use super::output_path::{self, NewFolder};
+use super::{CliError, Console, DONE, Done};
 
 /// Say which numbers of a robot file its motion depends on, axis by axis
 #[derive(Debug, clap::Args)]
@@ -38,14 +38,14 @@ const TIMES: (f64, f64) = (0.01, 60.0);
 
 impl Sensitivity {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
+    pub fn run(&self, console: &Console) -> Done {
         if let Some(out) = &self.out {
-            place::folder(out, &FILES)?;
+            output_path::folder(out, &FILES)?;
         }
         let file = RobotFile::load(&self.robot, &known_effects())?;
         let voltage =
             self.voltage.map_or(Ok(StepPlan::usual(&file).voltage), |volts| self.within_supply(volts, &file))?;
-        voice.phase("driving each axis");
+        console.phase("driving each axis");
         let said = sensitivity(&file, &StepPlan { voltage, time: self.time });
         let mut text = sensitivity_terminal(&said);
         if let Some(out) = &self.out {
@@ -54,11 +54,11 @@ impl Sensitivity {
             folder.keep();
             text += &format!("\nwritten to {} and sensitivity.json beside it\n", page.display());
         }
-        voice.say(&text)?;
+        console.say(&text)?;
         Ok(DONE)
     }
 
-    fn within_supply(&self, voltage: f64, file: &RobotFile) -> Result<f64, Stop> {
+    fn within_supply(&self, voltage: f64, file: &RobotFile) -> Result<f64, CliError> {
         match file.supply {
             Some(supply) if voltage > supply.voltage_v => {
                 let problem =

@@ -6,7 +6,7 @@ use omni_gap::api;
 use omni_gap::log::write_whole_with;
 
 use super::given::robot_and_run;
-use super::{DONE, Done, Voice, place};
+use super::{Console, DONE, Done, output_path};
 
 /// Record what a robot file's model does with a run's inputs, starting at rest in the origin
 #[derive(Debug, clap::Args)]
@@ -38,13 +38,13 @@ pub struct Simulate {
 
 impl Simulate {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
-        place::file(&self.out, &[&self.robot, &self.input])?;
-        let given = robot_and_run(&self.robot, &self.input, self.columns.as_deref(), voice)?;
-        voice.phase("simulating");
+    pub fn run(&self, console: &Console) -> Done {
+        output_path::file(&self.out, &[&self.robot, &self.input])?;
+        let given = robot_and_run(&self.robot, &self.input, self.columns.as_deref(), console)?;
+        console.phase("simulating");
         let run = api::simulate(&given.robot, &given.run, self.noise.then_some(self.seed))?;
         write_whole_with(&self.out, |out| run.write_csv(out))?;
-        voice.say(&format!("{} rows simulated, written to {}\n", run.rows(), self.out.display()))?;
+        console.say(&format!("{} rows simulated, written to {}\n", run.rows(), self.out.display()))?;
         Ok(DONE)
     }
 }

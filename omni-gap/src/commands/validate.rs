@@ -9,8 +9,8 @@ use omni_gap::log::write_whole;
 use omni_gap::report::validation as report;
 
 use super::given::{GivenSession, seconds};
-use super::place::{self, NewFolder};
-use super::{DONE, Done, Stop, Voice};
+use super::output_path::{self, NewFolder};
+use super::{CliError, Console, DONE, Done};
 
 /// Simulate every run from its start and say how well it fits what was measured
 #[derive(Debug, clap::Args)]
@@ -32,12 +32,12 @@ const FILES: [&str; 2] = ["validation.json", "validation.html"];
 
 impl Validate {
     /// Does it.
-    pub fn run(&self, voice: &Voice) -> Done {
+    pub fn run(&self, console: &Console) -> Done {
         if let Some(out) = &self.out {
-            place::folder(out, &FILES)?;
+            output_path::folder(out, &FILES)?;
         }
-        let session = self.session.load(voice)?;
-        voice.phase("simulating every run");
+        let session = self.session.load(console)?;
+        console.phase("simulating every run");
         let mut validated = validate(&session, &self.horizon)?;
         validated.validation.session = self.session.name();
         let fatal = check(&session).iter().filter(|f| f.fatal).count();
@@ -52,13 +52,13 @@ impl Validate {
                 said += &format!("{:12}{}\n", "file", file.display());
             }
         }
-        voice.say(&said)?;
+        console.say(&said)?;
         Ok(DONE)
     }
 }
 
 /// Puts the files into the folder, each whole; a folder that was made for them goes away again where that fails.
-fn written(out: &Path, validated: &Validated) -> Result<[PathBuf; 2], Stop> {
+fn written(out: &Path, validated: &Validated) -> Result<[PathBuf; 2], CliError> {
     let folder = NewFolder::make(out)?;
     let [json, html] = FILES.map(|name| out.join(name));
     let text = validated.validation.to_json();

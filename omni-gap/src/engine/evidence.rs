@@ -6,7 +6,7 @@
 use crate::engine::knobs::LayoutKnobs;
 use crate::identify::Prior;
 use crate::log::{RobotFile, Run, Session};
-use crate::simulate::{Chain, Recorded};
+use crate::simulate::{AlignedRun, Chain};
 
 /// What an engine has to go by.
 #[derive(Clone, Debug)]
@@ -34,9 +34,9 @@ pub enum LaidOut {
 #[derive(Clone, Debug)]
 pub struct Runs<const N: usize> {
     /// Runs to fit on.
-    pub fit: Vec<Recorded<N>>,
+    pub fit: Vec<AlignedRun<N>>,
     /// Runs that no fit sees.
-    pub held: Vec<Recorded<N>>,
+    pub held: Vec<AlignedRun<N>>,
 }
 
 /// Why sound recordings are no evidence all the same.
@@ -47,19 +47,19 @@ pub struct Unfit {
     /// What is wrong.
     pub what: &'static str,
     /// How to mend it.
-    pub mend: &'static str,
+    pub fix: &'static str,
 }
 
 const NOTHING_DRIVES: Unfit = Unfit {
     code: "nothing_drives_the_model",
     what: "no run has a voltage, a signed current, a wheel speed or a commanded wheel speed to drive the model with",
-    mend: "log at least one of u, i, w or wset for every wheel",
+    fix: "log at least one of u, i, w or wset for every wheel",
 };
 
 const NOTHING_TO_COMPARE: Unfit = Unfit {
     code: "nothing_to_compare",
     what: "what drives the model is all that was measured, so nothing is left to compare it with",
-    mend: "log the pose, or voltages beside the wheel speeds",
+    fix: "log the pose, or voltages beside the wheel speeds",
 };
 
 impl Evidence {
@@ -95,10 +95,10 @@ impl<const N: usize> Runs<N> {
 
 fn laid_out<const N: usize>(session: &Session, knobs: &LayoutKnobs, notices: &mut Vec<String>) -> Runs<N> {
     let LayoutKnobs { hold_out_every, parts_of_a_lone_run: parts, .. } = *knobs;
-    let mut of = |runs: &[Run]| -> Vec<Recorded<N>> {
+    let mut of = |runs: &[Run]| -> Vec<AlignedRun<N>> {
         runs.iter()
             .filter_map(|run| {
-                let laid = Recorded::new(run, &session.robot);
+                let laid = AlignedRun::new(run, &session.robot);
                 if laid.is_none() {
                     notices.push(format!("run {}: nothing in it can drive the model; left out", run.name));
                 }

@@ -7,10 +7,10 @@ use model_core::plant::robot::Nominal;
 use super::disagree::{Disagreement, disagreements};
 use super::experiments::{Classic, Estimate, classic};
 use super::guess::guessed;
+use super::identifiability::TradeOff;
 use super::joint::{Identified, Joint, Refused, joint};
-use super::words::TradeOff;
 use crate::log::{Change, RobotFile};
-use crate::simulate::{Chain, Experiment, Model, NOMINAL_KEYS, NominalKey, Recorded, supply_seen};
+use crate::simulate::{AlignedRun, Chain, Experiment, Model, NOMINAL_KEYS, NominalKey, supply_seen};
 use model::*;
 
 /// Figures of a number that is written into a robot file, and of its uncertainty.
@@ -26,7 +26,7 @@ pub fn number_key(nominal: Nominal) -> &'static NominalKey {
 ///
 /// # Errors
 /// Where the runs that are to be fitted cannot tell a single number.
-pub fn answer<const N: usize>(file: &RobotFile, runs: &[Recorded<N>], asked: Asked) -> Result<Answer, Refused> {
+pub fn answer<const N: usize>(file: &RobotFile, runs: &[AlignedRun<N>], asked: Asked) -> Result<Answer, Refused> {
     let (begin, guessed) = guessed(file);
     let model = Model::<N>::nominal(&begin, supply_seen(runs));
     let (fitted, left_out) = chosen(runs, asked);
@@ -81,16 +81,16 @@ fn rounded(x: f64, figures: i32) -> f64 {
 }
 
 /// The runs to fit together, and those left out: more friction than the robot has is not to be fitted as the robot's.
-fn chosen<const N: usize>(runs: &[Recorded<N>], asked: Asked) -> (Vec<&Recorded<N>>, Vec<LeftOut>) {
-    let asked_for = |run: &&Recorded<N>| asked.takes(&run.name);
-    let is_motor = |run: &&Recorded<N>| Experiment::of(&run.name) == Some(Experiment::Motor);
-    let unloaded = |run: &&Recorded<N>| run.name.rsplit('-').next() == Some("0");
+fn chosen<const N: usize>(runs: &[AlignedRun<N>], asked: Asked) -> (Vec<&AlignedRun<N>>, Vec<LeftOut>) {
+    let asked_for = |run: &&AlignedRun<N>| asked.takes(&run.name);
+    let is_motor = |run: &&AlignedRun<N>| Experiment::of(&run.name) == Some(Experiment::Motor);
+    let unloaded = |run: &&AlignedRun<N>| run.name.rsplit('-').next() == Some("0");
     let (motor, others): (Vec<_>, Vec<_>) = runs.iter().filter(asked_for).partition(is_motor);
     let (fitted, loaded) = match others.is_empty() {
         true => motor.into_iter().partition(unloaded),
         false => (others, motor),
     };
-    let names = |runs: Vec<&Recorded<N>>| runs.iter().map(|run| run.name.clone()).collect();
+    let names = |runs: Vec<&AlignedRun<N>>| runs.iter().map(|run| run.name.clone()).collect();
     let strangers = runs.iter().filter(|run| asked == Asked::All && !asked.takes(&run.name)).collect();
     let left_out = [
         LeftOut { runs: names(loaded), why: "what the motor experiment drags is no friction of the robot" },
@@ -100,21 +100,21 @@ fn chosen<const N: usize>(runs: &[Recorded<N>], asked: Asked) -> (Vec<&Recorded<
 }
 
 /// The runs that the paper's estimators can use: they take voltages, but for a coast-down.
-fn with_volts<const N: usize>(runs: &[Recorded<N>]) -> Vec<Recorded<N>> {
+fn with_volts<const N: usize>(runs: &[AlignedRun<N>]) -> Vec<AlignedRun<N>> {
     let usable =
-        |run: &&Recorded<N>| run.chain == Chain::Voltage || Experiment::of(&run.name) == Some(Experiment::Coast);
+        |run: &&AlignedRun<N>| run.chain == Chain::Voltage || Experiment::of(&run.name) == Some(Experiment::Coast);
     runs.iter().filter(usable).cloned().collect()
 }
 
-fn counted<const N: usize>(runs: &[Recorded<N>], asked: Asked) -> Vec<Counted> {
+fn counted<const N: usize>(runs: &[AlignedRun<N>], asked: Asked) -> Vec<Counted> {
     let of = |e: Experiment| runs.iter().filter(|r| asked.takes(&r.name) && Experiment::of(&r.name) == Some(e)).count();
     let counts = Experiment::ALL.into_iter().map(|e| Counted { experiment: e.title(), runs: of(e) });
     counts.filter(|c| c.runs > 0).collect()
 }
 
-fn not_logged<const N: usize>(runs: &[&Recorded<N>]) -> Vec<&'static str> {
-    let no = |has: &dyn Fn(&Recorded<N>) -> bool| !runs.iter().any(|run| has(run));
-    let by = |chain: Chain| move |run: &Recorded<N>| run.chain == chain;
+fn not_logged<const N: usize>(runs: &[&AlignedRun<N>]) -> Vec<&'static str> {
+    let no = |has: &dyn Fn(&AlignedRun<N>) -> bool| !runs.iter().any(|run| has(run));
+    let by = |chain: Chain| move |run: &AlignedRun<N>| run.chain == chain;
     let (volts, amps) = (by(Chain::Voltage), by(Chain::Current));
     let speeds = by(Chain::WheelSpeed);
     let groups = [
@@ -169,7 +169,7 @@ fn together(t: &TradeOff) -> Together {
     }
 }
 
-fn noise<const N: usize>(found: &Joint<N>, file: &RobotFile, runs: &[&Recorded<N>]) -> Vec<SensorNoise> {
+fn noise<const N: usize>(found: &Joint<N>, file: &RobotFile, runs: &[&AlignedRun<N>]) -> Vec<SensorNoise> {
     let sensors = &file.sensors;
     let of = [
         ("current_noise_A", sensors.current_noise_a, 0),
@@ -179,7 +179,7 @@ fn noise<const N: usize>(found: &Joint<N>, file: &RobotFile, runs: &[&Recorded<N
     ];
     let mut all = Vec::new();
     for (group, (key, stated, channel)) in of.into_iter().enumerate() {
-        let seen = |run: &&&Recorded<N>| (0..run.rows()).any(|row| run.saw(row, channel));
+        let seen = |run: &&&AlignedRun<N>| (0..run.rows()).any(|row| run.saw(row, channel));
         // a channel's sigma has its quantum in it
         let Some(sigma) = runs.iter().find(seen).map(|run| run.sigma[channel]) else { continue };
         let correlation_time_s = found.noise.correlation_time[group];
@@ -191,7 +191,7 @@ fn noise<const N: usize>(found: &Joint<N>, file: &RobotFile, runs: &[&Recorded<N
 fn apart(d: &Disagreement, begin: &RobotFile) -> Apart {
     let key = number_key(d.nominal);
     let size = key.value(begin);
-    let side = |told: &super::disagree::Told| Side {
+    let side = |told: &super::disagree::IndependentEstimate| Side {
         by: told.by,
         value: Value { value: size * told.factor, std: Some(size * told.std) },
     };

@@ -17,7 +17,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::linear::linearise;
 use super::shoot::{Shots, Starts};
-use crate::simulate::{Chain, Model, Recorded, Slot};
+use crate::simulate::{AlignedRun, Chain, Model, Slot};
 
 /// Draws of the noise: the spread is known to a third, which is enough for an uncertainty.
 const DRAWS: u64 = 6;
@@ -37,18 +37,18 @@ pub(super) fn by_input<const N: usize>(
     if shots.runs.iter().all(|run| run.chain == Chain::Voltage) {
         return square;
     }
-    let pull = |runs: &[Recorded<N>]| -> DVector<f64> {
-        let runs: Vec<&Recorded<N>> = runs.iter().collect();
+    let pull = |runs: &[AlignedRun<N>]| -> DVector<f64> {
+        let runs: Vec<&AlignedRun<N>> = runs.iter().collect();
         let grad = linearise(model, Shots { runs: &runs, windows: shots.windows }, starts, slots, false).reduced().grad;
         DVector::from_iterator(seen.len(), seen.iter().map(|k| grad[*k] * model.get(slots[*k])))
     };
-    let changed = |change: &mut dyn FnMut(&mut Recorded<N>)| -> Vec<Recorded<N>> {
-        let mut runs: Vec<Recorded<N>> = shots.runs.iter().map(|run| (*run).clone()).collect();
+    let changed = |change: &mut dyn FnMut(&mut AlignedRun<N>)| -> Vec<AlignedRun<N>> {
+        let mut runs: Vec<AlignedRun<N>> = shots.runs.iter().map(|run| (*run).clone()).collect();
         runs.iter_mut().filter(|run| run.chain != Chain::Voltage).for_each(change);
         runs
     };
     let here = pull(&changed(&mut |_| {}));
-    let mut add = |runs: &[Recorded<N>], weight: f64| {
+    let mut add = |runs: &[AlignedRun<N>], weight: f64| {
         let moved = inverse * (pull(runs) - &here);
         for (sum, moved) in square.iter_mut().zip(moved.iter()) {
             *sum += weight * moved * moved;

@@ -1,6 +1,6 @@
 //! The fit: Levenberg–Marquardt on the reduced equations, within bounds.
 //!
-//! What is minimised is Σ error²/φ + what was stated. The temper φ says how much less the data know than their number
+//! What is minimised is Σ error²/φ + what was stated. The dispersion φ says how much less the data know than their number
 //! suggests: as long as the model lacks something, its errors go on through whole windows and must not outvote all that
 //! was stated of the robot. It is the spread of the windows' gradients over what white noise would give them (Takeuchi),
 //! one for a model that is right.
@@ -13,7 +13,7 @@ use super::prior::Prior;
 use super::settings::FitSettings;
 use super::shoot::{Piece, Shots, Starts, first_starts, run_some_windows};
 use super::whiten::Whitener;
-use crate::simulate::{Model, Recorded, Slot};
+use crate::simulate::{AlignedRun, Model, Slot};
 use model_core::geometry::frames::{BodyTwist, Pose};
 
 /// A number of the model that the fit may change.
@@ -41,7 +41,7 @@ pub struct Fit<const N: usize> {
     /// Σ violation² of what was stated
     pub prior_cost: f64,
     /// What the data were weighted down by.
-    pub temper: f64,
+    pub dispersion: f64,
     /// What they should be weighted down by, as this fit sees it; one for a model that is right.
     pub spread: f64,
     /// Covariance of the free numbers, robust against errors that go on through a window.
@@ -73,10 +73,10 @@ pub fn fit<const N: usize>(
     starts: Option<Vec<Starts>>,
     free: &[Free],
     prior: &Prior,
-    temper: f64,
+    dispersion: f64,
     rounds: usize,
 ) -> Fit<N> {
-    fit_so(model, shots, starts, How { free, prior, temper, rounds, by_window: false })
+    fit_so(model, shots, starts, How { free, prior, dispersion, rounds, by_window: false })
 }
 
 /// How a fit goes.
@@ -87,7 +87,7 @@ pub(super) struct How<'a> {
     /// What was stated.
     pub prior: &'a Prior,
     /// Σ error² counts this much less.
-    pub temper: f64,
+    pub dispersion: f64,
     /// Rounds, at the most.
     pub rounds: usize,
     /// Whether a step that makes things worse is tried once more with each window's better start.
@@ -101,7 +101,7 @@ pub(super) fn fit_so<const N: usize>(
     starts: Option<Vec<Starts>>,
     how: How<'_>,
 ) -> Fit<N> {
-    let How { free, prior, temper, rounds, by_window } = how;
+    let How { free, prior, dispersion, rounds, by_window } = how;
     let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
     let mut starts = starts.unwrap_or_else(|| {
         let plant = model.plant();
@@ -109,9 +109,9 @@ pub(super) fn fit_so<const N: usize>(
     });
     let mut damping = 1e-7;
     let mut linear = linearise(&model, shots, &starts, &slots, false);
-    let mut total = linear.cost().0 / temper + prior.cost(&model);
+    let mut total = linear.cost().0 / dispersion + prior.cost(&model);
     'rounds: for _ in 0..rounds {
-        let reduced = with_prior(linear.reduced().tempered(temper), &model, free, prior);
+        let reduced = with_prior(linear.reduced().with_dispersion(dispersion), &model, free, prior);
         let mut better = None;
         for _ in 0..5 {
             let Some(step) = solve(&reduced, damping) else {
@@ -124,10 +124,10 @@ pub(super) fn fit_so<const N: usize>(
             }
             let (trial, taken) = stepped(&model, free, &step);
             let mut moved = linear.starts_after(&starts, &taken);
-            let mut cost = cost_of(&trial, shots, &moved) / temper + prior.cost(&trial);
+            let mut cost = cost_of(&trial, shots, &moved) / dispersion + prior.cost(&trial);
             if by_window && (!cost.is_finite() || cost >= total) {
                 moved = better_starts(&trial, shots, &starts, moved);
-                cost = cost_of(&trial, shots, &moved) / temper + prior.cost(&trial);
+                cost = cost_of(&trial, shots, &moved) / dispersion + prior.cost(&trial);
             }
             if cost.is_finite() && cost < total {
                 damping = (damping * 0.1).max(1e-10);
@@ -144,14 +144,14 @@ pub(super) fn fit_so<const N: usize>(
             break;
         }
     }
-    let data = linear.reduced().tempered(temper);
+    let data = linear.reduced().with_dispersion(dispersion);
     let reduced = with_prior(data.clone(), &model, free, prior);
     let (cost, samples) = linear.cost();
     let spread = spread(&reduced, &linear.reduced()).max(cost / samples.max(1) as f64).max(1.0);
     Fit {
         spread,
         covariance: covariance(&reduced, data, free.len()),
-        temper,
+        dispersion,
         prior_cost: prior.cost(&model),
         model,
         free: free.to_vec(),
@@ -217,7 +217,7 @@ fn better_starts<const N: usize>(
 /// Σ error² [σ²] of a model and its starts.
 fn cost_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, starts: &[Starts]) -> f64 {
     let plant = model.plant();
-    let count = Recorded::<N>::channels().count();
+    let count = AlignedRun::<N>::channels().count();
     let Shots { runs, windows } = shots;
     let costs: Vec<f64> = shots
         .pieces(model)
@@ -344,7 +344,7 @@ impl<const N: usize> Fit<N> {
 
     /// The reduced equations with what was stated, at this fit.
     pub fn reduced(&self, linear: &Linearised, prior: &Prior) -> Reduced {
-        with_prior(linear.reduced().tempered(self.temper), &self.model, &self.free, prior)
+        with_prior(linear.reduced().with_dispersion(self.dispersion), &self.model, &self.free, prior)
     }
 }
 

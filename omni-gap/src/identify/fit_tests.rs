@@ -16,9 +16,9 @@ fn truth() -> Model<4> {
 }
 
 /// A fit from the robot file's own numbers.
-fn fitted(runs: &[Recorded<4>], windows: impl Fn(&Recorded<4>) -> Windows) -> Fit<4> {
+fn fitted(runs: &[AlignedRun<4>], windows: impl Fn(&AlignedRun<4>) -> Windows) -> Fit<4> {
     let windows: Vec<Windows> = runs.iter().map(windows).collect();
-    let runs: Vec<&Recorded<4>> = runs.iter().collect();
+    let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
     let free = TRUTH.map(|(p, _)| Free { slot: Slot::Nominal(p), within: (0.1, 4.0) });
     let shots = Shots { runs: &runs, windows: &windows };
     fit(Model::nominal(&robot(), 12.0), shots, None, &free, &Prior::stated(&robot()), 1.0, 12)
@@ -52,7 +52,7 @@ fn what_the_fit_says_it_cost_is_the_cost_of_its_model_and_starts() {
         runs.iter_mut().for_each(|run| run.correlation_time = [tau; MAX_CHANNELS]);
         let fit = fitted(&runs, |run| Windows::new(run, 0.5));
         let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, 0.5)).collect();
-        let runs: Vec<&Recorded<4>> = runs.iter().collect();
+        let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
         let shots = Shots { runs: &runs, windows: &windows };
         let plain = cost_of(&fit.model, shots, &fit.starts);
         let (linear, samples) = fit.linearised(shots).cost();

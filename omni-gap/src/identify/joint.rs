@@ -17,13 +17,13 @@ use nalgebra::DMatrix;
 
 use super::driven::by_input;
 use super::fit::{Fit, Free, How, fit_so};
+use super::identifiability::{Identifiability, KNOWN, TradeOff, identifiability_of, trade_offs};
 use super::linear::linearise;
 use super::noise::{Noise, noise_of};
 use super::prior::Prior;
 use super::shoot::{Shots, WINDOW_S, Windows};
-use super::words::{KNOWN, TradeOff, Word, trade_offs, word_of};
 use crate::log::RobotFile;
-use crate::simulate::{Model, NominalKey, Recorded, Slot};
+use crate::simulate::{AlignedRun, Model, NominalKey, Slot};
 
 /// What is identified: R, K_t = K_v, J, and the friction of the body. Mass and geometry are weighed and measured.
 pub const IDENTIFIED: [Nominal; 9] = [
@@ -63,7 +63,7 @@ pub struct Identified {
     /// One sigma of it, from what is stated of mass and geometry.
     pub std_given: f64,
     /// What the runs say of it.
-    pub word: Word,
+    pub word: Identifiability,
 }
 
 /// A fit to all runs together.
@@ -107,9 +107,9 @@ impl<const N: usize> Joint<N> {
 ///
 /// # Errors
 /// Where the runs cannot tell a single number.
-pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Recorded<N>]) -> Result<Joint<N>, Refused> {
-    let measured = |run: &&Recorded<N>| run.has.iter().any(|has| *has != 0);
-    let runs: Vec<&Recorded<N>> = runs.iter().copied().filter(measured).collect();
+pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&AlignedRun<N>]) -> Result<Joint<N>, Refused> {
+    let measured = |run: &&AlignedRun<N>| run.has.iter().any(|has| *has != 0);
+    let runs: Vec<&AlignedRun<N>> = runs.iter().copied().filter(measured).collect();
     if runs.is_empty() {
         return Err(Refused::NothingMeasured);
     }
@@ -118,15 +118,15 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Record
     }
     let free = IDENTIFIED.map(|p| Free { slot: Slot::Nominal(p), within: WITHIN });
     let prior = Prior { rows: Vec::new() };
-    let how = How { free: &free, prior: &prior, temper: 1.0, rounds: ROUNDS.1, by_window: true };
+    let how = How { free: &free, prior: &prior, dispersion: 1.0, rounds: ROUNDS.1, by_window: true };
     let short: Vec<Windows> = runs.iter().map(|run| Windows::new(run, WINDOW_S)).collect();
     let whole: Vec<Windows> = runs.iter().map(|run| Windows::whole(run)).collect();
 
     let shots = Shots { runs: &runs, windows: &short };
     let near = fit_so(model.clone(), shots, None, How { rounds: ROUNDS.0, ..how });
     let mut noise = noise_of(&near, shots);
-    let with_noise: Vec<Recorded<N>> = runs.iter().map(|run| noise.applied(run)).collect();
-    let mut noisy: Vec<&Recorded<N>> = with_noise.iter().collect();
+    let with_noise: Vec<AlignedRun<N>> = runs.iter().map(|run| noise.applied(run)).collect();
+    let mut noisy: Vec<&AlignedRun<N>> = with_noise.iter().collect();
     let mut best = fit_so(near.model.clone(), Shots { runs: &noisy, windows: &whole }, None, how);
     let misfit = best.cost / best.samples.max(1) as f64;
     let follows = misfit < FOLLOWS;
@@ -147,7 +147,7 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Record
 
 /// True if any wheel speed or pose of a run varies by more than its noise; currents can flow in a robot that is held. A
 /// run that shows neither is not judged.
-fn moves<const N: usize>(run: &Recorded<N>) -> bool {
+fn moves<const N: usize>(run: &AlignedRun<N>) -> bool {
     if !run.has_group("w") && !run.has_group("pose") {
         return true;
     }
@@ -175,12 +175,13 @@ fn judged<const N: usize>(
     let size: Vec<f64> = slots.iter().map(|slot| best.model.get(*slot)).collect();
     let relative = DMatrix::from_fn(slots.len(), slots.len(), |a, b| reduced.hess[(a, b)] * size[a] * size[b]);
     let information = relative.view((0, 0), (n, n)).into_owned();
-    let mut words: Vec<Word> = (0..n).map(|k| word_of(&information, k, best.at_bound(&best.free[k]))).collect();
-    if words.iter().all(|word| *word == Word::NotSeen) {
+    let mut words: Vec<Identifiability> =
+        (0..n).map(|k| identifiability_of(&information, k, best.at_bound(&best.free[k]))).collect();
+    if words.iter().all(|word| *word == Identifiability::NotSeen) {
         return Err(Refused::NothingMoves);
     }
     // a number that is not seen takes no part: what is not known of it is no uncertainty of the others
-    let seen: Vec<usize> = (0..n).filter(|k| words[*k] != Word::NotSeen).collect();
+    let seen: Vec<usize> = (0..n).filter(|k| words[*k] != Identifiability::NotSeen).collect();
     let pick = |m: &DMatrix<f64>| DMatrix::from_fn(seen.len(), seen.len(), |a, b| m[(seen[a], seen[b])]);
     let inverse = invert(&pick(&information));
     let covariance = if follows {
@@ -199,8 +200,8 @@ fn judged<const N: usize>(
     let mut covariance = covariance;
     for (at, input) in input.iter().enumerate() {
         covariance[(at, at)] += input * input;
-        if words[seen[at]] == Word::Identified && covariance[(at, at)].sqrt() > KNOWN {
-            words[seen[at]] = Word::Weak;
+        if words[seen[at]] == Identifiability::Identified && covariance[(at, at)].sqrt() > KNOWN {
+            words[seen[at]] = Identifiability::Weak;
         }
     }
     let numbers = (0..n)
@@ -218,7 +219,7 @@ fn judged<const N: usize>(
             .map_or(if a == b { f64::INFINITY } else { 0.0 }, |(p, q)| covariance[(p, q)] * size[a] * size[b])
     });
     let members: Vec<Nominal> = seen.iter().map(|k| IDENTIFIED[*k]).collect();
-    let words: Vec<Word> = seen.iter().map(|k| words[*k]).collect();
+    let words: Vec<Identifiability> = seen.iter().map(|k| words[*k]).collect();
     let trade_offs = trade_offs(&inverse, &members, &words);
     let samples = best.samples;
     Ok(Joint { model: best.model, numbers, covariance: all, trade_offs, noise, follows, misfit, samples })

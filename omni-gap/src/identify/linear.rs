@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::block::{Block, Sums};
 use super::pass::{Course, TWIST, pass};
 use super::shoot::{Piece, Shots, Starts};
-use crate::simulate::{Model, Recorded, Slot};
+use crate::simulate::{AlignedRun, Model, Slot};
 
 /// Parameters of a window's start: x, y, θ, v, vn, ω.
 pub const START: usize = 6;
@@ -60,11 +60,11 @@ pub struct Reduced {
 
 impl Reduced {
     /// The same with the data weighted down: errors count by √φ less.
-    pub fn tempered(mut self, temper: f64) -> Self {
-        self.hess /= temper;
-        self.grad /= temper;
-        self.meat /= temper * temper;
-        self.by_starts /= temper;
+    pub fn with_dispersion(mut self, dispersion: f64) -> Self {
+        self.hess /= dispersion;
+        self.grad /= dispersion;
+        self.meat /= dispersion * dispersion;
+        self.by_starts /= dispersion;
         self
     }
 }
@@ -123,7 +123,7 @@ fn summed<const N: usize, const LANES: usize>(course: Course<'_, N>, piece: &Pie
 /// The windows of a piece, whole.
 fn kept<const N: usize>(course: Course<'_, N>, piece: &Piece) -> Vec<WindowLinear> {
     let Course { run, windows, free, .. } = course;
-    let count = Recorded::<N>::channels().count();
+    let count = AlignedRun::<N>::channels().count();
     let mut linear: Vec<WindowLinear> = piece
         .windows
         .clone()

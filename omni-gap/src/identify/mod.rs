@@ -8,10 +8,12 @@
 mod answer;
 mod block;
 mod disagree;
+mod dispersion;
 mod driven;
 pub mod experiments;
 mod fit;
 mod guess;
+mod identifiability;
 mod joint;
 mod linear;
 mod noise;
@@ -22,24 +24,22 @@ mod settings;
 mod shoot;
 #[cfg(test)]
 mod staged;
-mod tempered;
 mod whiten;
-mod words;
 
 pub use answer::model::{
     Answer, Apart, Asked, Counted, LeftOut, Moved, Number, Power, Product, SCHEMA, SensorNoise, Side, Together, Value,
 };
 pub use answer::{answer, number_key};
-pub use disagree::{Disagreement, Told, disagreements};
+pub use disagree::{Disagreement, IndependentEstimate, disagreements};
+pub use dispersion::{fit_with_dispersion, nominal_free};
 pub use fit::{Fit, Free, fit, profile};
 pub use guess::Guessed;
+pub use identifiability::{Identifiability, TradeOff};
 pub use joint::{GIVEN, IDENTIFIED, Identified, Joint, Refused, joint};
 pub use linear::{Linearised, WindowLinear, linearise};
 pub use noise::{Noise, noise_of};
-pub use prior::{Prior, PriorRow, Release};
+pub use prior::{FreedPrior, Prior, PriorRow};
 pub use relative::relative_std;
 pub use settings::FitSettings;
 pub use shoot::{Shots, Starts, WINDOW_S, Windows, first_starts, run_windows};
-pub use tempered::{fit_tempered, nominal_free};
 pub use whiten::Whitener;
-pub use words::{TradeOff, Word};

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use super::fit::Fit;
 use super::linear::{START, WindowLinear, linearise};
 use super::shoot::Shots;
-use crate::simulate::Recorded;
+use crate::simulate::AlignedRun;
 
 /// Groups of channels that share a sensor: currents, wheel speeds, position, heading.
 const GROUPS: usize = 4;
@@ -58,9 +58,9 @@ const fn group(wheels: usize, channel: usize) -> usize {
 
 impl Noise {
     /// The run with this noise stated in place of its own.
-    pub fn applied<const N: usize>(&self, run: &Recorded<N>) -> Recorded<N> {
+    pub fn applied<const N: usize>(&self, run: &AlignedRun<N>) -> AlignedRun<N> {
         let mut run = run.clone();
-        for channel in 0..Recorded::<N>::channels().count() {
+        for channel in 0..AlignedRun::<N>::channels().count() {
             let group = group(N, channel);
             run.sigma[channel] *= self.scale[group];
             run.correlation_time[channel] = self.correlation_time[group];
@@ -73,8 +73,8 @@ impl Noise {
 /// the runs say of correlation is not looked at.
 pub fn noise_of<const N: usize>(fit: &Fit<N>, shots: Shots<'_, N>) -> Noise {
     let white = Noise { scale: [1.0; GROUPS], correlation_time: [0.0; GROUPS] };
-    let runs: Vec<Recorded<N>> = shots.runs.iter().map(|run| white.applied(run)).collect();
-    let runs: Vec<&Recorded<N>> = runs.iter().collect();
+    let runs: Vec<AlignedRun<N>> = shots.runs.iter().map(|run| white.applied(run)).collect();
+    let runs: Vec<&AlignedRun<N>> = runs.iter().collect();
     let shots = Shots { runs: &runs, windows: shots.windows };
     let linear = linearise(&fit.model, shots, &fit.starts, &[], true);
     let (mut lefts, mut lengths) = (Vec::new(), 0.0);
@@ -134,7 +134,7 @@ impl Left {
             outer: [[Mat6::zeros(); 2]; GROUPS],
             count: [[0.0; 2]; GROUPS],
         };
-        for channel in 0..Recorded::<N>::channels().count() {
+        for channel in 0..AlignedRun::<N>::channels().count() {
             let g = group(N, channel);
             let mut track = Track { group: g, t: Vec::new(), a: Vec::new(), j: Vec::new() };
             let mut before: Option<(f64, Vec6)> = None;

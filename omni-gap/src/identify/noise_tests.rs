@@ -13,7 +13,7 @@ fn found(how: &Staging, window: f64) -> Noise {
     let model = Model::<4>::nominal(&robot(), 12.0);
     let runs = staged(&model, how);
     let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, window)).collect();
-    let runs: Vec<&Recorded<4>> = runs.iter().collect();
+    let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
     let shots = Shots { runs: &runs, windows: &windows };
     let fitted = fit(model, shots, None, &[], &Prior::stated(&robot()), 1.0, 5);
     noise_of(&fitted, shots)

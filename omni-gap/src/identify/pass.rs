@@ -8,7 +8,7 @@ use model_core::number::dual::Dual;
 
 use super::shoot::{Starts, Windows, run_some_windows};
 use super::whiten::Whitener;
-use crate::simulate::{MAX_CHANNELS, Model, Recorded, Slot};
+use crate::simulate::{AlignedRun, MAX_CHANNELS, Model, Slot};
 
 /// Parameters of a window's start that need the plant to differentiate, v, vn and ω; moving or turning the whole path
 /// is geometry.
@@ -18,7 +18,7 @@ pub(super) const TWIST: usize = 3;
 #[derive(Clone, Copy)]
 pub(super) struct Course<'a, const N: usize> {
     pub model: &'a Model<N>,
-    pub run: &'a Recorded<N>,
+    pub run: &'a AlignedRun<N>,
     pub windows: &'a Windows,
     pub starts: &'a Starts,
     pub free: &'a [Slot],
@@ -75,7 +75,7 @@ pub(super) fn pass<const N: usize, const LANES: usize>(
     let enter = |memory: &mut [EffectState<Dual<LANES>>]| {
         memory.iter_mut().for_each(|state| state.for_each_mut(|number| number.eps[..own].fill(0.0)));
     };
-    let count = Recorded::<N>::channels().count();
+    let count = AlignedRun::<N>::channels().count();
     let per_sigma = run.sigma.map(|sigma| 1.0 / sigma);
     let mut white = (Whitener::<LANES>::of(run), Whitener::<4>::of(run));
     let mut seen = [Seen::<LANES>::NOTHING; MAX_CHANNELS];

@@ -31,7 +31,7 @@ pub struct Prior {
 
 /// A nominal value that a diagnosis takes as plainly wrong: its statement is struck out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Release {
+pub struct FreedPrior {
     /// The parameter cause.
     pub cause: &'static str,
     /// Of friction: the body axis (v, vn, ω: 0, 1, 2) that it is wrong on; `None`: on all.
@@ -50,7 +50,7 @@ impl Prior {
     }
 
     /// The statements that speak of a parameter cause.
-    pub fn rows_of(&self, release: Release) -> Vec<usize> {
+    pub fn rows_of(&self, release: FreedPrior) -> Vec<usize> {
         let own = |p: Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
         let speaks = |row: &PriorRow| row.stated && row.terms.iter().any(|(p, _)| own(*p));
         (0..self.rows.len()).filter(|k| speaks(&self.rows[*k])).collect()
@@ -58,7 +58,7 @@ impl Prior {
 
     /// The same without what it says of a parameter cause, which stays loosely held (at a relative sigma of `loose`) so
     /// that a fit cannot run away. K_t and K_v stay as equal to each other as they were when only their common factor is wrong.
-    pub fn without(&self, release: Release, loose: f64) -> Self {
+    pub fn without(&self, release: FreedPrior, loose: f64) -> Self {
         let mut prior = self.clone();
         for k in self.rows_of(release) {
             prior.rows[k].sigma = loose;

@@ -2,18 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Settings of a fit whose temper suits what it finds.
+/// Settings of a fit whose dispersion suits what it finds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct FitSettings {
-    /// Rounds of a fit at one temper, at the most [rounds]: steps are quadratic near the end, six are seldom all taken.
+    /// Rounds of a fit at one dispersion, at the most [rounds]: steps are quadratic near the end, six are seldom all taken.
     pub rounds: usize,
-    /// Times that the temper is brought to what the fit sees, at the most [times]: it settles after two or three.
+    /// Times that the dispersion is brought to what the fit sees, at the most [times]: it settles after two or three.
     pub temperings: usize,
-    /// A first fit starts from what was stated: its temper is this many times what the errors alone suggest [1], so that
+    /// A first fit starts from what was stated: its dispersion is this many times what the errors alone suggest [1], so that
     /// the errors of a wrong model do not drive the numbers away before anything is known.
     pub caution: f64,
-    /// The temper stays when its logarithm would move by less than this [1]: by a fifth, standard errors by a tenth.
+    /// The dispersion stays when its logarithm would move by less than this [1]: by a fifth, standard errors by a tenth.
     pub settled: f64,
     /// A nominal value is not believed to be off by more than these factors [1].
     pub believable: (f64, f64),

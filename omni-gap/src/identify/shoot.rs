@@ -7,7 +7,7 @@ use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::Plant;
 
-use crate::simulate::{FreeRun, HORIZON_S, MAX_CHANNELS, Model, Recorded, RowPassed, restart_rows, start_at};
+use crate::simulate::{AlignedRun, FreeRun, HORIZON_S, MAX_CHANNELS, Model, RowPassed, restart_rows, start_at};
 
 /// The state from which a window starts: x, y, θ, v, vn, ω [m, m, rad, m/s, m/s, rad/s].
 pub type StartState = [f64; 6];
@@ -24,7 +24,7 @@ pub struct Windows(Vec<usize>);
 
 impl Windows {
     /// Windows of `horizon` [s]; a last one shorter than half of that joins the one before.
-    pub fn new<const N: usize>(run: &Recorded<N>, horizon: f64) -> Self {
+    pub fn new<const N: usize>(run: &AlignedRun<N>, horizon: f64) -> Self {
         let mut rows = restart_rows(&run.t, horizon);
         if rows.len() > 1 && run.t[run.rows() - 1] - run.t[rows[rows.len() - 1]] < 0.5 * horizon {
             rows.pop();
@@ -34,7 +34,7 @@ impl Windows {
     }
 
     /// One window: the whole run.
-    pub fn whole<const N: usize>(run: &Recorded<N>) -> Self {
+    pub fn whole<const N: usize>(run: &AlignedRun<N>) -> Self {
         Self(vec![0, run.rows()])
     }
 
@@ -58,7 +58,7 @@ impl Windows {
 #[derive(Clone, Copy, Debug)]
 pub struct Shots<'a, const N: usize> {
     /// The runs.
-    pub runs: &'a [&'a Recorded<N>],
+    pub runs: &'a [&'a AlignedRun<N>],
     /// Each run's windows.
     pub windows: &'a [Windows],
 }
@@ -100,7 +100,7 @@ pub(super) struct Piece {
 }
 
 /// Starts from the smoothed measurements, through the inverse of the plant's sensing effects.
-pub fn first_starts<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, windows: &Windows) -> Starts {
+pub fn first_starts<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, windows: &Windows) -> Starts {
     let mut before = plant.start(0.0, Pose::default(), BodyTwist::default());
     (0..windows.len())
         .map(|k| {
@@ -117,7 +117,7 @@ pub fn first_starts<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, wi
 /// `start` makes the window's start in the plant's number type; `enter` may change the memory at a window's beginning.
 pub fn run_windows<const N: usize, T: Real>(
     plant: &Plant<N, T>,
-    run: &Recorded<N>,
+    run: &AlignedRun<N>,
     windows: &Windows,
     start: impl Fn(usize) -> (Pose<T>, BodyTwist<T>),
     enter: impl Fn(&mut [EffectState<T>]),
@@ -131,7 +131,7 @@ pub fn run_windows<const N: usize, T: Real>(
 /// `start` makes the window's start in the plant's number type; `enter` may change the memory at a window's beginning.
 pub(super) fn run_some_windows<const N: usize, T: Real>(
     plant: &Plant<N, T>,
-    run: &Recorded<N>,
+    run: &AlignedRun<N>,
     windows: &Windows,
     which: Range<usize>,
     start: impl Fn(usize) -> (Pose<T>, BodyTwist<T>),

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::log::{Catalogue, RobotFile};
-use crate::simulate::{Excitation, FreeRun, MAX_CHANNELS, Model, Recorded, Recording, Row, excite, record};
+use crate::simulate::{AlignedRun, Excitation, FreeRun, MAX_CHANNELS, Model, Row, SensorSetup, excite, record};
 
 /// What is recorded.
 #[derive(Clone, Copy)]
@@ -48,14 +48,14 @@ pub fn robot() -> RobotFile {
 }
 
 /// Runs of 6 s of a model, predicted in the steps that a fit takes, with noise as asked.
-pub fn staged(model: &Model<4>, how: &Staging) -> Vec<Recorded<4>> {
+pub fn staged(model: &Model<4>, how: &Staging) -> Vec<AlignedRun<4>> {
     let (file, plant) = (robot(), model.plant());
-    let recording = Recording {
+    let recording = SensorSetup {
         steps_a_row: 1,
         camera_rate: how.camera_rate,
         dropouts: 0.05,
         sensors: file.sensors,
-        ..Recording::default()
+        ..SensorSetup::default()
     };
     (0..how.runs as u64)
         .map(|k| {
@@ -64,7 +64,7 @@ pub fn staged(model: &Model<4>, how: &Staging) -> Vec<Recorded<4>> {
             let t: Vec<f64> = (0..script.len()).map(|row| row as f64 / how.rate).collect();
             let input: Vec<Input<4, f64>> = script.into_iter().map(Input::Voltage).collect();
             let run = record(&plant, "run", &t, &input, &recording, how.seed + 100 * k + 1);
-            let mut run = Recorded::<4>::new(&run, &file).unwrap();
+            let mut run = AlignedRun::<4>::new(&run, &file).unwrap();
             let mut random = ChaCha8Rng::seed_from_u64(how.seed + 100 * k + 2);
             let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
             let mut noise: Row = std::array::from_fn(|_| normal());

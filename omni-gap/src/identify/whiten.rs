@@ -8,7 +8,7 @@
 //! What depends linearly on the errors, their derivatives and a candidate's signature, goes through the same. A channel
 //! whose τ is zero is white already and stays as it is, bit for bit.
 
-use crate::simulate::{MAX_CHANNELS, Recorded, Row};
+use crate::simulate::{AlignedRun, MAX_CHANNELS, Row};
 
 /// Intervals that differ by less than this share one ρ [s]
 const SAME_S: f64 = 1e-9;
@@ -26,7 +26,7 @@ pub struct Whitener<const K: usize> {
 
 impl<const K: usize> Whitener<K> {
     /// One for the channels of a run.
-    pub fn of<const N: usize>(run: &Recorded<N>) -> Self {
+    pub fn of<const N: usize>(run: &AlignedRun<N>) -> Self {
         Self { tau: run.correlation_time, before: [None; MAX_CHANNELS], link: [(-1.0, 0.0, 1.0); MAX_CHANNELS] }
     }
 
@@ -71,8 +71,8 @@ mod tests {
     use crate::simulate::Chain;
 
     /// A run without rows whose channels all have this correlation time [s].
-    fn run(tau: f64) -> Recorded<4> {
-        Recorded {
+    fn run(tau: f64) -> AlignedRun<4> {
+        AlignedRun {
             name: String::new(),
             t: Vec::new(),
             dt: Vec::new(),

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use crate::simulate::{HORIZON_S, MAX_CHANNELS, Recorded, free_run, predict};
+use crate::simulate::{AlignedRun, HORIZON_S, MAX_CHANNELS, free_run, predict};
 
 /// The signal groups, in the order of their channels.
 pub const GROUPS: [&str; 3] = ["i", "w", "pose"];
@@ -57,7 +57,7 @@ impl Measured {
 }
 
 /// Measures a model on runs: free runs restarted every `horizon` [s].
-pub fn measure<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], horizon: f64) -> Measured {
+pub fn measure<const N: usize>(plant: &Plant<N, f64>, runs: &[&AlignedRun<N>], horizon: f64) -> Measured {
     let per_run: Vec<Vec<[(f64, f64); 3]>> = runs
         .par_iter()
         .map(|run| {
@@ -83,17 +83,21 @@ pub fn measure<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], hor
 pub(super) const FLOOR_SEED: u64 = 20_080_511;
 
 /// What the protocol would measure if the model were the truth: the same runs, simulated from it with the sensors' noise.
-pub fn floor<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], horizon: f64) -> Measured {
+pub fn floor<const N: usize>(plant: &Plant<N, f64>, runs: &[&AlignedRun<N>], horizon: f64) -> Measured {
     measure(plant, &replayed(plant, runs, FLOOR_SEED).iter().collect::<Vec<_>>(), horizon)
 }
 
 /// The runs, simulated from a model with the sensors' noise.
-pub(super) fn replayed<const N: usize>(plant: &Plant<N, f64>, runs: &[&Recorded<N>], seed: u64) -> Vec<Recorded<N>> {
+pub(super) fn replayed<const N: usize>(
+    plant: &Plant<N, f64>,
+    runs: &[&AlignedRun<N>],
+    seed: u64,
+) -> Vec<AlignedRun<N>> {
     runs.par_iter().enumerate().map(|(k, run)| replay(plant, run, seed.wrapping_add(k as u64))).collect()
 }
 
 /// A run of the same input and the same holes, simulated from the model with white noise of the sensors' sigma.
-fn replay<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, seed: u64) -> Recorded<N> {
+fn replay<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, seed: u64) -> AlignedRun<N> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut replayed = run.clone();
     free_run(

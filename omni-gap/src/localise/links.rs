@@ -10,7 +10,7 @@ use model_core::plant::{Input, Plant};
 use rayon::prelude::*;
 
 use super::gap::{FLOOR_SEED, GROUPS, replayed};
-use crate::simulate::{Recorded, Row, free_run, restart_rows};
+use crate::simulate::{AlignedRun, Row, free_run, restart_rows};
 
 /// A link between two measured signals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,7 @@ pub struct Links {
 pub fn links<const N: usize>(
     plant: &Plant<N, f64>,
     right: &Plant<N, f64>,
-    runs: &[&Recorded<N>],
+    runs: &[&AlignedRun<N>],
     horizon: f64,
 ) -> Links {
     let seen = GROUPS.map(|group| runs.iter().any(|run| run.has_group(group)));
@@ -97,7 +97,7 @@ struct Paths {
     by_speed: Vec<Row>,
 }
 
-fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon: f64) -> Subsets {
+fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horizon: f64) -> Subsets {
     let paths = Paths {
         plain: rows(plant, run, horizon, |row| run.input(row)),
         by_current: rows(plant, run, horizon, |row| measured(run, row, 0).map_or(run.input(row), Input::Current)),
@@ -145,7 +145,7 @@ fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon: f6
 }
 
 /// The measured currents (first channel 0) or wheel speeds (first channel N) of a row, if all are there.
-fn measured<const N: usize>(run: &Recorded<N>, row: usize, first: usize) -> Option<[f64; N]> {
+fn measured<const N: usize>(run: &AlignedRun<N>, row: usize, first: usize) -> Option<[f64; N]> {
     let whole = (first..first + N).all(|c| run.saw(row, c)) && !(first == 0 && run.unsigned_current);
     whole.then(|| std::array::from_fn(|j| run.measured[row][first + j]))
 }
@@ -153,7 +153,7 @@ fn measured<const N: usize>(run: &Recorded<N>, row: usize, first: usize) -> Opti
 /// The rows that a free run predicts from any input.
 fn rows<const N: usize>(
     plant: &Plant<N, f64>,
-    run: &Recorded<N>,
+    run: &AlignedRun<N>,
     horizon: f64,
     input: impl Fn(usize) -> Input<N, f64>,
 ) -> Vec<Row> {

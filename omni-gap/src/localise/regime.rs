@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::simulate::{Prediction, Recorded};
+use crate::simulate::{AlignedRun, Prediction};
 
 /// A part of a feature's range that holds more than its share of the error.
 #[derive(Clone, Debug)]
@@ -55,7 +55,7 @@ const FEATURES: [Feature; 5] = [
 
 /// The hotspots of a prediction's error on its wheel speeds and currents (on the pose where neither was measured), the
 /// strongest first.
-pub fn regimes<const N: usize>(runs: &[(&Recorded<N>, &Prediction)], settings: &RegimeSettings) -> Vec<Hotspot> {
+pub fn regimes<const N: usize>(runs: &[(&AlignedRun<N>, &Prediction)], settings: &RegimeSettings) -> Vec<Hotspot> {
     let mut samples: Vec<([f64; FEATURES.len()], f64)> = Vec::new();
     for (run, prediction) in runs {
         for row in 1..run.rows() {

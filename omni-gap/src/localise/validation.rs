@@ -23,7 +23,7 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 use crate::log::{Run, Session};
-use crate::simulate::{Model, Recorded, drivable, supply_seen};
+use crate::simulate::{AlignedRun, Model, drivable, supply_seen};
 
 use compare::Compared;
 use figures::Sums;
@@ -63,11 +63,11 @@ pub struct RunTraces {
 /// ```
 /// use omni_gap::known_effects;
 /// use omni_gap::localise::validation::{HORIZONS_S, Signal, validate};
-/// use omni_gap::stage::{Stage, stage};
+/// use omni_gap::synthesize::{Scenario, synthesize};
 ///
 /// let robot = include_str!("../../../examples/feup-3w/robot.toml");
-/// let plan = Stage { uncertain: false, runs: 1, duration: 2.0, rate: 100.0, ..Stage::default() };
-/// let session = stage(robot, &plan, &known_effects())?;
+/// let plan = Scenario { uncertain: false, runs: 1, duration: 2.0, rate: 100.0, ..Scenario::default() };
+/// let session = synthesize(robot, &plan, &known_effects())?;
 ///
 /// let validation = validate(&session, &HORIZONS_S)?.validation;
 /// let forward = validation.runs[0].signal(Signal::V).expect("wheel speeds are logged");
@@ -87,7 +87,7 @@ pub fn validate(session: &Session, horizons_s: &[f64]) -> Result<Validated> {
 fn validated<const N: usize>(session: &Session, horizons_s: &[f64]) -> Result<Validated> {
     let told = session.runs.iter().map(|run| (run, false)).chain(session.heldout.iter().map(|run| (run, true)));
     let told: Vec<(&Run, bool)> = told.collect();
-    let recorded: Vec<Recorded<N>> =
+    let recorded: Vec<AlignedRun<N>> =
         told.iter().map(|(run, _)| drivable(run, &session.robot)).collect::<Result<_>>()?;
     let plant = Model::<N>::nominal(&session.robot, supply_seen(&recorded)).plant();
 
@@ -105,7 +105,7 @@ fn validated<const N: usize>(session: &Session, horizons_s: &[f64]) -> Result<Va
     }
 
     let runs: Vec<RunFigures> = measured.iter().map(|(figures, _)| figures.clone()).collect();
-    let refs: Vec<&Recorded<N>> = recorded.iter().collect();
+    let refs: Vec<&AlignedRun<N>> = recorded.iter().collect();
     let validation = Validation {
         schema: SCHEMA,
         robot: session.robot.name.clone(),

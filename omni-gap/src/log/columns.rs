@@ -199,9 +199,9 @@ fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> 
             "gyro_rad_s",
             "enable",
         ];
-        let mend = nearest(name, known)
+        let fix = nearest(name, known)
             .map_or(format!("Known are {}", known.join(", ")), |near| format!("Did you mean `{near}`?"));
-        return Err(columns.key_error(name, "this is not a column of the run log", mend));
+        return Err(columns.key_error(name, "this is not a column of the run log", fix));
     };
     let title = format!("[columns] {name}");
     let s = Section::new(columns.source, &title, item)?;
@@ -248,8 +248,8 @@ fn unit(s: &Section, target: Target) -> Result<f64> {
         Some(unit) => Ok(unit.2),
         None => {
             let known: Vec<&str> = UNITS.iter().filter(fitting).map(|unit| unit.0).collect();
-            let mend = format!("Known here: {}; or use `scale`", known.join(", "));
-            Err(s.key_error("unit", format!("`{name}` is not a unit for {target}"), mend))
+            let fix = format!("Known here: {}; or use `scale`", known.join(", "));
+            Err(s.key_error("unit", format!("`{name}` is not a unit for {target}"), fix))
         }
     }
 }

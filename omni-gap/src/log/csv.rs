@@ -127,8 +127,8 @@ impl Table {
             let extra = record.len() == self.width + 1 && record[self.width].trim_ascii().is_empty();
             if record.len() != self.width && !extra {
                 let problem = format!("found {} fields, expected {}", record.len(), self.width);
-                let mend = "Complete or remove the row; an empty field marks a missing sample";
-                return Err(Error::input(&self.path, problem, mend).at_line(self.line(&record)));
+                let fix = "Complete or remove the row; an empty field marks a missing sample";
+                return Err(Error::input(&self.path, problem, fix).at_line(self.line(&record)));
             }
             for (channel, &column) in columns.iter_mut().zip(wanted) {
                 let field = record[column].trim_ascii();

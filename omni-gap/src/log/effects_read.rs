@@ -41,11 +41,11 @@ pub(super) fn effects(s: &Section, catalogue: &Catalogue, wheels: usize) -> Resu
 }
 
 fn unknown(s: &Section, id: &str, catalogue: &Catalogue) -> Error {
-    let mend = match nearest(id, catalogue.effects.iter().map(|effect| effect.id.as_str())) {
+    let fix = match nearest(id, catalogue.effects.iter().map(|effect| effect.id.as_str())) {
         Some(near) => format!("Did you mean `{near}`?"),
         None => "`omni-gap explain` lists the effects there are".to_string(),
     };
-    s.key_error(id, format!("unknown effect `{id}`"), mend)
+    s.key_error(id, format!("unknown effect `{id}`"), fix)
 }
 
 /// Whether two tables of one effect act on the same wheel.
@@ -55,7 +55,7 @@ fn overlap(one: &EffectEntry, other: &EffectEntry) -> bool {
 
 fn twice(s: &Section, before: &EffectEntry, now: &EffectEntry) -> Error {
     let id = &now.id;
-    let (problem, mend) = match (before.wheel, now.wheel) {
+    let (problem, fix) = match (before.wheel, now.wheel) {
         (None, None) => (format!("`{id}` stands twice"), "Keep one of the two tables".to_string()),
         (Some(a), Some(b)) if a == b => {
             (format!("`{id}` on wheel {a} stands twice"), "Keep one of the two tables".to_string())
@@ -66,7 +66,7 @@ fn twice(s: &Section, before: &EffectEntry, now: &EffectEntry) -> Error {
             (problem, "Remove the table without `wheel`, or give every wheel a table of its own".to_string())
         }
     };
-    s.error(problem, mend).in_column(id)
+    s.error(problem, fix).in_column(id)
 }
 
 fn effect(s: &Section, known: &KnownEffect, wheels: usize) -> Result<EffectEntry> {
@@ -81,8 +81,8 @@ fn effect(s: &Section, known: &KnownEffect, wheels: usize) -> Result<EffectEntry
         }
         (Scope::OneWheel, None) => {
             let problem = format!("`{}` sits on one wheel, expected `wheel` to say which", known.id);
-            let mend = format!("Add `wheel = …`, from 0 to {}; for several wheels write a table for each", wheels - 1);
-            return Err(s.error(problem, mend).in_column("wheel"));
+            let fix = format!("Add `wheel = …`, from 0 to {}; for several wheels write a table for each", wheels - 1);
+            return Err(s.error(problem, fix).in_column("wheel"));
         }
         _ => {}
     }

@@ -83,11 +83,11 @@ pub(super) fn bounded(s: &Section, key: &str, as_key: &str, value: f64) -> Resul
     let [found, low, high] = [value, low, high].map(shown);
     let problem = format!("found {found}, expected a number from {low} to {high} {}", bounds.unit);
     let meant = bounds.often.iter().map(|(unit, to)| (unit, to(value))).find(|(_, x)| inside(*x));
-    let mend = match meant {
+    let fix = match meant {
         Some((unit, x)) => format!("Write {}, if the number is in {unit}", rounded(x)),
         None => "Correct the value (units are SI and stand in the key)".to_string(),
     };
-    Err(s.key_error(key, problem, mend))
+    Err(s.key_error(key, problem, fix))
 }
 
 /// A number as a person would write it, with an exponent where it has many zeros.
@@ -128,19 +128,19 @@ pub(super) fn together<'a>(
             GYRATION.1
         );
         let grams = gyration(body.mass_kg / 1000.0, body.inertia_kg_m2);
-        let mend = match fits((0.3, 3.0), grams) {
+        let fix = match fits((0.3, 3.0), grams) {
             true => format!("Write mass_kg = {}, if the mass is in grams", rounded(body.mass_kg / 1000.0)),
             false => "Write the mass in kg, the inertia in kg·m² and the wheels' distance in m".to_string(),
         };
-        return Err(section("body", "[body]")?.key_error("mass_kg", problem, mend));
+        return Err(section("body", "[body]")?.key_error("mass_kg", problem, fix));
     }
     let constants = motor.torque_constant_nm_per_a / motor.emf_constant_v_s;
     if !fits(CONSTANTS, constants) {
         let problem = format!(
             "the motor's torque constant is {constants:.3} times its EMF constant, expected one: in SI units the two are the same number"
         );
-        let mend = "Write Kt in N·m/A (not mN·m/A) and Kv in V/(rad/s) (9.5493 over the rpm/V of a data sheet)";
-        return Err(section("motor", "[motor]")?.key_error("torque_constant_Nm_per_A", problem, mend));
+        let fix = "Write Kt in N·m/A (not mN·m/A) and Kv in V/(rad/s) (9.5493 over the rpm/V of a data sheet)";
+        return Err(section("motor", "[motor]")?.key_error("torque_constant_Nm_per_A", problem, fix));
     }
     let weight = body.mass_kg * GRAVITY_M_S2;
     let f = &robot.friction;
@@ -154,8 +154,8 @@ pub(super) fn together<'a>(
             let most = WEIGHTS * unit_of;
             let problem =
                 format!("found {found}, expected at most {most:.3} {unit}, {WEIGHTS} times the robot's weight");
-            let mend = "Write the friction in N (or N·m) and the mass in kg";
-            return Err(section("friction", "[friction]")?.key_error(key, problem, mend));
+            let fix = "Write the friction in N (or N·m) and the mass in kg";
+            return Err(section("friction", "[friction]")?.key_error(key, problem, fix));
         }
     }
     Ok(())

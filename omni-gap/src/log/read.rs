@@ -148,8 +148,8 @@ fn clock(table: &Table, rule: &Rule, raw: &Channel) -> Result<(Vec<f64>, Option<
     let mut t_s = Vec::with_capacity(raw.len());
     let mut first = None;
     let mut last = f64::NEG_INFINITY;
-    let told = |row: usize, problem: String, mend: &str| {
-        Err(Error::input(&table.path, problem, mend).at_line(table.line_of(row)).in_column("t_s"))
+    let told = |row: usize, problem: String, fix: &str| {
+        Err(Error::input(&table.path, problem, fix).at_line(table.line_of(row)).in_column("t_s"))
     };
     for (row, value) in raw.iter().enumerate() {
         let Ok(value) = value else {

@@ -45,8 +45,8 @@ impl<'a> Source<'a> {
     }
 
     /// A mistake at a place in the file.
-    pub fn error(self, span: Option<Range<usize>>, problem: impl Into<String>, mend: impl Into<String>) -> Error {
-        let error = Error::input(self.path, problem, mend);
+    pub fn error(self, span: Option<Range<usize>>, problem: impl Into<String>, fix: impl Into<String>) -> Error {
+        let error = Error::input(self.path, problem, fix);
         match span {
             Some(span) => error.at_line(1 + self.text.bytes().take(span.start).filter(|b| *b == b'\n').count()),
             None => error,
@@ -78,25 +78,25 @@ impl<'a> Section<'a> {
     }
 
     /// A mistake about the table as a whole.
-    pub fn error(&self, problem: impl Into<String>, mend: impl Into<String>) -> Error {
-        self.source.error(self.span.map(|(start, end)| start..end), problem, mend)
+    pub fn error(&self, problem: impl Into<String>, fix: impl Into<String>) -> Error {
+        self.source.error(self.span.map(|(start, end)| start..end), problem, fix)
     }
 
     /// A mistake about one of its keys.
-    pub fn key_error(&self, key: &str, problem: impl Into<String>, mend: impl Into<String>) -> Error {
+    pub fn key_error(&self, key: &str, problem: impl Into<String>, fix: impl Into<String>) -> Error {
         let span = self.table.get_key_value(key).and_then(|(k, item)| k.span().or_else(|| item.span()));
-        self.source.error(span, problem, mend).in_column(key)
+        self.source.error(span, problem, fix).in_column(key)
     }
 
     /// Refuses a key that is not one of these, naming the nearest that is.
     pub fn only_keys(&self, known: &[&str]) -> Result<()> {
         let unknown = self.table.iter().find(|(key, _)| !known.contains(key));
         unknown.map_or(Ok(()), |(key, _)| {
-            let mend = match nearest(key, known.iter().copied()) {
+            let fix = match nearest(key, known.iter().copied()) {
                 Some(near) => format!("Did you mean `{near}`?"),
                 None => format!("Known here: {}", known.join(", ")),
             };
-            Err(self.key_error(key, format!("unknown key in {}", self.title), mend))
+            Err(self.key_error(key, format!("unknown key in {}", self.title), fix))
         })
     }
 

@@ -8,13 +8,13 @@ mod signals;
 use super::markup::Markup;
 use super::model::Report;
 use super::number::{num, percent, percents};
+use super::phrases;
 use super::picture::Pictures;
-use super::words;
 use crate::vocabulary::Verdict;
 
 /// The whole page.
 pub fn html(report: &Report, pictures: &Pictures) -> String {
-    page(&format!("{}: {}", subject(report), words::verdict(report.verdict)), |m| {
+    page(&format!("{}: {}", subject(report), phrases::verdict(report.verdict)), |m| {
         head(m, report);
         notes::faults(m, report);
         gap::how_large(m, report);
@@ -68,21 +68,21 @@ fn head(m: &mut Markup, report: &Report) {
         m.within("p", &[("class", &"subject")], |m| {
             m.leaf(
                 "span",
-                &[("class", &format!("verdict {}", words::verdict(report.verdict)))],
-                words::verdict(report.verdict),
+                &[("class", &format!("verdict {}", phrases::verdict(report.verdict)))],
+                phrases::verdict(report.verdict),
             );
             m.text(&subject(report));
         });
-        m.leaf("h1", &[], &words::headline(report));
+        m.leaf("h1", &[], &phrases::headline(report));
         let found: Vec<_> = report.causes.iter().filter_map(|id| report.cause(id)).collect();
         let sure: Vec<_> =
-            found.iter().map(|w| format!("{} {}", words::title(report, &w.cause), percent(w.probability))).collect();
-        let sure = (!sure.is_empty()).then(|| format!("Probability: {}.", words::list(&sure)));
+            found.iter().map(|w| format!("{} {}", phrases::title(report, &w.cause), percent(w.probability))).collect();
+        let sure = (!sure.is_empty()).then(|| format!("Probability: {}.", phrases::list(&sure)));
         let alike = found.iter().filter_map(|w| {
-            let names = words::look_alikes(report, w)?;
-            Some(format!("This log cannot tell {} from {names}.", words::title(report, &w.cause)))
+            let names = phrases::look_alikes(report, w)?;
+            Some(format!("This log cannot tell {} from {names}.", phrases::title(report, &w.cause)))
         });
-        let lede = sure.into_iter().chain(words::change(report)).chain(alike).collect::<Vec<_>>().join(" ");
+        let lede = sure.into_iter().chain(phrases::change(report)).chain(alike).collect::<Vec<_>>().join(" ");
         if !lede.is_empty() {
             m.leaf("p", &[("class", &"lede")], &lede);
         }

@@ -45,7 +45,7 @@ pub fn identified_json(answer: &Answer) -> serde_json::Result<String> {
 pub(super) mod sample {
     use crate::identify::*;
 
-    fn number(key: &'static str, file: f64, together: f64, std: f64, word: Word) -> Number {
+    fn number(key: &'static str, file: f64, together: f64, std: f64, word: Identifiability) -> Number {
         let value = |value| Some(Value { value, std: Some(0.02 * value) });
         Number {
             key,
@@ -72,9 +72,9 @@ pub(super) mod sample {
             not_logged: vec!["currents"],
             guessed: vec![Guessed { key: "coulomb_v_N", value: 1.15 }],
             numbers: vec![
-                number("resistance_ohm", 5.0, 4.31, 0.02, Word::Identified),
-                number("emf_constant_V_s", 0.026, 0.0259, 0.01, Word::Combined),
-                number("coulomb_v_N", 0.0, 1.87, 0.4, Word::Weak),
+                number("resistance_ohm", 5.0, 4.31, 0.02, Identifiability::Identified),
+                number("emf_constant_V_s", 0.026, 0.0259, 0.01, Identifiability::Combined),
+                number("coulomb_v_N", 0.0, 1.87, 0.4, Identifiability::Weak),
             ],
             trade_offs: vec![
                 Together {

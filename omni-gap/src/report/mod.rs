@@ -5,6 +5,7 @@
 //! none is ever half-written. [`sensitivity_html()`] is a page of its own; [`validation`] does the same for a model laid
 //! over its recordings. Neither prose nor page computes anything: every sentence traces to a number in the report.
 
+mod decimate;
 mod horizons;
 mod html;
 mod identified;
@@ -12,16 +13,15 @@ mod instructions;
 mod markup;
 mod model;
 mod number;
+mod phrases;
 mod picture;
 #[cfg(test)]
 mod sample;
 mod scale;
 mod sensitivity;
-mod sound;
 mod terminal;
-mod thin;
+mod validate;
 pub mod validation;
-mod words;
 mod write;
 
 pub use html::html;

@@ -111,7 +111,8 @@ pub struct Fault {
     /// What is wrong.
     pub what: String,
     /// How to mend it.
-    pub mend: String,
+    #[serde(rename = "mend")]
+    pub fix: String,
 }
 
 impl From<&check::Fault> for Fault {
@@ -122,7 +123,7 @@ impl From<&check::Fault> for Fault {
             column: (!fault.signal.is_empty()).then(|| fault.signal.clone()),
             rows: Some([fault.lines.0, fault.lines.1]),
             what: fault.sentence.trim_end_matches('.').to_owned(),
-            mend: fault.mend.trim_end_matches('.').to_owned(),
+            fix: fault.fix.trim_end_matches('.').to_owned(),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Signals over time as line charts.
 
+use super::decimate::stretches;
 use super::markup::{Markup, Px};
 use super::scale::Scale;
-use super::thin::stretches;
 use crate::engine::findings::{SignalTrace, Traces};
 use crate::localise::validation::Signal;
 

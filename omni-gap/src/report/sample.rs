@@ -175,7 +175,7 @@ pub fn unfit_data() -> Report {
                 column: None,
                 rows: Some([2, 4801]),
                 what: "wheels 1 and 2 are swapped between speeds and voltages".into(),
-                mend: "swap w1_rad_s and w2_rad_s, or say so in columns.toml".into(),
+                fix: "swap w1_rad_s and w2_rad_s, or say so in columns.toml".into(),
             },
             Fault {
                 code: "clock_runs_back".into(),
@@ -183,7 +183,7 @@ pub fn unfit_data() -> Report {
                 column: Some("t_s".into()),
                 rows: Some([317, 317]),
                 what: "time falls from 1.580 to 1.560 s".into(),
-                mend: "sort the rows, or cut the run in two there".into(),
+                fix: "sort the rows, or cut the run in two there".into(),
             },
         ],
         ..named(Verdict::UnfitData)

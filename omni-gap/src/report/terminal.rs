@@ -2,7 +2,7 @@
 
 use super::model::{Fault, Report};
 use super::number::{NBSP, estimate, num, percent, percents};
-use super::words;
+use super::phrases;
 use super::write::Written;
 use crate::engine::findings::{Where, Which};
 use crate::vocabulary::Verdict;
@@ -17,7 +17,7 @@ const WORTH_A_LINE: f64 = 0.05;
 /// The report in plain text; with the paths of the files where they were written.
 pub fn terminal(report: &Report, files: Option<&Written>) -> String {
     let mut page = Page(String::new());
-    page.line("", &words::headline(report));
+    page.line("", &phrases::headline(report));
     page.0.push('\n');
     report.faults.iter().for_each(|f| fault(&mut page, f));
     where_(&mut page, report);
@@ -29,7 +29,7 @@ pub fn terminal(report: &Report, files: Option<&Written>) -> String {
     }
     if let Some(next) = &report.next_experiment {
         let file = next.file.as_ref().map(|f| format!(" ({f})")).unwrap_or_default();
-        page.line("next", &format!("{}{file}", words::open_ended(&next.why)));
+        page.line("next", &format!("{}{file}", phrases::open_ended(&next.why)));
     }
     for (n, notice) in report.notices.iter().enumerate() {
         page.line(if n == 0 { "notice" } else { "" }, notice);
@@ -43,8 +43,8 @@ pub fn terminal(report: &Report, files: Option<&Written>) -> String {
 }
 
 fn fault(page: &mut Page, fault: &Fault) {
-    page.line("fault", &format!("{}{}.", place_in_log(fault), words::open_ended(&fault.what)));
-    page.line("", &format!("To mend it: {}.", words::open_ended(&fault.mend)));
+    page.line("fault", &format!("{}{}.", place_in_log(fault), phrases::open_ended(&fault.what)));
+    page.line("", &format!("To mend it: {}.", phrases::open_ended(&fault.fix)));
 }
 
 /// "runs/01.csv, lines 2 to 4801, column t_s: "
@@ -66,7 +66,8 @@ fn where_(page: &mut Page, report: &Report) {
     places.sort_by(|a, b| b.share.total_cmp(&a.share));
     let Some((first, rest)) = places.split_first() else { return };
     let regime = first.regime.as_ref().map(|r| format!("; {} of it where {}", percent(r.share), r.text));
-    let told = |w: &Where| format!("{}{}: {}", words::stage(w.stage), words::spot(w.wheel, w.axis), percent(w.share));
+    let told =
+        |w: &Where| format!("{}{}: {}", phrases::stage(w.stage), phrases::spot(w.wheel, w.axis), percent(w.share));
     page.line("where", &format!("{} of the gap{}", told(first), regime.unwrap_or_default()));
     let rest: Vec<_> = rest.iter().filter(|w| w.share >= WORTH_A_LINE).map(|w| told(w)).collect();
     if !rest.is_empty() {
@@ -79,8 +80,8 @@ fn which(page: &mut Page, report: &Report) {
         return;
     }
     let told = |w: &Which| {
-        let at = words::spot(w.wheel, w.axis);
-        format!("{}{at}: probability {}", words::title(report, &w.cause), percent(w.probability))
+        let at = phrases::spot(w.wheel, w.axis);
+        format!("{}{at}: probability {}", phrases::title(report, &w.cause), percent(w.probability))
     };
     let mut label = "which";
     let (answers, others): (Vec<&Which>, Vec<&Which>) =
@@ -92,7 +93,7 @@ fn which(page: &mut Page, report: &Report) {
             fitted.map(|(k, p)| format!("{k}{NBSP}{}", estimate(p.value, p.std, &p.unit))).collect();
         let parameters = if parameters.is_empty() { String::new() } else { format!("; {}", parameters.join(", ")) };
         page.line(std::mem::take(&mut label), &format!("{}{parameters}", told(w)));
-        if let Some(alike) = words::look_alikes(report, w) {
+        if let Some(alike) = phrases::look_alikes(report, w) {
             let settle = w.settle_by.as_ref().map(|s| format!("; settle it by: {s}")).unwrap_or_default();
             page.line("", &format!("not told apart from {alike}{settle}"));
         }

@@ -5,15 +5,15 @@
 
 mod curves;
 mod page;
+mod phrases;
 mod run;
 #[cfg(test)]
 mod sample;
 mod terminal;
-mod words;
 
 pub use page::html;
+pub use phrases::headline;
 pub use terminal::terminal;
-pub use words::headline;
 
 #[cfg(doc)]
 use crate::localise::validation::Validation;

@@ -1,6 +1,6 @@
 //! A run that must be able to drive a model, or one message that says why it cannot.
 
-use super::recorded::Recorded;
+use super::aligned_run::AlignedRun;
 use crate::error::{Error, Result};
 use crate::log::{RobotFile, Run};
 
@@ -8,8 +8,8 @@ use crate::log::{RobotFile, Run};
 ///
 /// # Errors
 /// Where nothing in the run can drive a model.
-pub fn drivable<const N: usize>(run: &Run, robot: &RobotFile) -> Result<Recorded<N>> {
-    Recorded::new(run, robot).ok_or_else(|| {
+pub fn drivable<const N: usize>(run: &Run, robot: &RobotFile) -> Result<AlignedRun<N>> {
+    AlignedRun::new(run, robot).ok_or_else(|| {
         let problem = "nothing in it can drive a model: no voltage, signed current, wheel speed or commanded speed";
         Error::input(run.place(), problem, "Log at least one of u, i, w or wset for every wheel")
     })

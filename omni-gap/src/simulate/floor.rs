@@ -2,8 +2,8 @@
 
 use model_core::geometry::frames::{BodyTwist, Pose};
 
+use super::aligned_run::LONGEST_STEP_S;
 use super::model::Model;
-use super::recorded::LONGEST_STEP_S;
 use super::script::Script;
 
 /// The box around everywhere a robot goes, seen from where it starts and the way it looks then.

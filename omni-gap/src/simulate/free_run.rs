@@ -7,15 +7,15 @@ use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::{Input, Plant, Reading, State};
 
+use super::aligned_run::AlignedRun;
 use super::effort;
-use super::recorded::Recorded;
 use super::start::start_at;
 
 /// A plant on its way along a recording.
 #[derive(Debug)]
 pub struct FreeRun<'a, const N: usize, T: Real> {
     plant: &'a Plant<N, T>,
-    run: &'a Recorded<N>,
+    run: &'a AlignedRun<N>,
     state: State<N, T>,
     memory: Vec<EffectState<T>>,
     steps_taken: u64,
@@ -32,7 +32,7 @@ pub struct RowPassed<const N: usize, T: Real> {
 
 impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
     /// At rest where the world begins, with nothing remembered.
-    pub fn new(plant: &'a Plant<N, T>, run: &'a Recorded<N>) -> Self {
+    pub fn new(plant: &'a Plant<N, T>, run: &'a AlignedRun<N>) -> Self {
         let state = plant.start(T::zero(), Pose::default(), BodyTwist::default());
         Self { plant, run, state, memory: plant.memory().collect(), steps_taken: 0 }
     }
@@ -91,7 +91,7 @@ impl<const N: usize, T: Real> Drop for FreeRun<'_, N, T> {
 /// ascend; `input` drives it, and `each` takes what it says on each row.
 pub fn free_run<const N: usize>(
     plant: &Plant<N, f64>,
-    run: &Recorded<N>,
+    run: &AlignedRun<N>,
     restarts: &[usize],
     input: impl Fn(usize) -> Input<N, f64>,
     mut each: impl FnMut(usize, &RowPassed<N, f64>),

@@ -39,7 +39,7 @@ impl Halls {
     }
 
     /// What the drive tells now [rad/s]: a new interval's speed with its noise [rad/s], or the one told before.
-    pub fn told(&mut self, noise: f64) -> f64 {
+    pub fn read(&mut self, noise: f64) -> f64 {
         if self.fresh {
             self.held = self.speed + noise;
             self.fresh = false;
@@ -59,7 +59,7 @@ mod tests {
             for k in 0..2000 {
                 halls.turn(f64::from(k) * 1e-4, speed, 1e-4, 240.0);
             }
-            assert!((halls.told(0.0) - speed).abs() < 1e-9, "{}", halls.told(0.0));
+            assert!((halls.read(0.0) - speed).abs() < 1e-9, "{}", halls.read(0.0));
         }
     }
 
@@ -69,6 +69,6 @@ mod tests {
         for (k, speed) in [3.0, 3.0, -3.0, -3.0].into_iter().enumerate() {
             halls.turn(k as f64, speed, 1.0, 1.0);
         }
-        assert_eq!(halls.told(0.0), 0.0);
+        assert_eq!(halls.read(0.0), 0.0);
     }
 }

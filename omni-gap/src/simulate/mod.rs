@@ -1,11 +1,12 @@
 //! # Simulate: what a model says happens
 //!
 //! Pure: the same model, input and seed give the same run, bit for bit. A [`Model`] is what files describe; a
-//! [`Recorded`] run is a recording laid out row by row for the plant; [`predict`] lets the one run freely beside the
+//! [`AlignedRun`] run is a recording laid out row by row for the plant; [`predict`] lets the one run freely beside the
 //! other, restarted every horizon from a [`Start`] that no model had a part in; [`record`] makes a recording of a robot
 //! that is not there, and [`excite`] tells it what to do. [`sensitivity()`] says which numbers of a file the motion depends
 //! on.
 
+mod aligned_run;
 mod drivable;
 mod effort;
 mod excite;
@@ -17,13 +18,13 @@ mod limits;
 mod model;
 mod predict;
 mod record;
-mod recorded;
 mod script;
 mod sensing;
 mod sensitivity;
 mod start;
 mod terms;
 
+pub use aligned_run::{AlignedRun, Chain, Channels, MAX_CHANNELS, Row, supply_seen};
 pub use drivable::drivable;
 pub use effort::steps_taken;
 pub use excite::{Excitation, excite};
@@ -31,10 +32,9 @@ pub use floor::{Floor, floor_of};
 pub use free_run::{FreeRun, RowPassed, free_run};
 pub use keys::{NOMINAL_KEYS, NominalKey};
 pub use limits::{Allowed, Lowered, USUAL_FIELD, allowed, usual_voltage};
-pub use model::{Carried, Model, Slot, robot_of};
+pub use model::{EffectInstance, Model, Slot, robot_of};
 pub use predict::{HORIZON_S, Prediction, predict, restart_rows};
-pub use record::{Recording, SpeedSensor, record};
-pub use recorded::{Chain, Channels, MAX_CHANNELS, Recorded, Row, supply_seen};
+pub use record::{SensorSetup, SpeedSensor, record};
 pub use script::{AXES, Experiment, Plan, Script, along, scripts};
 pub use sensing::Sensing;
 pub use sensitivity::{AxisSensitivity, CurvePoint, Influence, PAPER_VOLTAGE, Sensitivity, StepPlan, sensitivity};

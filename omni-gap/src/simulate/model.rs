@@ -15,7 +15,7 @@ use crate::log::RobotFile;
 
 /// An effect in a model.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Carried {
+pub struct EffectInstance {
     /// Its page.
     pub id: &'static str,
     /// The wheel that it sits on alone; `None`: on all, or on the robot.
@@ -24,7 +24,7 @@ pub struct Carried {
     pub params: Vec<f64>,
 }
 
-impl Carried {
+impl EffectInstance {
     /// The effect at its typical size.
     pub fn typical(card: &'static Card, wheel: Option<usize>) -> Self {
         Self { id: card.id, wheel, params: card.params.iter().map(|p| p.typical).collect() }
@@ -53,7 +53,7 @@ pub struct Model<const N: usize> {
     /// Factors on the nominal values, in the order of [`Nominal::ALL`].
     pub factor: [f64; Nominal::COUNT],
     /// The effects, in the order of the catalogue.
-    pub effects: Vec<Carried>,
+    pub effects: Vec<EffectInstance>,
 }
 
 /// The plain robot of a file, in any number type.
@@ -93,7 +93,7 @@ impl<const N: usize> Model<N> {
             let Some(effect) = EffectKind::find(&entry.id) else { continue };
             let card = effect.card();
             let params = card.params.iter().map(|p| entry.params.get(p.key).copied().unwrap_or(p.typical)).collect();
-            model.carry(Carried { id: card.id, wheel: entry.wheel, params });
+            model.add_effect(EffectInstance { id: card.id, wheel: entry.wheel, params });
         }
         model
     }
@@ -104,7 +104,7 @@ impl<const N: usize> Model<N> {
     }
 
     /// Adds an effect at its place in the order of the catalogue, and returns that place.
-    pub fn carry(&mut self, effect: Carried) -> usize {
+    pub fn add_effect(&mut self, effect: EffectInstance) -> usize {
         let order = |id: &str| EffectKind::ALL.iter().position(|e| e.id() == id);
         let at = self.effects.partition_point(|e| order(e.id) <= order(effect.id));
         self.effects.insert(at, effect);

@@ -4,8 +4,8 @@
 
 use model_core::plant::Plant;
 
+use super::aligned_run::{AlignedRun, MAX_CHANNELS, Row};
 use super::free_run::free_run;
-use super::recorded::{MAX_CHANNELS, Recorded, Row};
 
 /// Time between restarts of the free runs by which a gap is measured [s]
 pub const HORIZON_S: f64 = 0.5;
@@ -37,7 +37,7 @@ pub fn restart_rows(t: &[f64], horizon: f64) -> Vec<usize> {
 }
 
 /// Lets the plant run freely along a recording, restarted every `horizon` [s].
-pub fn predict<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon: f64) -> Prediction {
+pub fn predict<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horizon: f64) -> Prediction {
     let restarts = restart_rows(&run.t, horizon);
     let mut rows = Vec::with_capacity(run.rows());
     let (mut gyro, mut bus) = (Vec::with_capacity(run.rows()), Vec::with_capacity(run.rows()));
@@ -57,7 +57,7 @@ pub fn predict<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>, horizon
 
 impl Prediction {
     /// Sum of squared errors [σ²] and their number, per group `i`, `w`, `pose`.
-    pub fn squares<const N: usize>(&self, run: &Recorded<N>) -> [(f64, f64); 3] {
+    pub fn squares<const N: usize>(&self, run: &AlignedRun<N>) -> [(f64, f64); 3] {
         let mut sums = [(0.0, 0.0); 3];
         for (row, predicted) in self.rows.iter().enumerate() {
             for c in 0..MAX_CHANNELS.min(2 * N + 3) {

@@ -11,7 +11,7 @@ use crate::log::{Channel, Group, Missing, Run, SensorsFile, retimed};
 
 /// How a recording is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Recording {
+pub struct SensorSetup {
     /// Plant steps in a row of mean length; a longer row takes as many more.
     pub steps_a_row: usize,
     /// Camera frames a second [1/s]; a row gets a pose when a frame has come since the row before
@@ -40,7 +40,7 @@ pub enum SpeedSensor {
     },
 }
 
-impl Default for Recording {
+impl Default for SensorSetup {
     /// What a diagnosis is staged with: ten plant steps a row, a camera of 60 frames a second that loses some, encoders.
     fn default() -> Self {
         Self {
@@ -63,7 +63,7 @@ pub fn record<const N: usize>(
     name: &str,
     t: &[f64],
     input: &[Input<N, f64>],
-    how: &Recording,
+    how: &SensorSetup,
     seed: u64,
 ) -> Run {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -92,7 +92,7 @@ pub fn record<const N: usize>(
             match how.speed {
                 SpeedSensor::None => {}
                 SpeedSensor::Encoder => w[j].push(reading.wheel_speed[j] + speed_noise),
-                SpeedSensor::Halls { .. } => w[j].push(halls[j].told(speed_noise)),
+                SpeedSensor::Halls { .. } => w[j].push(halls[j].read(speed_noise)),
             }
         }
         let mut turn = |reading: &Reading<N, f64>, k: usize| {

@@ -1,6 +1,6 @@
 //! How a robot is measured: as the paper measured, as a modern robot does, and with hall sensors alone.
 
-use super::record::{Recording, SpeedSensor};
+use super::record::{SensorSetup, SpeedSensor};
 use crate::log::SensorsFile;
 
 /// A way of measuring.
@@ -39,8 +39,8 @@ impl Sensing {
     }
 
     /// How recordings are made so: plant steps of 0.25 ms, ten times shorter than the longest of a fit.
-    pub fn recording(self) -> Recording {
-        let modern = Recording {
+    pub fn recording(self) -> SensorSetup {
+        let modern = SensorSetup {
             steps_a_row: 4,
             camera_rate: 80.0,
             dropouts: 0.03,
@@ -54,7 +54,7 @@ impl Sensing {
             speed: SpeedSensor::Encoder,
         };
         match self {
-            Self::Paper => Recording {
+            Self::Paper => SensorSetup {
                 steps_a_row: 160,
                 camera_rate: 25.0,
                 dropouts: 0.0,
@@ -63,7 +63,7 @@ impl Sensing {
                 ..modern
             },
             Self::Modern => modern,
-            Self::Halls => Recording { speed: SpeedSensor::Halls { edges_per_turn: HALL_EDGES }, ..modern },
+            Self::Halls => SensorSetup { speed: SpeedSensor::Halls { edges_per_turn: HALL_EDGES }, ..modern },
         }
     }
 }

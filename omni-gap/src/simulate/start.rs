@@ -6,7 +6,7 @@
 use model_core::geometry::frames::{BodyTwist, Pose, WorldTwist};
 use model_core::plant::{Plant, Reading, State};
 
-use super::recorded::Recorded;
+use super::aligned_run::AlignedRun;
 
 const SPEED_HALF_S: f64 = 0.050;
 const POSE_HALF_S: f64 = 0.100;
@@ -71,7 +71,7 @@ fn smooth(t: &[f64], row: usize, half: f64, sample: impl Fn(usize) -> Option<f64
 }
 
 /// The smoothed measurement at a row.
-pub fn start_at<const N: usize>(run: &Recorded<N>, row: usize) -> Start<N> {
+pub fn start_at<const N: usize>(run: &AlignedRun<N>, row: usize) -> Start<N> {
     let t = &run.t;
     let channel = |c: usize, half: f64| smooth(t, row, half, move |k| run.saw(k, c).then(|| run.measured[k][c]));
     let mut wheel_speed = Some([0.0; N]);

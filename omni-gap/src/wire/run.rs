@@ -60,9 +60,9 @@ fn turns_since(records: &[TelemetryRecord], at: usize) -> f64 {
 pub fn run(capture: &Capture, source: &Source, name: &str, wheels: usize) -> Result<Run> {
     let records = &capture.records;
     if capture.good_frames() == 0 {
-        let mend = "Check that it is a robot's link, and --baud for a serial line";
+        let fix = "Check that it is a robot's link, and --baud for a serial line";
         let found = if capture.bad_frames() == 0 { "nothing came" } else { "bytes came, but no whole frame" };
-        return Err(source.error(found, mend));
+        return Err(source.error(found, fix));
     }
     let Some(hello) = capture.hello(0) else {
         let problem =
@@ -87,7 +87,7 @@ pub fn run(capture: &Capture, source: &Source, name: &str, wheels: usize) -> Res
         (next..*row).for_each(|_| channels.lost());
         let Some(hello) = capture.hello(k) else { break };
         let after = records.get(k + 1).filter(|after| after.sequence == records[k].sequence.wrapping_add(1));
-        channels.told(hello, &records[k], after);
+        channels.note_events(hello, &records[k], after);
         next = row + 1;
     }
     let t_s: Vec<f64> = t_s.into_iter().take(channels.enable.len()).collect();
@@ -150,7 +150,7 @@ impl Channels {
     }
 
     /// A row: its record, and the one that follows at once.
-    fn told(&mut self, hello: &Hello, record: &TelemetryRecord, after: Option<&TelemetryRecord>) {
+    fn note_events(&mut self, hello: &Hello, record: &TelemetryRecord, after: Option<&TelemetryRecord>) {
         let calibration = calibration(hello);
         for (wheel, (u, i)) in self.u.iter_mut().zip(&mut self.i).enumerate() {
             match after {

@@ -105,22 +105,22 @@ impl Source {
                 Err(why) => Err(self.error(why.to_string(), "Check the file's permissions")),
             },
             Source::Tcp(address) => {
-                let mend = "Write tcp:HOST:PORT, and start what listens there first";
-                let stream = TcpStream::connect(address).map_err(|why| self.error(why.to_string(), mend))?;
-                stream.set_read_timeout(Some(LOOK)).map_err(|why| self.error(why.to_string(), mend))?;
+                let fix = "Write tcp:HOST:PORT, and start what listens there first";
+                let stream = TcpStream::connect(address).map_err(|why| self.error(why.to_string(), fix))?;
+                stream.set_read_timeout(Some(LOOK)).map_err(|why| self.error(why.to_string(), fix))?;
                 Ok(Box::new(stream))
             }
             Source::Serial(path) => {
                 let port = serialport::new(path.to_string_lossy(), baud).timeout(LOOK).open();
-                let mend = "Check the device's name, that you may use it, and --baud";
-                Ok(Box::new(port.map_err(|why| self.error(why.to_string(), mend))?))
+                let fix = "Check the device's name, that you may use it, and --baud";
+                Ok(Box::new(port.map_err(|why| self.error(why.to_string(), fix))?))
             }
         }
     }
 
     /// A mistake about this source.
-    pub fn error(&self, problem: impl Into<String>, mend: impl Into<String>) -> Error {
-        Error::input(&self.place(), problem, mend)
+    pub fn error(&self, problem: impl Into<String>, fix: impl Into<String>) -> Error {
+        Error::input(&self.place(), problem, fix)
     }
 }
 

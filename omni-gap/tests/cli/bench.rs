@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use omni_gap::known_effects;
-use omni_gap::stage::{Stage, stage};
+use omni_gap::synthesize::{Scenario, synthesize};
 
 /// The robot of all tests here.
 pub const ROBOT: &str = include_str!("../../../examples/feup-4w/robot.toml");
@@ -35,8 +35,8 @@ impl Bench {
     /// A folder with a small session in `session`.
     pub fn with_session() -> Bench {
         let bench = Bench::empty();
-        let plan = Stage { runs: 3, duration: 2.0, rate: 100.0, ..Stage::default() };
-        let staged = stage(ROBOT, &plan, &known_effects()).expect("a sound stage");
+        let plan = Scenario { runs: 3, duration: 2.0, rate: 100.0, ..Scenario::default() };
+        let staged = synthesize(ROBOT, &plan, &known_effects()).expect("a sound stage");
         bench.write("session/robot.toml", &staged.robot_text);
         for run in &staged.runs {
             let mut text = Vec::new();

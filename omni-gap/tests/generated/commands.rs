@@ -65,7 +65,7 @@ fn sound_report(bench: &Bench, file: &str) -> Result<(), TestCaseError> {
         return Ok(());
     }
     let report: Report = serde_json::from_str(&bench.read(file)).map_err(|why| TestCaseError::fail(why.to_string()))?;
-    match report.unsound() {
+    match report.violations() {
         found if found.is_empty() => Ok(()),
         found => Err(TestCaseError::fail(format!("{file}: {found:?}"))),
     }

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use model_core::effects::EffectKind;
 use omni_gap::known_effects;
-use omni_gap::stage::{Stage, stage};
+use omni_gap::synthesize::{Scenario, synthesize};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -109,8 +109,8 @@ pub fn spoiled() -> impl Strategy<Value = Spoiled> {
 static SOUND: LazyLock<[Texts; 2]> = LazyLock::new(|| {
     [include_str!("../../../examples/feup-4w/robot.toml"), include_str!("../../../examples/feup-3w/robot.toml")].map(
         |robot| {
-            let plan = Stage { runs: 2, duration: 1.5, rate: 100.0, ..Stage::default() };
-            let staged = stage(robot, &plan, &known_effects()).expect("the examples are sound");
+            let plan = Scenario { runs: 2, duration: 1.5, rate: 100.0, ..Scenario::default() };
+            let staged = synthesize(robot, &plan, &known_effects()).expect("the examples are sound");
             let text = |k: usize| {
                 let mut text = Vec::new();
                 staged.runs[k].write_csv(&mut text).expect("memory takes all");

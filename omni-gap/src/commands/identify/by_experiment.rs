@@ -7,21 +7,21 @@ use omni_gap::log::{corrected, write_whole};
 use omni_gap::report::{identified_json, identified_terminal};
 use omni_gap::simulate::Experiment;
 
-use super::super::{DONE, Done, Voice, place};
+use super::super::{Console, DONE, Done, output_path};
 use super::Identify;
 
 /// Does it.
-pub fn run(asked: Asked, with: &Identify, voice: &Voice) -> Done {
+pub fn run(asked: Asked, with: &Identify, console: &Console) -> Done {
     let robot = with.session.robot_path();
     if let Some(json) = &with.json {
-        place::file(json, &[&robot])?;
+        output_path::file(json, &[&robot])?;
         if *json == with.out {
             let told = "it is named by --json and by --out";
             return Err(Error::output(json, told, "Name two files").into());
         }
     }
-    let session = with.session.load(voice)?;
-    voice.phase("fitting the numbers to the experiments");
+    let session = with.session.load(console)?;
+    console.phase("fitting the numbers to the experiments");
     let answer = api::identify_by_experiment(asked, &session, &with.session.runs_path())?;
     let text = corrected(&session.robot_text, &answer.changes(&session.robot))?;
     let mut said = identified_terminal(&answer);
@@ -33,7 +33,7 @@ pub fn run(asked: Asked, with: &Identify, voice: &Voice) -> Done {
     }
     write_whole(&with.out, text.as_bytes())?;
     said += &format!("{:12}{}\n", "robot file", with.out.display());
-    voice.say(&said)?;
+    console.say(&said)?;
     Ok(DONE)
 }
 

@@ -5,8 +5,8 @@ use model_core::effects::card::{Card, Param, Role, Scope};
 use model_core::plant::robot::Nominal;
 
 use crate::engine::knobs::ScreenKnobs;
-use crate::identify::{Prior, Release};
-use crate::simulate::Carried;
+use crate::identify::{FreedPrior, Prior};
+use crate::simulate::EffectInstance;
 
 /// A cause that a report can name.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +14,7 @@ pub enum Cause {
     /// An effect of the catalogue, on one wheel or on all (or on the robot).
     Effect(&'static Card, Option<usize>),
     /// A nominal value that is wrong.
-    Parameter(Release),
+    Parameter(FreedPrior),
 }
 
 impl Cause {
@@ -64,26 +64,26 @@ pub struct Candidate {
     /// The wheel, if on one alone.
     pub wheel: Option<usize>,
     /// Parameter sets to look at, all of them real effects.
-    pub trials: Vec<Carried>,
+    pub trials: Vec<EffectInstance>,
 }
 
 /// Every nominal value that can be plainly wrong; friction on all axes together and on each alone.
-pub fn releases() -> Vec<Release> {
-    let mut all: Vec<Release> = Vec::new();
+pub fn freed_priors() -> Vec<FreedPrior> {
+    let mut all: Vec<FreedPrior> = Vec::new();
     for p in Nominal::ALL {
-        let whole = Release { cause: p.cause(), axis: None };
+        let whole = FreedPrior { cause: p.cause(), axis: None };
         if !all.contains(&whole) {
             all.push(whole);
         }
         if let Some(axis) = p.axis() {
-            all.push(Release { cause: p.cause(), axis: Some(axis) });
+            all.push(FreedPrior { cause: p.cause(), axis: Some(axis) });
         }
     }
     all
 }
 
 /// Every effect that is not in the nominal model already.
-pub fn candidates<const N: usize>(present: &[Carried], knobs: &ScreenKnobs) -> Vec<Candidate> {
+pub fn candidates<const N: usize>(present: &[EffectInstance], knobs: &ScreenKnobs) -> Vec<Candidate> {
     let mut all = Vec::new();
     for effect in &EffectKind::ALL {
         let card = effect.card();
@@ -106,14 +106,14 @@ pub fn candidates<const N: usize>(present: &[Carried], knobs: &ScreenKnobs) -> V
 
 /// Parameter sets that span what the effect can look like: each size at its typical departure from absent, the others
 /// absent; if `thorough` also at multiples of that, and each shape at a few values.
-fn trials(card: &'static Card, wheel: Option<usize>, thorough: bool, knobs: &ScreenKnobs) -> Vec<Carried> {
+fn trials(card: &'static Card, wheel: Option<usize>, thorough: bool, knobs: &ScreenKnobs) -> Vec<EffectInstance> {
     let base: Vec<f64> = card.params.iter().map(|p| if p.role == Role::Size { p.absent } else { p.typical }).collect();
     let with = |changes: &[(usize, f64)]| {
         let mut params = base.clone();
         for (k, x) in changes {
             params[*k] = x.clamp(card.params[*k].within.0, card.params[*k].within.1);
         }
-        Carried { id: card.id, wheel, params }
+        EffectInstance { id: card.id, wheel, params }
     };
     let sizes: Vec<usize> = (0..card.params.len()).filter(|k| card.params[*k].role == Role::Size).collect();
     let mut all = Vec::new();
@@ -136,7 +136,7 @@ fn trials(card: &'static Card, wheel: Option<usize>, thorough: bool, knobs: &Scr
         all.push(with(&[(s, shape.typical + away)]));
     }
     if all.is_empty() {
-        all.push(Carried::typical(card, wheel));
+        all.push(EffectInstance::typical(card, wheel));
     }
     all
 }

@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::engine::findings::{Gap, HorizonError, Shrink, SignalGap};
 use crate::engine::knobs::MeasureKnobs;
 use crate::localise::{GROUPS, Measured, floor, measure};
-use crate::simulate::Recorded;
+use crate::simulate::AlignedRun;
 
 /// The plants that are measured against each other.
 #[derive(Debug)]
@@ -23,7 +23,11 @@ pub(super) struct Plants<const N: usize> {
 }
 
 /// The gap of each signal group, and how far it closes.
-pub(super) fn shrink<const N: usize>(plants: &Plants<N>, held: &[&Recorded<N>], knobs: &MeasureKnobs) -> (Gap, Shrink) {
+pub(super) fn shrink<const N: usize>(
+    plants: &Plants<N>,
+    held: &[&AlignedRun<N>],
+    knobs: &MeasureKnobs,
+) -> (Gap, Shrink) {
     let MeasureKnobs { horizon_s: horizon, smallest_room_sigma: too_small, .. } = *knobs;
     let Plants { nominal, corrected, refitted, runner_up } = plants;
     let before = measure(nominal, held, horizon);
@@ -70,7 +74,7 @@ fn interval(before: &Measured, after: &Measured, least: &Measured, knobs: &Measu
 }
 
 /// Total error at each horizon.
-fn curves<const N: usize>(plants: &Plants<N>, held: &[&Recorded<N>], knobs: &MeasureKnobs) -> Vec<HorizonError> {
+fn curves<const N: usize>(plants: &Plants<N>, held: &[&AlignedRun<N>], knobs: &MeasureKnobs) -> Vec<HorizonError> {
     let Plants { nominal, corrected, .. } = plants;
     let longest = held.iter().filter_map(|r| r.t.last()).fold(0.0, |most: f64, t| most.max(*t));
     knobs

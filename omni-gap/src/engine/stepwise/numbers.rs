@@ -7,7 +7,7 @@ use model_core::plant::robot::Nominal;
 use super::candidate::Cause;
 use super::search::Search;
 use crate::engine::findings::{Corrected, Estimate, FileChanges};
-use crate::identify::{Fit, Release};
+use crate::identify::{Fit, FreedPrior};
 use crate::log::{Change, EffectEntry, RobotFile};
 use crate::simulate::{Model, NOMINAL_KEYS, NominalKey, Slot};
 
@@ -40,7 +40,7 @@ pub(super) fn of_cause<const N: usize>(cause: &Cause, fit: &Fit<N>, robot: &Robo
 }
 
 /// The robot file's numbers that a parameter cause speaks of.
-pub(super) fn own_keys(release: Release) -> impl Iterator<Item = &'static NominalKey> {
+pub(super) fn own_keys(release: FreedPrior) -> impl Iterator<Item = &'static NominalKey> {
     let own = move |p: &Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
     NOMINAL_KEYS.iter().filter(move |key| key.factors.iter().any(own))
 }

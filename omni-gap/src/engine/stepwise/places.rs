@@ -9,7 +9,7 @@ use super::settle::stage_of;
 use crate::engine::findings::{Regime, Where};
 use crate::engine::knobs::PlacesKnobs;
 use crate::localise::{Hotspot, Link, links, regimes};
-use crate::simulate::{Model, Prediction, Recorded, predict};
+use crate::simulate::{AlignedRun, Model, Prediction, predict};
 use crate::vocabulary::{Axis, Stage};
 
 /// The places of the gap, the largest first.
@@ -29,9 +29,9 @@ pub(super) fn places<const N: usize>(search: &Search<N>, nominal: &Model<N>, dat
             shares[s] += share * weights[s] / total;
         }
     }
-    let predictions: Vec<(&Recorded<N>, Prediction)> =
+    let predictions: Vec<(&AlignedRun<N>, Prediction)> =
         data.held.iter().map(|run| (*run, predict(&plant, run, horizon))).collect();
-    let pairs: Vec<(&Recorded<N>, &Prediction)> = predictions.iter().map(|(r, p)| (*r, p)).collect();
+    let pairs: Vec<(&AlignedRun<N>, &Prediction)> = predictions.iter().map(|(r, p)| (*r, p)).collect();
     let (wheel, axis) = standing_out(&pairs, model, knobs);
     let hot = regimes(&pairs, &knobs.regime).into_iter().next();
     let mut places: Vec<Where> = (0..5)
@@ -46,12 +46,12 @@ pub(super) fn places<const N: usize>(search: &Search<N>, nominal: &Model<N>, dat
     if let Some(first) = places.first_mut() {
         first.wheel = search.found.first().and_then(|f| f.cause.wheel()).or(wheel.filter(|_| search.found.is_empty()));
         first.axis = if first.wheel.is_none() { axis } else { None };
-        first.regime = hot.map(told);
+        first.regime = hot.map(regime);
     }
     places
 }
 
-fn told(spot: Hotspot) -> Regime {
+fn regime(spot: Hotspot) -> Regime {
     Regime { feature: spot.feature.to_owned(), low: spot.low, high: spot.high, share: spot.share, text: spot.text }
 }
 
@@ -90,7 +90,7 @@ fn stage_weights<const N: usize>(search: &Search<N>, data: &Data<'_, N>) -> [f64
 
 /// The wheel whose current and speed, and the axis whose velocity, hold most of the error.
 fn standing_out<const N: usize>(
-    runs: &[(&Recorded<N>, &Prediction)],
+    runs: &[(&AlignedRun<N>, &Prediction)],
     model: &Model<N>,
     knobs: &PlacesKnobs,
 ) -> (Option<usize>, Option<Axis>) {

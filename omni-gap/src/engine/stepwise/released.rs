@@ -3,14 +3,14 @@
 use model_core::plant::robot::Nominal;
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::{Fit, FitSettings, Linearised, Prior, Release};
+use crate::identify::{Fit, FitSettings, FreedPrior, Linearised, Prior};
 use crate::simulate::Slot;
 
 /// A parameter cause and what the screen says of it.
 #[derive(Clone, Debug)]
 pub struct ScreenedRelease {
     /// The cause.
-    pub release: Release,
+    pub release: FreedPrior,
     /// Drop of the whole cost that striking out its statement promises.
     pub gain: f64,
     /// Where one linear step without the statement leads; none where the equations cannot be solved.
@@ -41,7 +41,7 @@ pub fn screen_releases<const N: usize>(
     fit: &Fit<N>,
     linear: &Linearised,
     prior: &Prior,
-    causes: &[Release],
+    causes: &[FreedPrior],
     settings: &FitSettings,
 ) -> Vec<ScreenedRelease> {
     let step = |release| one_step(fit, linear, &prior.without(release, settings.released_sigma));
@@ -66,7 +66,12 @@ fn one_step<const N: usize>(fit: &Fit<N>, linear: &Linearised, prior: &Prior) ->
 /// For every parameter cause, the drop of the whole cost that striking out its statement promises.
 ///
 /// With v the violations of the statements in question and K their leverage, the drop is vᵀ(1 − K)⁻¹v.
-fn gains<const N: usize>(fit: &Fit<N>, linear: &Linearised, prior: &Prior, causes: &[Release]) -> Vec<(Release, f64)> {
+fn gains<const N: usize>(
+    fit: &Fit<N>,
+    linear: &Linearised,
+    prior: &Prior,
+    causes: &[FreedPrior],
+) -> Vec<(FreedPrior, f64)> {
     let reduced = fit.reduced(linear, prior);
     let Some(hess) = reduced.hess.cholesky() else { return Vec::new() };
     let violations = prior.violations(&fit.model);

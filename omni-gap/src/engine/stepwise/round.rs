@@ -2,13 +2,13 @@
 
 use rayon::prelude::*;
 
-use super::candidate::{Cause, candidates, releases};
+use super::candidate::{Cause, candidates, freed_priors};
 use super::released::{ScreenedRelease, screen_releases};
 use super::scored::{Data, Scored};
 use super::screen::{Screened, screen};
 use crate::engine::knobs::ScreenKnobs;
 use crate::identify::Prior;
-use crate::simulate::Carried;
+use crate::simulate::EffectInstance;
 
 /// A cause that was fitted.
 #[derive(Clone, Debug)]
@@ -68,7 +68,7 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
     screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     drop(linear);
     let whole = base.fit.linearised(data.to_fit());
-    let mut released = screen_releases(&base.fit, &whole, prior, &releases(), &data.knobs.fit);
+    let mut released = screen_releases(&base.fit, &whole, prior, &freed_priors(), &data.knobs.fit);
     released.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     drop(whole);
 
@@ -79,12 +79,12 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
         let without = prior.without(r.release, data.knobs.fit.released_sigma);
         (Cause::Parameter(r.release), None, without, r.gain)
     });
-    let mut jobs: Vec<(Cause, Option<Carried>, Prior, f64)> = effects.chain(parameters).collect();
+    let mut jobs: Vec<(Cause, Option<EffectInstance>, Prior, f64)> = effects.chain(parameters).collect();
     jobs.sort_by(|a, b| b.3.total_cmp(&a.3));
-    let fitted = |(cause, effect, prior, _): (Cause, Option<Carried>, Prior, f64)| {
+    let fitted = |(cause, effect, prior, _): (Cause, Option<EffectInstance>, Prior, f64)| {
         let mut model = base.fit.model.clone();
         if let Some(effect) = effect {
-            model.carry(effect);
+            model.add_effect(effect);
         }
         let scored = data.judge(model, Some(&base.fit), &prior, base.extra + cause.freedom(data.prior));
         Ranked { cause, scored }

@@ -3,18 +3,18 @@
 use model_core::effects::card::Role;
 
 use crate::engine::knobs::Knobs;
-use crate::identify::{Fit, Free, Prior, Shots, Windows, fit_tempered, nominal_free, profile};
-use crate::simulate::{Model, Recorded, Slot};
+use crate::identify::{Fit, Free, Prior, Shots, Windows, fit_with_dispersion, nominal_free, profile};
+use crate::simulate::{AlignedRun, Model, Slot};
 
 /// The runs to fit on and the runs to judge by, with their windows.
 #[derive(Debug)]
 pub struct Data<'a, const N: usize> {
     /// Runs to fit on.
-    pub fit: Vec<&'a Recorded<N>>,
+    pub fit: Vec<&'a AlignedRun<N>>,
     /// Their windows.
     pub fit_windows: Vec<Windows>,
     /// Runs that are only predicted.
-    pub held: Vec<&'a Recorded<N>>,
+    pub held: Vec<&'a AlignedRun<N>>,
     /// Their windows.
     pub held_windows: Vec<Windows>,
     /// What the robot file states of its uncertainty.
@@ -89,7 +89,7 @@ impl<const N: usize> Data<'_, N> {
     pub fn judge(&self, model: Model<N>, from: Option<&Fit<N>>, prior: &Prior, extra: usize) -> Scored<N> {
         let settings = &self.knobs.fit;
         let free: Vec<Free> = nominal_free(settings).into_iter().chain(effect_free(&model)).collect();
-        let fitted = fit_tempered(model, self.to_fit(), from, &free, prior, settings);
+        let fitted = fit_with_dispersion(model, self.to_fit(), from, &free, prior, settings);
         let (_, windows) = profile(&fitted.model, self.to_judge(), settings);
         let per_window: Vec<(f64, usize)> = windows.into_iter().flatten().collect();
         let samples: usize = per_window.iter().map(|(_, n)| *n).sum();

@@ -17,7 +17,7 @@ use super::candidate::Candidate;
 use crate::engine::findings::EstimatedNumber;
 use crate::engine::knobs::ScreenKnobs;
 use crate::identify::{Fit, Linearised, Prior, Shots, Starts, Whitener, run_windows};
-use crate::simulate::{Carried, Recorded};
+use crate::simulate::{AlignedRun, EffectInstance};
 
 /// A candidate and what the screen says of it.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ pub struct Screened {
     /// imitate.
     pub visible: f64,
     /// Its best trial, scaled to the size that fits best: where a fit should start.
-    pub from: Carried,
+    pub from: EffectInstance,
     /// Its free numbers by one linear step, not held to bounds.
     pub numbers: Vec<EstimatedNumber>,
 }
@@ -56,13 +56,14 @@ pub fn screen<const N: usize>(
                 .iter()
                 .map(|trial| {
                     let mut model = fit.model.clone();
-                    model.carry(trial.clone());
+                    model.add_effect(trial.clone());
                     let mut signature = predictions(&model.plant(), shots, &fit.starts, linear);
                     for (with, without) in signature.iter_mut().flatten().zip(plain.iter().flatten()) {
                         *with -= without;
                     }
                     let (overlap, size, shared) = linear.project(&signature);
-                    let (overlap, size, shared) = (overlap / fit.temper, size / fit.temper, shared / fit.temper);
+                    let (overlap, size, shared) =
+                        (overlap / fit.dispersion, size / fit.dispersion, shared / fit.dispersion);
                     // the parameters take their share as well
                     let own = hess.solve(&shared);
                     let explains = overlap - shared.dot(&toward);
@@ -93,7 +94,7 @@ pub fn screen<const N: usize>(
 
 /// One parameter set of a candidate, looked at.
 struct Trial {
-    effect: Carried,
+    effect: EffectInstance,
     /// The multiple of its signature that fits best.
     amplitude: f64,
     /// Drop of Σ error² that this multiple brings [σ²]
@@ -138,7 +139,7 @@ fn one_step(card: &Card, tried: &[Trial], best: &Trial, gain: impl Fn(&Trial) ->
 }
 
 /// True if the trial's own change may also go the other way: past "absent" within the bounds.
-fn both_ways(candidate: &Candidate, trial: &Carried) -> bool {
+fn both_ways(candidate: &Candidate, trial: &EffectInstance) -> bool {
     candidate
         .card
         .params
@@ -148,7 +149,7 @@ fn both_ways(candidate: &Candidate, trial: &Carried) -> bool {
 }
 
 /// The trial with its departure from absent scaled, by no less and no more than `between`.
-fn scaled(candidate: &Candidate, trial: &Carried, amplitude: f64, between: (f64, f64)) -> Carried {
+fn scaled(candidate: &Candidate, trial: &EffectInstance, amplitude: f64, between: (f64, f64)) -> EffectInstance {
     let by = amplitude.signum() * amplitude.abs().clamp(between.0, between.1);
     let mut from = trial.clone();
     for (p, x) in candidate.card.params.iter().zip(&mut from.params) {
@@ -166,7 +167,7 @@ fn predictions<const N: usize>(
     starts: &[Starts],
     linear: &Linearised,
 ) -> Vec<Vec<DVector<f64>>> {
-    let count = Recorded::<N>::channels().count();
+    let count = AlignedRun::<N>::channels().count();
     let Shots { runs, windows } = shots;
     (0..runs.len())
         .map(|k| {

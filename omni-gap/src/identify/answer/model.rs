@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::super::guess::Guessed;
-use super::super::words::Word;
+use super::super::identifiability::Identifiability;
 use crate::simulate::Experiment;
 
 /// Version of the form of an answer in a file.
@@ -47,7 +47,7 @@ pub struct Number {
     /// One sigma more, from what is stated of mass and geometry.
     pub std_given: f64,
     /// What the runs say of it.
-    pub word: Word,
+    pub word: Identifiability,
 }
 
 /// Numbers that could move together without being noticed.

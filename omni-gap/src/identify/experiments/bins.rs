@@ -6,7 +6,7 @@
 use model_core::geometry::frames::{BodyTwist, Pose, WorldTwist};
 use model_core::geometry::kinematics::Wheels;
 
-use crate::simulate::Recorded;
+use crate::simulate::AlignedRun;
 
 /// A stretch of a run.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +24,7 @@ pub(super) struct Bin<const N: usize> {
 }
 
 /// The run in stretches of `length` [s] or the next longer that ends with a camera frame.
-pub(super) fn bins<const N: usize>(run: &Recorded<N>, wheels: &Wheels<N, f64>, length: f64) -> Vec<Bin<N>> {
+pub(super) fn bins<const N: usize>(run: &AlignedRun<N>, wheels: &Wheels<N, f64>, length: f64) -> Vec<Bin<N>> {
     let by_wheels = run.has_group("w");
     let seen = |row: usize| by_wheels || (0..3).all(|c| run.saw(row, 2 * N + c));
     let mut bins = Vec::new();
@@ -45,7 +45,7 @@ pub(super) fn bins<const N: usize>(run: &Recorded<N>, wheels: &Wheels<N, f64>, l
     bins
 }
 
-fn bin<const N: usize>(run: &Recorded<N>, rows: (usize, usize), twist: [f64; 3]) -> Bin<N> {
+fn bin<const N: usize>(run: &AlignedRun<N>, rows: (usize, usize), twist: [f64; 3]) -> Bin<N> {
     let dt = run.t[rows.1] - run.t[rows.0];
     let mut volts = [0.0; N];
     for row in rows.0..rows.1 {
@@ -63,7 +63,7 @@ fn bin<const N: usize>(run: &Recorded<N>, rows: (usize, usize), twist: [f64; 3])
 }
 
 /// Way over time between two frames, in the axes of the heading in between.
-fn of_frames<const N: usize>(run: &Recorded<N>, from: usize, to: usize) -> [f64; 3] {
+fn of_frames<const N: usize>(run: &AlignedRun<N>, from: usize, to: usize) -> [f64; 3] {
     let pose = |row: usize| [0, 1, 2].map(|c| run.measured[row][2 * N + c]);
     let (a, b, dt) = (pose(from), pose(to), run.t[to] - run.t[from]);
     let mut headings = (from..=to).filter(|row| run.saw(*row, 2 * N + 2)).map(|row| run.measured[row][2 * N + 2]);
@@ -77,7 +77,7 @@ fn of_frames<const N: usize>(run: &Recorded<N>, from: usize, to: usize) -> [f64;
 const SILENCE: f64 = 0.1;
 
 /// The least-squares twist of the wheels' mean speeds; `None` where a wheel's speed was lost.
-fn of_wheels<const N: usize>(run: &Recorded<N>, wheels: &Wheels<N, f64>, from: usize, to: usize) -> Option<[f64; 3]> {
+fn of_wheels<const N: usize>(run: &AlignedRun<N>, wheels: &Wheels<N, f64>, from: usize, to: usize) -> Option<[f64; 3]> {
     let mut speed = [0.0; N];
     for (j, mean) in speed.iter_mut().enumerate() {
         // a sample on the border belongs half to each side
@@ -102,7 +102,7 @@ fn of_wheels<const N: usize>(run: &Recorded<N>, wheels: &Wheels<N, f64>, from: u
 }
 
 /// Mean of a measured channel over rows; `None` where it was not measured.
-pub(super) fn mean_of<const N: usize>(run: &Recorded<N>, channel: usize, rows: (usize, usize)) -> Option<f64> {
+pub(super) fn mean_of<const N: usize>(run: &AlignedRun<N>, channel: usize, rows: (usize, usize)) -> Option<f64> {
     let told = (rows.0..rows.1).filter(|row| run.saw(*row, channel));
     let (sum, n) = told.fold((0.0, 0.0), |(sum, n), row| (sum + run.measured[row][channel], n + 1.0));
     (n > 0.0).then(|| sum / n)

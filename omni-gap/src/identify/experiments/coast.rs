@@ -13,7 +13,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::bins::{Bin, bins};
 use super::regress::{Estimate, Rows, jackknife};
-use crate::simulate::{AXES, Model, Recorded};
+use crate::simulate::{AXES, AlignedRun, Model};
 
 /// Length of a stretch over which a velocity is taken [s]
 const STRETCH: f64 = 0.04;
@@ -31,7 +31,7 @@ struct Decay {
 }
 
 /// B_v, C_v, B_vn, C_vn [N·s/m, N] from the coast-downs along v and vn.
-pub fn coast<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>]) -> [Option<[Estimate; 2]>; 2] {
+pub fn coast<const N: usize>(model: &Model<N>, runs: &[&AlignedRun<N>]) -> [Option<[Estimate; 2]>; 2] {
     let mass = model.plant().robot().mass;
     let decays = decays(model, runs);
     [0, 1].map(|axis| {
@@ -49,7 +49,7 @@ pub fn coast<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>]) -> [Option
 /// J [kg·m²] from the coast-downs about ω, with B_ω [N·m·s] and C_ω [N·m] of experiment 1.
 pub fn coast_inertia<const N: usize>(
     model: &Model<N>,
-    runs: &[&Recorded<N>],
+    runs: &[&AlignedRun<N>],
     viscous: f64,
     coulomb: f64,
 ) -> Option<Estimate> {
@@ -77,7 +77,7 @@ fn points<'a>(decays: &'a [Vec<&Decay>], without: Option<usize>) -> impl Iterato
     kept.flat_map(|(_, run)| run).flat_map(|d| &d.points)
 }
 
-fn decays<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>]) -> Vec<Vec<Decay>> {
+fn decays<const N: usize>(model: &Model<N>, runs: &[&AlignedRun<N>]) -> Vec<Vec<Decay>> {
     let wheels = model.plant().robot().wheels;
     let mut all: Vec<Vec<Course>> = runs
         .iter()

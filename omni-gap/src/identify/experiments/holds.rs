@@ -3,7 +3,7 @@
 use model_core::geometry::kinematics::Wheels;
 
 use super::bins::{bins, mean_of};
-use crate::simulate::Recorded;
+use crate::simulate::AlignedRun;
 
 /// A hold shorter than this is no steady state [s]
 const SHORTEST: f64 = 1.2;
@@ -22,7 +22,7 @@ pub(super) struct Hold<const N: usize> {
 }
 
 /// The steady stretches of a run: the later half of every voltage that is held.
-pub(super) fn holds<const N: usize>(run: &Recorded<N>, wheels: &Wheels<N, f64>) -> Vec<Hold<N>> {
+pub(super) fn holds<const N: usize>(run: &AlignedRun<N>, wheels: &Wheels<N, f64>) -> Vec<Hold<N>> {
     let mut found = Vec::new();
     let mut from = 0;
     for row in 1..=run.rows() {
@@ -40,7 +40,7 @@ pub(super) fn holds<const N: usize>(run: &Recorded<N>, wheels: &Wheels<N, f64>) 
     found
 }
 
-fn steady_state<const N: usize>(run: &Recorded<N>, wheels: &Wheels<N, f64>, rows: (usize, usize)) -> Option<Hold<N>> {
+fn steady_state<const N: usize>(run: &AlignedRun<N>, wheels: &Wheels<N, f64>, rows: (usize, usize)) -> Option<Hold<N>> {
     let mut amps = [0.0; N];
     for (j, amps) in amps.iter_mut().enumerate() {
         *amps = mean_of(run, j, rows)?;

@@ -22,7 +22,7 @@ pub use regress::Estimate;
 pub use spin::spin;
 pub use step::{Method, Stepped, step};
 
-use crate::simulate::{Experiment, Model, Recorded, Slot};
+use crate::simulate::{AlignedRun, Experiment, Model, Slot};
 use model_core::plant::robot::{Nominal, Robot};
 
 /// What the experiments say, each on its own, and their average.
@@ -44,7 +44,7 @@ pub struct Classic {
 
 /// Does every experiment that there are runs of. `model` is what is known before: geometry and mass are taken from it,
 /// K_t and K_v where there is no motor experiment, and first guesses of the rest.
-pub fn classic<const N: usize>(model: &Model<N>, runs: &[Recorded<N>]) -> Classic {
+pub fn classic<const N: usize>(model: &Model<N>, runs: &[AlignedRun<N>]) -> Classic {
     let of = |wanted| runs.iter().filter(|r| Experiment::of(&r.name) == Some(wanted)).collect::<Vec<_>>();
     let motor = motor(model, &of(Experiment::Motor));
     let model = &with_motor(model, motor);

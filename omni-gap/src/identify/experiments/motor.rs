@@ -6,14 +6,14 @@
 
 use super::holds::holds;
 use super::regress::{Estimate, Rows, jackknife};
-use crate::simulate::{Model, Recorded};
+use crate::simulate::{AlignedRun, Model};
 use model_core::geometry::frames::BodyTwist;
 
 /// Below this share of the speed at which back-EMF would balance the voltage a motor counts as stalled.
 const SLOWEST: f64 = 0.15;
 
 /// R [Ω] and K_v [V·s] at the motor shaft from the steady states of these runs.
-pub fn motor<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>]) -> Option<[Estimate; 2]> {
+pub fn motor<const N: usize>(model: &Model<N>, runs: &[&AlignedRun<N>]) -> Option<[Estimate; 2]> {
     let robot = model.plant().robot().to_owned();
     let points: Vec<Vec<[f64; 2]>> = runs
         .iter()

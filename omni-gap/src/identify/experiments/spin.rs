@@ -6,10 +6,10 @@
 
 use super::holds::holds;
 use super::regress::{Estimate, Rows, jackknife};
-use crate::simulate::{Model, Recorded};
+use crate::simulate::{AlignedRun, Model};
 
 /// B_ω [N·m·s] and C_ω [N·m] from the steady spins of these runs.
-pub fn spin<const N: usize>(model: &Model<N>, runs: &[&Recorded<N>]) -> Option<[Estimate; 2]> {
+pub fn spin<const N: usize>(model: &Model<N>, runs: &[&AlignedRun<N>]) -> Option<[Estimate; 2]> {
     let robot = model.plant().robot().to_owned();
     let points: Vec<Vec<[f64; 2]>> = runs
         .iter()

@@ -16,7 +16,7 @@
 
 use super::bins::{Bin, bins};
 use super::regress::{Estimate, Rows, jackknife};
-use crate::simulate::{AXES, FreeRun, Model, Recorded, Slot};
+use crate::simulate::{AXES, AlignedRun, FreeRun, Model, Slot};
 use model_core::plant::robot::{Nominal, Robot};
 
 /// Length of a stretch over which a velocity is taken [s]: by a camera, by wheel speeds
@@ -54,7 +54,7 @@ type Six = [f64; 6];
 /// R, J, B and C_ω from steps; `friction` are C_v and C_vn of experiment 2 [N], whose uncertainty goes on into these.
 pub fn step<const N: usize>(
     model: &Model<N>,
-    runs: &[&Recorded<N>],
+    runs: &[&AlignedRun<N>],
     friction: [Estimate; 2],
     method: Method,
 ) -> Option<Stepped> {
@@ -105,12 +105,12 @@ fn six_of<const N: usize>(model: &Model<N>) -> Six {
     [robot.motor.resistance, robot.inertia, v, vn, w, robot.friction.coulomb[2]]
 }
 
-fn stretch<const N: usize>(run: &Recorded<N>) -> f64 {
+fn stretch<const N: usize>(run: &AlignedRun<N>) -> f64 {
     if run.has_group("w") { STRETCH.1 } else { STRETCH.0 }
 }
 
 /// The axis that a run is about: `step-vn-50-1` is about vn.
-fn axis_of<const N: usize>(run: &Recorded<N>) -> Option<usize> {
+fn axis_of<const N: usize>(run: &AlignedRun<N>) -> Option<usize> {
     let word = run.name.split('-').nth(1)?;
     AXES.iter().position(|axis| *axis == word)
 }
@@ -130,7 +130,7 @@ fn with<const N: usize>(model: &Model<N>, resistance: f64, inertia: f64) -> Mode
 }
 
 /// Mean twists over the stretches, by a free run of the model from rest.
-fn simulated<const N: usize>(model: &Model<N>, run: &Recorded<N>, bins: &[Bin<N>]) -> Vec<[f64; 3]> {
+fn simulated<const N: usize>(model: &Model<N>, run: &AlignedRun<N>, bins: &[Bin<N>]) -> Vec<[f64; 3]> {
     let plant = model.plant();
     let mut on_the_way = FreeRun::new(&plant, run);
     // ∫ twist dt up to each row

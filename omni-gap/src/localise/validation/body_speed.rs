@@ -6,7 +6,7 @@ use model_core::geometry::frames::{Pose, WorldTwist};
 use model_core::geometry::kinematics::Wheels;
 
 use super::model::SpeedsFrom;
-use crate::simulate::{Recorded, start_at};
+use crate::simulate::{AlignedRun, start_at};
 
 /// The speeds of one row.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ pub(super) struct BodySpeed {
 }
 
 /// What the speeds of a run are to be taken from: the wheel speeds where they are compared, else the pose.
-pub(super) fn source<const N: usize>(run: &Recorded<N>) -> Option<SpeedsFrom> {
+pub(super) fn source<const N: usize>(run: &AlignedRun<N>) -> Option<SpeedsFrom> {
     let all_on_a_row = |first: usize, count: usize| {
         (0..run.rows()).any(|row| (first..first + count).all(|channel| run.saw(row, channel)))
     };
@@ -27,7 +27,7 @@ pub(super) fn source<const N: usize>(run: &Recorded<N>) -> Option<SpeedsFrom> {
 
 /// The speeds of every row on which their sensors spoke.
 pub(super) fn body_speeds<const N: usize>(
-    run: &Recorded<N>,
+    run: &AlignedRun<N>,
     wheels: &Wheels<N, f64>,
     from: SpeedsFrom,
 ) -> Vec<Option<BodySpeed>> {
@@ -47,7 +47,7 @@ pub(super) fn body_speeds<const N: usize>(
 }
 
 /// What the noise of the wheel speeds makes of each axis.
-fn sigma_of_wheels<const N: usize>(run: &Recorded<N>, wheels: &Wheels<N, f64>) -> [f64; 3] {
+fn sigma_of_wheels<const N: usize>(run: &AlignedRun<N>, wheels: &Wheels<N, f64>) -> [f64; 3] {
     // the twist is linear in the wheel speeds: σ² = Σ_j (∂twist/∂w_j)²·σ_j²
     let mut variance = [0.0; 3];
     for j in 0..N {
@@ -58,7 +58,7 @@ fn sigma_of_wheels<const N: usize>(run: &Recorded<N>, wheels: &Wheels<N, f64>) -
     variance.map(f64::sqrt)
 }
 
-fn from_pose<const N: usize>(run: &Recorded<N>, row: usize) -> Option<BodySpeed> {
+fn from_pose<const N: usize>(run: &AlignedRun<N>, row: usize) -> Option<BodySpeed> {
     if !(2 * N..2 * N + 3).all(|channel| run.saw(row, channel)) {
         return None;
     }

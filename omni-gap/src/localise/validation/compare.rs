@@ -6,7 +6,7 @@ use super::body_speed::{body_speeds, source};
 use super::figures::{Pair, Sums};
 use super::model::{RunFigures, SpeedsFrom};
 use super::signal::Signal;
-use crate::simulate::{Chain, MAX_CHANNELS, Recorded, predict, start_at};
+use crate::simulate::{AlignedRun, Chain, MAX_CHANNELS, predict, start_at};
 
 /// One signal over the rows of a run, in its SI unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,10 +32,10 @@ pub(super) struct Compared {
 
 impl Compared {
     /// Lets the plant run freely along the whole run.
-    pub(super) fn of<const N: usize>(plant: &Plant<N, f64>, run: &Recorded<N>) -> Compared {
+    pub(super) fn of<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>) -> Compared {
         // longer than the run: nothing restarts
         let whole = run.t.last().map_or(1.0, |last| last + 1.0);
-        let simulated = Recorded { measured: predict(plant, run, whole).rows, ..run.clone() };
+        let simulated = AlignedRun { measured: predict(plant, run, whole).rows, ..run.clone() };
         let mut not_compared = Vec::new();
         let mut traces = Vec::new();
 
@@ -78,7 +78,7 @@ impl Compared {
     /// The figures of the run.
     pub(super) fn figures<const N: usize>(
         self,
-        run: &Recorded<N>,
+        run: &AlignedRun<N>,
         held_out: bool,
         sums: &[(Signal, Sums)],
     ) -> RunFigures {

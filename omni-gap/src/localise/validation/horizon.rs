@@ -4,11 +4,11 @@ use model_core::plant::Plant;
 
 use super::model::{GroupError, HorizonFigures};
 use crate::localise::{GROUPS, floor, measure};
-use crate::simulate::Recorded;
+use crate::simulate::AlignedRun;
 
 pub(super) fn curves<const N: usize>(
     plant: &Plant<N, f64>,
-    runs: &[&Recorded<N>],
+    runs: &[&AlignedRun<N>],
     horizons_s: &[f64],
 ) -> Vec<HorizonFigures> {
     let longest = runs.iter().filter_map(|run| run.t.last()).fold(0.0, |most: f64, t| most.max(*t));

@@ -5,7 +5,7 @@ use model_core::plant::Input;
 
 use super::*;
 use crate::log::{Catalogue, Group, RobotFile, SensorsFile};
-use crate::simulate::{Excitation, Recording, excite, record};
+use crate::simulate::{Excitation, SensorSetup, excite, record};
 
 const FOUR: &str = include_str!("../../../../examples/feup-4w/robot.toml");
 const THREE: &str = include_str!("../../../../examples/feup-3w/robot.toml");
@@ -23,7 +23,8 @@ fn robot(text: &str) -> RobotFile {
 fn recorded<const N: usize>(file: &RobotFile, volts: &[[f64; N]], name: &str) -> Run {
     let t: Vec<f64> = (0..volts.len()).map(|row| row as f64 / RATE).collect();
     let input: Vec<Input<N, f64>> = volts.iter().map(|u| Input::Voltage(*u)).collect();
-    let how = Recording { steps_a_row: 1, camera_rate: 1e8, dropouts: 0.0, sensors: SILENT, ..Recording::default() };
+    let how =
+        SensorSetup { steps_a_row: 1, camera_rate: 1e8, dropouts: 0.0, sensors: SILENT, ..SensorSetup::default() };
     record(&Model::<N>::nominal(file, 8.0).plant(), name, &t, &input, &how, 1)
 }
 

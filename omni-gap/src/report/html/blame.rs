@@ -5,7 +5,7 @@ use crate::engine::findings::Which;
 use crate::report::markup::Markup;
 use crate::report::model::Report;
 use crate::report::number::{estimate, percent};
-use crate::report::words;
+use crate::report::phrases;
 use crate::vocabulary::{Kind, Stage, Verdict};
 
 /// Causes less probable than this are summed up in a line.
@@ -36,9 +36,9 @@ pub(super) fn places(m: &mut Markup, report: &Report) {
             for stage in Stage::ALL {
                 let class = if Some(stage) == most { "most" } else { "" };
                 m.within("li", &[("class", &class)], |m| {
-                    m.leaf("strong", &[], words::stage(stage));
+                    m.leaf("strong", &[], phrases::stage(stage));
                     m.leaf("span", &[("class", &"share")], &percent(share(stage)));
-                    m.leaf("small", &[], words::stage_path(stage));
+                    m.leaf("small", &[], phrases::stage_path(stage));
                 });
             }
         });
@@ -47,10 +47,10 @@ pub(super) fn places(m: &mut Markup, report: &Report) {
                 let regime = w
                     .regime
                     .as_ref()
-                    .map(|r| format!(". {} of it where {}", percent(r.share), words::open_ended(&r.text)));
-                let spot = words::spot(w.wheel, w.axis);
+                    .map(|r| format!(". {} of it where {}", percent(r.share), phrases::open_ended(&r.text)));
+                let spot = phrases::spot(w.wheel, w.axis);
                 m.within("li", &[], |m| {
-                    m.leaf("strong", &[], &format!("{}{spot}: {}", words::stage(w.stage), percent(w.share)));
+                    m.leaf("strong", &[], &format!("{}{spot}: {}", phrases::stage(w.stage), percent(w.share)));
                     m.text(&format!("{}.", regime.unwrap_or_default()));
                 });
             }
@@ -92,13 +92,13 @@ fn cause(m: &mut Markup, report: &Report, w: &Which) {
     let class = if report.causes.contains(&w.cause) { "found" } else { "" };
     m.within("tr", &[("class", &class)], |m| {
         m.within("th", &[("scope", &"row")], |m| {
-            m.text(&words::title(report, &w.cause));
+            m.text(&phrases::title(report, &w.cause));
             let kind = match w.kind {
                 Some(Kind::Effect) => "effect",
                 Some(Kind::Parameter) => "parameter",
                 None => "no cause of the catalogue",
             };
-            m.leaf("small", &[], &format!("{kind}{}", words::spot(w.wheel, w.axis)));
+            m.leaf("small", &[], &format!("{kind}{}", phrases::spot(w.wheel, w.axis)));
         });
         m.within("td", &[("class", &"chance")], |m| {
             m.leaf("span", &[], &percent(w.probability));
@@ -115,7 +115,7 @@ fn cause(m: &mut Markup, report: &Report, w: &Which) {
             }
         });
         m.within("td", &[("data-name", &"Not told apart from")], |m| {
-            if let Some(alike) = words::look_alikes(report, w) {
+            if let Some(alike) = phrases::look_alikes(report, w) {
                 m.text(&alike);
                 if let Some(settle) = &w.settle_by {
                     m.leaf("small", &[], &format!("Settle it by: {settle}"));

@@ -6,7 +6,7 @@ use crate::report::horizons::horizon_chart;
 use crate::report::markup::Markup;
 use crate::report::model::Report;
 use crate::report::number::{num, percent};
-use crate::report::words;
+use crate::report::phrases;
 use crate::simulate::HORIZON_S;
 
 /// The longest bar, so that its number still fits beside it (% of the row).
@@ -23,7 +23,7 @@ pub(super) fn how_large(m: &mut Markup, report: &Report) {
     }
     let known = GROUPS.iter().filter_map(|key| report.gap.signals.get_key_value(*key));
     let others = report.gap.signals.iter().filter(|(key, _)| !GROUPS.contains(&key.as_str()));
-    rows.extend(known.chain(others).map(|(key, gap)| (words::group(key), *gap)));
+    rows.extend(known.chain(others).map(|(key, gap)| (phrases::group(key), *gap)));
     if rows.is_empty() {
         return;
     }

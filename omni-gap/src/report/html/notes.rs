@@ -5,8 +5,8 @@ use crate::engine::findings::Corrected;
 use crate::report::markup::Markup;
 use crate::report::model::Report;
 use crate::report::number::{estimate, figures};
+use crate::report::phrases;
 use crate::report::terminal::place_in_log;
-use crate::report::words;
 
 pub(super) fn faults(m: &mut Markup, report: &Report) {
     if report.faults.is_empty() {
@@ -16,12 +16,12 @@ pub(super) fn faults(m: &mut Markup, report: &Report) {
         m.within("ol", &[("class", &"faults")], |m| {
             for fault in &report.faults {
                 m.within("li", &[], |m| {
-                    m.leaf("strong", &[], &words::sentence(&fault.what));
+                    m.leaf("strong", &[], &phrases::sentence(&fault.what));
                     let place = place_in_log(fault);
                     if !place.is_empty() {
                         m.leaf("code", &[], place.trim_end_matches(": "));
                     }
-                    m.leaf("p", &[], &format!("To mend it: {}.", words::open_ended(&fault.mend)));
+                    m.leaf("p", &[], &format!("To mend it: {}.", phrases::open_ended(&fault.fix)));
                 });
             }
         });
@@ -71,10 +71,10 @@ pub(super) fn next(m: &mut Markup, report: &Report) {
     let Some(next) = &report.next_experiment else { return };
     section(m, "The next experiment", "", |m| {
         m.within("div", &[("class", &"next")], |m| {
-            m.leaf("p", &[], &words::sentence(&next.why));
-            let names: Vec<_> = next.tells_apart.iter().map(|id| words::title(report, id).into_owned()).collect();
+            m.leaf("p", &[], &phrases::sentence(&next.why));
+            let names: Vec<_> = next.tells_apart.iter().map(|id| phrases::title(report, id).into_owned()).collect();
             if !names.is_empty() {
-                m.leaf("p", &[("class", &"how")], &format!("Tells apart: {}.", words::list(&names)));
+                m.leaf("p", &[("class", &"how")], &format!("Tells apart: {}.", phrases::list(&names)));
             }
             if let Some(file) = &next.file {
                 m.within("p", &[("class", &"how")], |m| {

@@ -2,8 +2,8 @@
 
 use super::section;
 use crate::report::markup::Markup;
+use crate::report::phrases;
 use crate::report::picture::{Pictures, chart, ink};
-use crate::report::words;
 
 pub(super) fn charts(m: &mut Markup, pictures: &Pictures) {
     if pictures.panels.is_empty() {
@@ -14,7 +14,7 @@ pub(super) fn charts(m: &mut Markup, pictures: &Pictures) {
     } else {
         " Predictions restart from the measured state at the faint uprights."
     };
-    let caption = words::open_ended(&pictures.caption);
+    let caption = phrases::open_ended(&pictures.caption);
     let stop = if caption.is_empty() { "" } else { "." };
     section(m, "What the signals say", &format!("{caption}{stop}{restarts}"), |m| {
         let mut names: Vec<(&str, String)> = Vec::new();

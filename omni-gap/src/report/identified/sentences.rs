@@ -1,7 +1,7 @@
 //! The sentences below the tables: what is missing, what is known only together, the noise, what does not fit.
 
 use super::symbol;
-use crate::identify::{Answer, Apart, Moved, Power, Product, SensorNoise, Side, Together, Word};
+use crate::identify::{Answer, Apart, Identifiability, Moved, Power, Product, SensorNoise, Side, Together};
 use crate::report::number::{NBSP, estimate, num, percent};
 
 /// Powers that are said as such if one is this close.
@@ -58,20 +58,20 @@ fn missing(answer: &Answer) -> Option<String> {
     if answer.not_logged.is_empty() {
         return None;
     }
-    let unsure = by_word(answer, |word| word != Word::Identified);
+    let unsure = by_word(answer, |word| word != Identifiability::Identified);
     let outcome = if unsure.is_empty() { "the other signals tell every number".to_owned() } else { unsure.join(", ") };
     Some(format!("no {} are logged; without them {outcome}", answer.not_logged.join(", no ")))
 }
 
 /// The numbers of each word: "B_v, C_v are not seen"
-fn by_word(answer: &Answer, wanted: impl Fn(Word) -> bool) -> Vec<String> {
-    [Word::Weak, Word::Combined, Word::AtBound, Word::NotSeen]
+fn by_word(answer: &Answer, wanted: impl Fn(Identifiability) -> bool) -> Vec<String> {
+    [Identifiability::Weak, Identifiability::Combined, Identifiability::AtBound, Identifiability::NotSeen]
         .into_iter()
         .filter(|word| wanted(*word))
         .filter_map(|word| {
             let names: Vec<&str> = answer.numbers.iter().filter(|n| n.word == word).map(|n| symbol(n.key).0).collect();
             let are = if names.len() == 1 { "is" } else { "are" };
-            let known = if word == Word::Combined { "known " } else { "" };
+            let known = if word == Identifiability::Combined { "known " } else { "" };
             (!names.is_empty()).then(|| format!("{} {are} {known}{}", names.join(", "), word.said()))
         })
         .collect()

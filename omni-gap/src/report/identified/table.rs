@@ -1,7 +1,7 @@
 //! The tables: the paper's numbers beside those of all runs together.
 
 use super::symbol;
-use crate::identify::{Answer, Number, Value, Word};
+use crate::identify::{Answer, Identifiability, Number, Value};
 use crate::report::number::{NBSP, num, percent};
 
 /// Space between two columns (characters).
@@ -75,12 +75,12 @@ fn cell(Value { value, std }: Value) -> String {
 }
 
 fn together(n: &Number) -> String {
-    if n.word == Word::NotSeen { none() } else { cell(n.together) }
+    if n.word == Identifiability::NotSeen { none() } else { cell(n.together) }
 }
 
 fn change(n: &Number) -> String {
     match n.word {
-        Word::NotSeen => none(),
+        Identifiability::NotSeen => none(),
         _ if n.file == 0.0 => "from 0".into(),
         _ => format!("{:+.1} %", 100.0 * (n.together.value / n.file - 1.0)).replace("-0.0", "+0.0").replace('-', "−"),
     }

@@ -4,9 +4,9 @@ use crate::localise::validation::HorizonFigures;
 use crate::report::horizons::{LABEL_ROOM, last_numbers};
 use crate::report::markup::{Markup, Px};
 use crate::report::number::num;
+use crate::report::phrases;
 use crate::report::picture::{INSIDE_X, INSIDE_Y, frame, path, x_axis};
 use crate::report::scale::Scale;
-use crate::report::words;
 
 /// The least error that is drawn [σ]
 const LEAST: f64 = 1e-3;
@@ -21,7 +21,7 @@ type Line = (&'static str, bool, Vec<(f64, f64)>);
 pub(super) fn legend(m: &mut Markup, horizons: &[HorizonFigures]) {
     m.within("p", &[("class", &"legend")], |m| {
         for (group, ink) in GROUPS.iter().filter(|(group, _)| horizons.iter().any(|h| h.groups.contains_key(*group))) {
-            m.leaf("span", &[("class", &format!("key {ink}"))], words::group(group));
+            m.leaf("span", &[("class", &format!("key {ink}"))], phrases::group(group));
         }
         m.leaf("span", &[("class", &"key allowed")], "dotted: noise floor");
     });

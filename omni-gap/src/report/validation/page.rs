@@ -1,12 +1,12 @@
 //! The page of a validation.
 
-use super::words::{self, fit_cell, fit_text, rms_cell};
+use super::phrases::{self, fit_cell, fit_text, rms_cell};
 use super::{curves, run};
 use crate::localise::validation::{HorizonFigures, RunTraces, Signal, SignalFigures, Validation};
 use crate::report::html::{notes, page, section};
 use crate::report::markup::Markup;
 use crate::report::number::num;
-use crate::report::words::sentence;
+use crate::report::phrases::sentence;
 use crate::simulate::HORIZON_S;
 
 /// The whole page: `traces` are the runs that are drawn, in their order.
@@ -36,8 +36,8 @@ fn head(m: &mut Markup, validation: &Validation) {
             m.leaf("span", &[("class", &"verdict")], "validation");
             m.text(&subject(validation));
         });
-        m.leaf("h1", &[], &format!("{}.", words::verdict(validation)));
-        let figures = words::figures(validation);
+        m.leaf("h1", &[], &format!("{}.", phrases::verdict(validation)));
+        let figures = phrases::figures(validation);
         if !figures.is_empty() {
             m.leaf("p", &[("class", &"lede")], &sentence(&figures));
         }
@@ -52,7 +52,7 @@ fn head(m: &mut Markup, validation: &Validation) {
                 let fit = figures.fit_percent.map_or("–".into(), fit_text);
                 let allowed = figures.noise_allows_percent.map(|x| format!("noise allows {}", fit_text(x)));
                 let note = allowed.unwrap_or("it hardly varies beyond its noise".into());
-                figure(m, &format!("fit of {}, all runs", words::short(figures.signal)), &fit, &note);
+                figure(m, &format!("fit of {}, all runs", phrases::short(figures.signal)), &fit, &note);
             }
             let shown = |h: &&HorizonFigures| h.horizon_s == HORIZON_S;
             if let Some(h) = validation.horizons.iter().find(shown).or(validation.horizons.first()) {
@@ -83,16 +83,20 @@ fn table(m: &mut Markup, validation: &Validation) {
                     m.within("tr", &[], |m| {
                         m.leaf("th", &[("scope", &"col")], "Run");
                         for axis in Signal::AXES {
-                            m.leaf("th", &[("scope", &"col")], &format!("fit {} %", words::short(axis)));
+                            m.leaf("th", &[("scope", &"col")], &format!("fit {} %", phrases::short(axis)));
                         }
                         for axis in Signal::AXES {
-                            m.leaf("th", &[("scope", &"col")], &format!("RMS {} {}", words::short(axis), axis.unit()));
+                            m.leaf(
+                                "th",
+                                &[("scope", &"col")],
+                                &format!("RMS {} {}", phrases::short(axis), axis.unit()),
+                            );
                         }
                     });
                 });
                 m.within("tbody", &[], |m| {
                     for run in &validation.runs {
-                        row(m, "", &words::run_name(run), |axis| run.signal(axis).cloned());
+                        row(m, "", &phrases::run_name(run), |axis| run.signal(axis).cloned());
                     }
                     row(m, "all", "all runs", |axis| validation.over_all(axis).cloned());
                     row(m, "", "noise allows", |axis| {

@@ -1,21 +1,21 @@
 //! One run on the page: its pictures and its figures.
 
-use super::words;
+use super::phrases;
 use crate::localise::validation::{RunFigures, RunTraces, Signal, SignalFigures, Trace};
 use crate::report::html::section;
 use crate::report::markup::Markup;
 use crate::report::number::num;
+use crate::report::phrases::sentence;
 use crate::report::picture::{MEASURED, Panel, SIMULATED, Series, chart};
-use crate::report::words::sentence;
 
 pub(super) fn run(m: &mut Markup, figures: &RunFigures, traces: &RunTraces) {
     let driven =
-        format!("Driven by its {} alone, {} s without a restart.", words::driver(figures), num(figures.duration_s));
+        format!("Driven by its {} alone, {} s without a restart.", phrases::driver(figures), num(figures.duration_s));
     let how: Vec<String> = std::iter::once(driven)
-        .chain(words::source(figures).map(|text| format!("{text}.")))
+        .chain(phrases::source(figures).map(|text| format!("{text}.")))
         .chain(figures.not_compared.iter().map(|why| format!("Not compared: {why}.")))
         .collect();
-    section(m, &words::run_name(figures), &how.join(" "), |m| {
+    section(m, &phrases::run_name(figures), &how.join(" "), |m| {
         legend(m);
         let (body, rest): (Vec<&Trace>, Vec<&Trace>) =
             traces.traces.iter().partition(|t| Signal::AXES.contains(&t.signal));
@@ -46,7 +46,7 @@ fn kinds(traces: &[&Trace]) -> String {
         (has(Signal::is_pose), "pose"),
     ];
     let names: Vec<String> = all.iter().filter(|(there, _)| *there).map(|(_, name)| (*name).to_owned()).collect();
-    crate::report::words::list(&names)
+    crate::report::phrases::list(&names)
 }
 
 fn legend(m: &mut Markup) {
@@ -60,7 +60,7 @@ fn legend(m: &mut Markup) {
 fn panel(m: &mut Markup, t_s: &[f64], trace: &Trace) {
     let series = |name: &str, values: &[Option<f64>]| Series { name: name.to_owned(), values: values.to_vec() };
     let panel = Panel {
-        title: words::name(trace.signal),
+        title: phrases::name(trace.signal),
         unit: trace.signal.unit().to_owned(),
         t_s: t_s.to_vec(),
         series: vec![series(MEASURED, &trace.measured), series(SIMULATED, &trace.simulated)],
@@ -90,10 +90,11 @@ fn merit(m: &mut Markup, f: &SignalFigures) {
     let title = f.no_fit.clone().unwrap_or_default();
     let allowed = f.noise_allows_percent.map_or("–".into(), |x| format!("{x:.1}"));
     m.within("tr", &[("title", &title)], |m| {
-        m.leaf("th", &[("scope", &"row")], &words::short(f.signal));
+        m.leaf("th", &[("scope", &"row")], &phrases::short(f.signal));
         let unit = f.signal.unit();
         let with_unit = |x: f64| format!("{}\u{a0}{unit}", num(x));
-        for cell in [words::fit_cell(Some(f)), allowed, with_unit(f.rms_si), num(f.rms_sigma), num(f.largest_error_si)]
+        for cell in
+            [phrases::fit_cell(Some(f)), allowed, with_unit(f.rms_si), num(f.rms_sigma), num(f.largest_error_si)]
         {
             m.leaf("td", &[], &cell);
         }

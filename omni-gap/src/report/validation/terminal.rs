@@ -1,6 +1,6 @@
 //! A validation in a table for a person at a terminal.
 
-use super::words::{self, fit_cell, rms_cell};
+use super::phrases::{self, fit_cell, rms_cell};
 use crate::localise::validation::{Signal, SignalFigures, Validation};
 use crate::report::number::{NBSP, num};
 use crate::report::terminal::Page;
@@ -13,12 +13,12 @@ const LONGEST_NAME: usize = 40;
 /// The validation in plain text.
 pub fn terminal(validation: &Validation) -> String {
     let mut page = Page(String::new());
-    page.line("", &words::headline(validation));
+    page.line("", &phrases::headline(validation));
     page.0.push('\n');
     table(&mut page.0, validation);
     page.0.push('\n');
     horizons(&mut page, validation);
-    let mut sources: Vec<_> = validation.runs.iter().filter_map(words::source).collect();
+    let mut sources: Vec<_> = validation.runs.iter().filter_map(phrases::source).collect();
     sources.dedup();
     sources.into_iter().for_each(|source| page.line("measured", source));
     if validation
@@ -35,7 +35,7 @@ pub fn terminal(validation: &Validation) -> String {
 }
 
 fn table(page: &mut String, validation: &Validation) {
-    let names: Vec<String> = validation.runs.iter().map(words::run_name).collect();
+    let names: Vec<String> = validation.runs.iter().map(phrases::run_name).collect();
     let longest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
     let width = longest.clamp("noise allows".len(), LONGEST_NAME);
     let mut row = |name: &str, cells: &mut dyn Iterator<Item = String>| {
@@ -43,8 +43,8 @@ fn table(page: &mut String, validation: &Validation) {
         page.push_str(&format!("{name:width$}{cells}\n"));
     };
     let axes = Signal::AXES;
-    let fits = axes.iter().map(|axis| format!("{} [%]", words::short(*axis)));
-    let errors = axes.iter().map(|axis| format!("{} [{}]", words::short(*axis), axis.unit()));
+    let fits = axes.iter().map(|axis| format!("{} [%]", phrases::short(*axis)));
+    let errors = axes.iter().map(|axis| format!("{} [{}]", phrases::short(*axis), axis.unit()));
     row("", &mut [String::new(), "fit".into(), String::new(), String::new(), "RMS error".into()].into_iter());
     row("run", &mut fits.chain(errors));
     let of = |find: &dyn Fn(Signal) -> Option<SignalFigures>| {

@@ -13,7 +13,7 @@ const PART: f64 = 0.1;
 /// What became of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Word {
+pub enum Identifiability {
     /// Known on its own.
     Identified,
     /// Seen, but uncertain by more than 15 %.
@@ -26,7 +26,7 @@ pub enum Word {
     NotSeen,
 }
 
-impl Word {
+impl Identifiability {
     /// The word as it is said.
     pub const fn said(self) -> &'static str {
         match self {
@@ -45,14 +45,14 @@ impl Word {
 }
 
 /// The word for number `k` of an information matrix per relative change of each number.
-pub(super) fn word_of(information: &DMatrix<f64>, k: usize, at_bound: bool) -> Word {
+pub(super) fn identifiability_of(information: &DMatrix<f64>, k: usize, at_bound: bool) -> Identifiability {
     // σ if all others were known
     let alone = 1.0 / information[(k, k)].max(f64::MIN_POSITIVE).sqrt();
     if alone > TRACELESS {
-        return Word::NotSeen;
+        return Identifiability::NotSeen;
     }
     if at_bound {
-        return Word::AtBound;
+        return Identifiability::AtBound;
     }
     let seen: Vec<usize> =
         (0..information.ncols()).filter(|j| information[(*j, *j)] * TRACELESS.powi(2) >= 1.0).collect();
@@ -61,10 +61,10 @@ pub(super) fn word_of(information: &DMatrix<f64>, k: usize, at_bound: bool) -> W
     let at = seen.iter().position(|j| *j == k).unwrap_or(0);
     let std = inverse[(at, at)].sqrt();
     match std {
-        s if s <= KNOWN => Word::Identified,
+        s if s <= KNOWN => Identifiability::Identified,
         // others make it uncertain, not the noise
-        s if s > 3.0 * alone && alone <= KNOWN => Word::Combined,
-        _ => Word::Weak,
+        s if s > 3.0 * alone && alone <= KNOWN => Identifiability::Combined,
+        _ => Identifiability::Weak,
     }
 }
 
@@ -80,7 +80,7 @@ pub struct TradeOff {
 }
 
 /// The directions in which a covariance of relative changes is large, as far as combined numbers take part.
-pub(super) fn trade_offs(covariance: &DMatrix<f64>, members: &[Nominal], words: &[Word]) -> Vec<TradeOff> {
+pub(super) fn trade_offs(covariance: &DMatrix<f64>, members: &[Nominal], words: &[Identifiability]) -> Vec<TradeOff> {
     let eigen = covariance.clone().symmetric_eigen();
     let mut order: Vec<usize> = (0..members.len()).collect();
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
@@ -91,7 +91,7 @@ pub(super) fn trade_offs(covariance: &DMatrix<f64>, members: &[Nominal], words: 
         let mut parts: Vec<(usize, f64)> =
             (0..members.len()).map(|k| (k, column[k])).filter(|(_, x)| x.abs() > PART * most).collect();
         parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        if parts.len() < 2 || !parts.iter().any(|(k, _)| words[*k] == Word::Combined) {
+        if parts.len() < 2 || !parts.iter().any(|(k, _)| words[*k] == Identifiability::Combined) {
             continue;
         }
         let (first, lead) = parts[0];
@@ -124,8 +124,8 @@ mod tests {
     fn a_ratio_alone_is_a_combination_and_is_named() {
         // only K_t/R is measured, to 1 %, R itself hardly; J on its own
         let info = information(&[([-1.0, 1.0, 0.0], 0.01), ([1.0, 0.0, 0.0], 5.0), ([0.0, 0.0, 1.0], 0.02)]);
-        let words: Vec<Word> = (0..3).map(|k| word_of(&info, k, false)).collect();
-        assert_eq!(words, [Word::Combined, Word::Combined, Word::Identified]);
+        let words: Vec<Identifiability> = (0..3).map(|k| identifiability_of(&info, k, false)).collect();
+        assert_eq!(words, [Identifiability::Combined, Identifiability::Combined, Identifiability::Identified]);
         let found = trade_offs(&super::super::joint::invert(&info), &MEMBERS, &words);
         assert_eq!(found.len(), 1);
         let ([(a, one), (b, power)], std) = found[0].known.unwrap();
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn what_leaves_no_trace_is_not_seen_and_what_leaves_little_is_weak() {
         let info = information(&[([1.0, 0.0, 0.0], 0.01), ([0.0, 1.0, 0.0], 0.3), ([0.0, 0.0, 1.0], 2.0)]);
-        let words: Vec<Word> = (0..3).map(|k| word_of(&info, k, false)).collect();
-        assert_eq!(words, [Word::Identified, Word::Weak, Word::NotSeen]);
+        let words: Vec<Identifiability> = (0..3).map(|k| identifiability_of(&info, k, false)).collect();
+        assert_eq!(words, [Identifiability::Identified, Identifiability::Weak, Identifiability::NotSeen]);
     }
 }

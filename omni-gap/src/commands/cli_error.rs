@@ -2,17 +2,17 @@
 
 /// One message, with how to mend it.
 #[derive(Debug, thiserror::Error)]
-pub enum Stop {
+pub enum CliError {
     /// A file, folder or output cannot be used.
     #[error(transparent)]
     File(#[from] omni_gap::Error),
     /// A name that is none of the catalogue's.
-    #[error("`{name}` is neither an effect nor a parameter. {mend}")]
+    #[error("`{name}` is neither an effect nor a parameter. {fix}")]
     UnknownName {
         /// What was asked for.
         name: String,
         /// What to ask for instead.
-        mend: String,
+        fix: String,
     },
     /// A session that is named both ways, or not at all.
     #[error("{0}")]

@@ -60,7 +60,7 @@ pub type Row = [f64; MAX_CHANNELS];
 
 /// A recording of a robot with `N` wheels, ready to be compared with a model.
 #[derive(Clone, Debug)]
-pub struct Recorded<const N: usize> {
+pub struct AlignedRun<const N: usize> {
     /// The run's name.
     pub name: String,
     /// Time of each row since the first [s]
@@ -73,7 +73,7 @@ pub struct Recorded<const N: usize> {
     pub input: Vec<[f64; N]>,
     /// Whether the bridges are open, row by row: then no current flows, whatever the driving signal says
     pub open: Vec<bool>,
-    /// What was measured; only where [`Recorded::has`] says so
+    /// What was measured; only where [`AlignedRun::has`] says so
     pub measured: Vec<Row>,
     /// Bit c: channel c was measured on this row
     pub has: Vec<u16>,
@@ -106,12 +106,12 @@ fn good_enough(group: &Group) -> bool {
 
 /// The bus voltage to take where the robot file states none: the largest that these runs show, one where they show none
 /// [V]
-pub fn supply_seen<'a, const N: usize>(runs: impl IntoIterator<Item = &'a Recorded<N>>) -> f64 {
+pub fn supply_seen<'a, const N: usize>(runs: impl IntoIterator<Item = &'a AlignedRun<N>>) -> f64 {
     let largest = runs.into_iter().map(|run| run.largest_voltage).fold(0.0, f64::max);
     if largest > 0.0 { largest } else { 1.0 }
 }
 
-impl<const N: usize> Recorded<N> {
+impl<const N: usize> AlignedRun<N> {
     /// Lays a run out; `None` where nothing in it can drive a model.
     pub fn new(run: &Run, robot: &RobotFile) -> Option<Self> {
         let good = |group: &Option<Group>| group.as_ref().is_some_and(good_enough);

@@ -1,4 +1,4 @@
-//! # Stage: a robot whose truth is known
+//! # Scenario: a robot whose truth is known
 //!
 //! A robot file says what the simulator believes; the staged robot is something else: its parameters are wrong by what
 //! the file states of its uncertainty, and it may have an effect that the file does not know. Recordings of it look like
@@ -15,13 +15,13 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::error::Result;
 use crate::log::{Catalogue, RobotFile, Run, Session, corrected};
-use crate::simulate::{Carried, Excitation, Model, NominalKey, Recording, excite, record};
+use crate::simulate::{EffectInstance, Excitation, Model, NominalKey, SensorSetup, excite, record};
 
 /// What is staged.
 #[derive(Clone, Debug)]
-pub struct Stage {
+pub struct Scenario {
     /// Effects of the true robot that the robot file does not know.
-    pub hidden: Vec<Carried>,
+    pub hidden: Vec<EffectInstance>,
     /// Parameters in which the robot file is plainly wrong: (key, true value over the file's).
     pub wrong: Vec<(&'static str, f64)>,
     /// True: every parameter is off by a draw of its stated relative uncertainty, Gaussian in its logarithm.
@@ -38,7 +38,7 @@ pub struct Stage {
     pub seed: u64,
 }
 
-impl Default for Stage {
+impl Default for Scenario {
     fn default() -> Self {
         Self {
             hidden: Vec::new(),
@@ -58,7 +58,7 @@ impl Default for Stage {
 ///
 /// # Errors
 /// Where the text is not a sound robot file.
-pub fn stage(truth: &str, plan: &Stage, catalogue: &Catalogue) -> Result<Session> {
+pub fn synthesize(truth: &str, plan: &Scenario, catalogue: &Catalogue) -> Result<Session> {
     let path = Path::new("robot.toml");
     let file = RobotFile::parse(truth, path, catalogue)?;
     let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
@@ -83,13 +83,13 @@ pub fn stage(truth: &str, plan: &Stage, catalogue: &Catalogue) -> Result<Session
     Ok(Session { robot, robot_text, runs, heldout: Vec::new(), notices: Vec::new() })
 }
 
-fn perform<const N: usize>(file: &RobotFile, plan: &Stage) -> Vec<Run> {
+fn perform<const N: usize>(file: &RobotFile, plan: &Scenario) -> Vec<Run> {
     let mut model = Model::<N>::nominal(file, plan.voltage);
     for effect in &plan.hidden {
-        model.carry(effect.clone());
+        model.add_effect(effect.clone());
     }
     let plant: Plant<N, f64> = model.plant();
-    let how = Recording { sensors: file.sensors, ..Recording::default() };
+    let how = SensorSetup { sensors: file.sensors, ..SensorSetup::default() };
     (0..plan.runs)
         .map(|k| {
             let seed = plan.seed.wrapping_mul(1000).wrapping_add(k as u64);

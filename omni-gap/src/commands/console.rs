@@ -9,19 +9,19 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use omni_gap::Error;
 
-use super::Stop;
+use super::CliError;
 
-/// The voice of one command.
+/// The console of one command.
 #[derive(Debug)]
-pub struct Voice {
+pub struct Console {
     quiet: bool,
     verbose: bool,
     spinner: Option<ProgressBar>,
     phase: Mutex<Option<(String, Instant)>>,
 }
 
-impl Voice {
-    /// A voice as loud as was asked for. The spinner turns only where a person is looking.
+impl Console {
+    /// A console as loud as was asked for. The spinner turns only where a person is looking.
     pub fn new(quiet: bool, verbose: bool) -> Self {
         let spinner = (!quiet && io::stderr().is_terminal()).then(|| {
             let style = ProgressStyle::with_template("{spinner} {msg} ({elapsed})");
@@ -31,7 +31,7 @@ impl Voice {
     }
 
     /// Says an answer on standard output. A reader who has gone away has heard enough.
-    pub fn say(&self, text: &str) -> Result<(), Stop> {
+    pub fn say(&self, text: &str) -> Result<(), CliError> {
         if self.quiet {
             return Ok(());
         }
@@ -39,8 +39,8 @@ impl Voice {
         let mut out = io::stdout().lock();
         match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
             Err(why) if why.kind() != io::ErrorKind::BrokenPipe => {
-                let mend = "Name a place with space left, or use --quiet";
-                Err(Error::output(Path::new("standard output"), why.to_string(), mend).into())
+                let fix = "Name a place with space left, or use --quiet";
+                Err(Error::output(Path::new("standard output"), why.to_string(), fix).into())
             }
             _ => Ok(()),
         }
@@ -54,7 +54,7 @@ impl Voice {
     }
 
     /// Says why the command stops.
-    pub fn error(&self, stop: &Stop) {
+    pub fn error(&self, stop: &CliError) {
         self.end_phase();
         let _ = writeln!(io::stderr(), "omni-gap: {stop}");
     }

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use model_core::plant::Input;
 
 use crate::log::{RobotFile, Run};
-use crate::simulate::{Experiment, Model, Plan, Recording, Script, record, scripts};
+use crate::simulate::{Experiment, Model, Plan, Script, SensorSetup, record, scripts};
 
 /// What each further run of the motor experiment drags, as a share of the motors' torque at the largest voltage.
 const LOAD: f64 = 0.2;
@@ -16,12 +16,18 @@ const LOAD: f64 = 0.2;
 /// Plays the scripts of all experiments on the robot of a file, and records them.
 ///
 /// The runs of the motor experiment drag more and more, as dry friction about ω.
-pub fn rehearse(truth: &RobotFile, plan: &Plan, how: &Recording, seed: u64) -> Vec<Run> {
-    rehearse_some(truth, plan, &Experiment::ALL, how, seed)
+pub fn simulate_experiments(truth: &RobotFile, plan: &Plan, how: &SensorSetup, seed: u64) -> Vec<Run> {
+    simulate_some_experiments(truth, plan, &Experiment::ALL, how, seed)
 }
 
 /// The same with the scripts of some experiments only; a run is the same with and without the others.
-pub fn rehearse_some(truth: &RobotFile, plan: &Plan, some: &[Experiment], how: &Recording, seed: u64) -> Vec<Run> {
+pub fn simulate_some_experiments(
+    truth: &RobotFile,
+    plan: &Plan,
+    some: &[Experiment],
+    how: &SensorSetup,
+    seed: u64,
+) -> Vec<Run> {
     match truth.wheel.len() {
         3 => of_wheels::<3>(truth, plan, some, how, seed),
         _ => of_wheels::<4>(truth, plan, some, how, seed),
@@ -37,7 +43,7 @@ fn of_wheels<const N: usize>(
     truth: &RobotFile,
     plan: &Plan,
     some: &[Experiment],
-    how: &Recording,
+    how: &SensorSetup,
     seed: u64,
 ) -> Vec<Run> {
     let robot = *Model::<N>::nominal(truth, plan.voltage).robot();
@@ -46,7 +52,7 @@ fn of_wheels<const N: usize>(
     played.map(|(k, script)| play(truth, plan, &script, how, seed.wrapping_mul(1000).wrapping_add(k as u64))).collect()
 }
 
-fn play<const N: usize>(truth: &RobotFile, plan: &Plan, script: &Script<N>, how: &Recording, seed: u64) -> Run {
+fn play<const N: usize>(truth: &RobotFile, plan: &Plan, script: &Script<N>, how: &SensorSetup, seed: u64) -> Run {
     let mut dragging = truth.clone();
     let load = script.name.rsplit('-').next().and_then(|word| word.parse::<f64>().ok()).unwrap_or(0.0);
     if Experiment::of(&script.name) == Some(Experiment::Motor) {

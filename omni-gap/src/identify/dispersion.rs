@@ -1,6 +1,6 @@
-//! A fit whose temper suits what it finds.
+//! A fit whose dispersion suits what it finds.
 //!
-//! The first fit trusts what was stated and lets the data pull only gently; then the temper is brought, step by step, to
+//! The first fit trusts what was stated and lets the data pull only gently; then the dispersion is brought, step by step, to
 //! what the errors that are left say it should be.
 
 use model_core::plant::robot::Nominal;
@@ -17,7 +17,7 @@ pub fn nominal_free(settings: &FitSettings) -> Vec<Free> {
 }
 
 /// Fits a model within what was stated; `from` is a fit of a model like it, to start from.
-pub fn fit_tempered<const N: usize>(
+pub fn fit_with_dispersion<const N: usize>(
     model: Model<N>,
     shots: Shots<'_, N>,
     from: Option<&Fit<N>>,
@@ -25,16 +25,16 @@ pub fn fit_tempered<const N: usize>(
     prior: &Prior,
     settings: &FitSettings,
 ) -> Fit<N> {
-    let mut temper = from.map_or_else(|| settings.caution * misfit(&model, shots, settings), |f| f.spread);
+    let mut dispersion = from.map_or_else(|| settings.caution * misfit(&model, shots, settings), |f| f.spread);
     let starts = from.map(|f| f.starts.clone());
-    let mut fitted = fit(model, shots, starts, free, prior, temper, settings.rounds);
+    let mut fitted = fit(model, shots, starts, free, prior, dispersion, settings.rounds);
     for _ in 0..settings.temperings {
-        if (fitted.spread / temper).ln().abs() < settings.settled {
+        if (fitted.spread / dispersion).ln().abs() < settings.settled {
             break;
         }
-        temper = fitted.spread;
+        dispersion = fitted.spread;
         let Fit { model, starts, .. } = fitted;
-        fitted = fit(model, shots, Some(starts), free, prior, temper, settings.rounds);
+        fitted = fit(model, shots, Some(starts), free, prior, dispersion, settings.rounds);
     }
     fitted
 }

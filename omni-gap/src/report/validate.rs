@@ -8,7 +8,7 @@ const SUM_TOLERANCE: f64 = 1e-6;
 
 impl Report {
     /// What is wrong with this report, a sentence each; empty for a sound one.
-    pub fn unsound(&self) -> Vec<String> {
+    pub fn violations(&self) -> Vec<String> {
         let mut found = Vec::new();
         let mut must = |holds: bool, sentence: &str| {
             if !holds {
@@ -57,7 +57,7 @@ mod tests {
     #[test]
     fn samples_of_all_verdicts_are_sound() {
         for (name, report) in sample::all() {
-            assert_eq!(report.unsound(), Vec::<String>::new(), "{name}");
+            assert_eq!(report.violations(), Vec::<String>::new(), "{name}");
         }
     }
 
@@ -65,13 +65,13 @@ mod tests {
     fn a_cause_under_the_verdict_no_gap_is_unsound() {
         let mut report = sample::effect();
         report.verdict = Verdict::NoGap;
-        assert_eq!(report.unsound().len(), 1);
+        assert_eq!(report.violations().len(), 1);
     }
 
     #[test]
     fn a_number_that_is_not_finite_is_unsound() {
         let mut report = sample::effect();
         report.which[0].parameters.values_mut().for_each(|p| p.value = f64::NAN);
-        assert_eq!(report.unsound(), ["a number is not finite"]);
+        assert_eq!(report.violations(), ["a number is not finite"]);
     }
 }

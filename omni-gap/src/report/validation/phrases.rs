@@ -2,7 +2,7 @@
 
 use crate::localise::validation::{RunFigures, Signal, SignalFigures, SpeedsFrom, Validation};
 use crate::report::number::{num, percent};
-use crate::report::words::list;
+use crate::report::phrases::list;
 
 /// How closely a model follows, by the points of fit that the worst axis lacks of what noise allows.
 const CLOSENESS: [(f64, &str); 4] =
