@@ -105,7 +105,7 @@ fn compensations(watch: &mut Stopwatch) {
         let wheel = (known.scope == Scope::OneWheel).then_some(1);
         let mut undo = Compensation::none();
         let effect = known.kind.with(black_box(known.typical()));
-        if !effect.is_some_and(|effect| undo.add(effect, black_box(wheel)).is_ok()) {
+        if effect.is_none_or(|effect| undo.add(effect, black_box(wheel)).is_err()) {
             board::fail(format_args!("{} cannot be undone", known.id));
         }
         let settings = settings(paper::four_wheels(), undo);

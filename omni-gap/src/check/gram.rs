@@ -141,8 +141,8 @@ impl Measured {
         for j in 0..WHEELS {
             self.ww[j] += w[j] * w[j];
             self.ii[j] += i[j] * i[j];
-            for k in 0..WHEELS {
-                self.wi[j][k] += w[j] * i[k];
+            for (sum, i) in self.wi[j].iter_mut().zip(i) {
+                *sum += w[j] * i;
             }
         }
     }
@@ -158,11 +158,13 @@ struct Driven {
 
 impl Driven {
     fn add(&mut self, u: &[f64; WHEELS], w: &[f64; WHEELS], i: &[f64; WHEELS]) {
-        for j in 0..WHEELS {
-            self.uu[j] += u[j] * u[j];
-            for k in 0..WHEELS {
-                self.uw[j][k] += u[j] * w[k];
-                self.ui[j][k] += u[j] * i[k];
+        for (j, u) in u.iter().enumerate() {
+            self.uu[j] += u * u;
+            for (sum, w) in self.uw[j].iter_mut().zip(w) {
+                *sum += u * w;
+            }
+            for (sum, i) in self.ui[j].iter_mut().zip(i) {
+                *sum += u * i;
             }
         }
     }
