@@ -199,7 +199,7 @@ fn effects_of_the_file_take_part() {
 
 #[test]
 fn an_axis_that_friction_holds_has_no_sensitivities() {
-    let said = usual(&changed(&text("feup-3w"), &[("coulomb_v_N", 1000.0)]));
+    let said = usual(&changed(&text("feup-3w"), &[("coulomb_v_N", 90.0)]));
     let (v, vn) = (&said.axes[0], &said.axes[1]);
     assert_eq!((v.speed, v.distance, v.final_speed), (0.0, 0.0, None));
     assert!(v.influences.is_empty() && vn.speed > 0.0);

@@ -1,7 +1,7 @@
 //! # Robots: what is believed, and what is true
 //!
 //! The block that a robot gets is made of a robot file; the robot that it then drives is another one. Every number of
-//! it is off by a draw of what the file states of it, or, where it states nothing, of the contract's defaults:
+//! it is off by a draw of what the file states of it, or, where it states nothing, of the robot file's defaults:
 //!
 //! | number | σ |
 //! |---|---|

@@ -69,6 +69,15 @@ fn section(card: &Card) -> String {
 }
 
 #[test]
+fn sources_name_literature_or_say_that_a_size_is_estimated() {
+    for kind in EffectKind::ALL {
+        let source = kind.card().source;
+        assert!(!source.contains("catalogue"), "{}: {source}", kind.card().id);
+        assert!(source.contains("sizes: ") || source.contains("no free size"), "{}: {source}", kind.card().id);
+    }
+}
+
+#[test]
 fn the_page_of_effects_is_made_from_the_cards() {
     let mut page = String::from("# The catalogue of effects\n\n");
     page += "What the plain model leaves out, in the order of the signal path. This page is made from the cards in\n";

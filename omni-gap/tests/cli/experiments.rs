@@ -154,7 +154,7 @@ fn a_robot_that_stands_still_is_refused_with_the_reason() {
     }
     bench.write("session/runs/spin-left.csv", &text);
     let args = ["identify", "session", "--experiment", "all", "--out", "found.toml", "--json", "found.json"];
-    refused(&bench, &args, &["runs: the robot stands still", "motors were enabled"]);
+    refused(&bench, &args, &["never moves", "motors were enabled"]);
 }
 
 #[test]

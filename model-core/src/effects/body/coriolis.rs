@@ -18,7 +18,8 @@
 //!
 //! Fails when: the centre of mass is not in the middle: then terms in ω² and dω/dt join.
 //! How to measure it: drive a curve at constant heading speed: v and vn swing in quadrature.
-//! Source: derivative of a vector in a turning frame; catalogue note B1.
+//! Source: Derivative of a vector in a turning frame: Goldstein, Classical Mechanics, ch. 4; no free size, 1 by
+//! derivation.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, BodyMotion, EffectContext};
@@ -32,7 +33,7 @@ pub const CARD: Card = Card {
     title: "Coriolis terms",
     summary: "A robot that turns while it moves carries its velocity round, which the paper's equations leave out.",
     equation: "dv/dt += k·ω·vn,  dvn/dt −= k·ω·v",
-    source: "derivative of a vector in a turning frame; catalogue B1",
+    source: "derivative of a vector in a turning frame: Goldstein, Classical Mechanics, ch. 4; no free size, 1 by derivation",
     seams: &[Seam::Body],
     scope: Scope::Robot,
     params: &[Param {

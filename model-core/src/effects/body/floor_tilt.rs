@@ -21,7 +21,7 @@
 //!
 //! Fails when: the floor is bent: then the slope depends on the place.
 //! How to measure it: lay a spirit level on the floor; or drive the same way in both directions and compare.
-//! Source: gravity on an inclined plane; size from catalogue note B5 (0.2–2°).
+//! Source: Gravity on an inclined plane; sizes: estimated for floors of rooms and halls, 0.2 to 2°.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, BodyMotion, EffectContext, STANDARD_GRAVITY};
@@ -34,7 +34,7 @@ pub const CARD: Card = Card {
     title: "Tilt of the floor",
     summary: "The floor is not level, so that gravity pulls the robot one way, whatever its heading.",
     equation: "F = M·g·sin β · (cos(φ − θ), sin(φ − θ))",
-    source: "gravity on an inclined plane; sizes: catalogue B5",
+    source: "gravity on an inclined plane; sizes: estimated for floors of rooms and halls, 0.2 to 2°",
     seams: &[Seam::Body],
     scope: Scope::Robot,
     params: &[

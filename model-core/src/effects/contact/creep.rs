@@ -15,7 +15,8 @@
 //!
 //! Fails when: the force nears the limit of grip; on real rubber creep also grows with speed.
 //! How to measure it: pull the robot with a weight over a pulley at steady speed, and compare wheels with camera.
-//! Source: brush model at small slip; size from catalogue note C5 (0.005–0.05 (m/s)/N).
+//! Source: Brush model at small slip: Pacejka, Tire and Vehicle Dynamics, 2012, ch. 3; sizes: estimated for rubber
+//! rollers, 0.005 to 0.05 (m/s)/N.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
@@ -28,7 +29,7 @@ pub const CARD: Card = Card {
     title: "Creep of the contact",
     summary: "A wheel that pushes turns a little faster than it rolls, in proportion to the force.",
     equation: "r·ω = cos α·v + sin α·vn + d·ω + c·f",
-    source: "brush model at small slip; sizes: catalogue C5",
+    source: "brush model at small slip: Pacejka, Tire and Vehicle Dynamics, 2012, ch. 3; sizes: estimated for rubber rollers, 0.005 to 0.05 (m/s)/N",
     seams: &[Seam::Contact],
     scope: Scope::Wheels,
     params: &[Param {

@@ -21,7 +21,8 @@
 //!
 //! Fails when: the rollers' own grip along the axle matters; when the floor changes from place to place.
 //! How to measure it: hold the robot with a spring balance, raise the current until a wheel spins, divide by its load.
-//! Source: Pacejka, Tire and Vehicle Dynamics; size from catalogue notes C6 and C7 (μ 0.2–0.8).
+//! Source: The magic formula in its short form: Pacejka, Tire and Vehicle Dynamics, 2012, ch. 4; sizes: rubber on
+//! carpet to rubber on hard floor, μ 0.2 to 0.8.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
@@ -34,7 +35,7 @@ pub const CARD: Card = Card {
     title: "Slip of the wheels",
     summary: "A wheel that pushes too hard slips, so that it turns faster than the robot moves.",
     equation: "f = μ·N · sin(C · atan(B·s))",
-    source: "Pacejka's formula in its short form; sizes: catalogue C6, C7",
+    source: "the magic formula in its short form: Pacejka, Tire and Vehicle Dynamics, 2012, ch. 4; sizes: rubber on carpet to rubber on hard floor, μ 0.2 to 0.8",
     seams: &[Seam::Contact],
     scope: Scope::Wheels,
     params: &[

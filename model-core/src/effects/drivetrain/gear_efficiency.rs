@@ -20,7 +20,8 @@
 //!
 //! Fails when: friction that does not depend on the load rules (seals, grease): that is Coulomb and viscous friction.
 //! How to measure it: drive up to speed and brake with the same current: the two accelerations differ.
-//! Source: definition of efficiency in both directions; size from catalogue note D1 (0.75–0.95).
+//! Source: Definition of efficiency in both directions: Norton, Design of Machinery, ch. 9; sizes: estimated for small
+//! spur and planetary gears, 0.75 to 0.95.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
@@ -33,7 +34,7 @@ pub const CARD: Card = Card {
     title: "Efficiency of the gear",
     summary: "The gear loses a share of the torque it carries, and more of it when the wheel drives the motor.",
     equation: "τ_loss = (1 − η)·|τ_m| driving, (1/η − 1)·|τ_m| driven",
-    source: "definition of efficiency in both directions; sizes: catalogue D1",
+    source: "definition of efficiency in both directions: Norton, Design of Machinery, ch. 9; sizes: estimated for small spur and planetary gears, 0.75 to 0.95",
     seams: &[Seam::Gear],
     scope: Scope::Wheels,
     params: &[Param {

@@ -18,7 +18,8 @@
 //!
 //! Fails when: the gear is elastic or has play: then rotor and wheel move apart.
 //! How to measure it: lift the robot, step the voltage and time the run-up of the wheels.
-//! Source: kinetic energy of the turning parts; size from catalogue note D9 (3e-5 to 2e-4 kg·m²).
+//! Source: Kinetic energy of the turning parts; sizes: rotors of small brushless motors times the gear ratio squared,
+//! 3e-5 to 2e-4 kg·m².
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
@@ -31,7 +32,7 @@ pub const CARD: Card = Card {
     title: "Inertia of rotors and wheels",
     summary: "Rotors and wheels have to be accelerated along with the body.",
     equation: "J_w = l²·J_rotor + J_wheel",
-    source: "kinetic energy of the turning parts; sizes: catalogue D9",
+    source: "kinetic energy of the turning parts; sizes: rotors of small brushless motors times the gear ratio squared, 3e-5 to 2e-4 kg·m²",
     seams: &[Seam::Gear],
     scope: Scope::Wheels,
     params: &[Param {

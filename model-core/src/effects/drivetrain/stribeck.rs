@@ -18,7 +18,8 @@
 //!
 //! Fails when: the surfaces move by less than their own bristles: then friction is a spring.
 //! How to measure it: raise the voltage slowly until the robot moves, lower it slowly until it stops: the two differ.
-//! Source: curve after Stribeck in the form of Bo and Pavelescu; sizes from catalogue note D3 (20–100 %, a = 1–2).
+//! Source: Bo, Pavelescu, The friction-speed relation and its influence on the critical velocity of stick-slip motion,
+//! Wear 82, 1982; sizes: Armstrong-Hélouvry, Dupont, Canudas de Wit, Automatica 30, 1994.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear, RimMotion};
@@ -31,7 +32,7 @@ pub const CARD: Card = Card {
     title: "Stribeck friction",
     summary: "Near standstill dry friction is larger than in motion, so that wheels break away with a jerk.",
     equation: "τ_C → τ_C · (1 + e · exp(−(|v| / v_s)^a))",
-    source: "Stribeck curve in the form of Bo and Pavelescu; sizes: catalogue D3",
+    source: "Bo, Pavelescu, The friction-speed relation and its influence on the critical velocity of stick-slip motion, Wear 82, 1982; sizes: Armstrong-Hélouvry, Dupont, Canudas de Wit, Automatica 30, 1994",
     seams: &[Seam::Gear],
     scope: Scope::Wheels,
     params: &[

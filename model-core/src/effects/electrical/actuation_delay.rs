@@ -22,7 +22,8 @@
 //!
 //! Fails when: the delay varies from telegram to telegram.
 //! How to measure it: step the voltage with the wheels locked and count the time until the current rises.
-//! Source: held input behind a pure delay; size from catalogue note E13 (1–10 ms over radio).
+//! Source: Held input behind a pure delay: Åström, Wittenmark, Computer-Controlled Systems, 1997, ch. 2; sizes:
+//! estimated, a part of a PWM period to 10 ms over radio.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext, StepOutcome};
@@ -41,7 +42,7 @@ pub const CARD: Card = Card {
     title: "Delay of the command",
     summary: "The voltage reaches the motors later than it was commanded.",
     equation: "ū = 1/Δt · ∫ u(τ − t_d) dτ over [t, t + Δt]",
-    source: "held input behind a pure delay; sizes: catalogue E13",
+    source: "held input behind a pure delay: Åström, Wittenmark, Computer-Controlled Systems, 1997, ch. 2; sizes: estimated, a part of a PWM period to 10 ms over radio",
     seams: &[Seam::Bridge],
     scope: Scope::Wheels,
     params: &[Param {

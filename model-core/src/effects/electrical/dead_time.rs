@@ -16,7 +16,8 @@
 //!
 //! Fails when: the current is discontinuous (low inductance, light load).
 //! How to measure it: locked wheel, slow ramp of voltage: the current stays near zero up to V_d, then rises with 1/R.
-//! Source: size from catalogue note E2 (0.05–0.6 V); the paper sees it as part of R (section 5.4).
+//! Source: Average of the sign of a current with triangular ripple: Mohan, Undeland, Robbins, Power Electronics, 2003,
+//! ch. 8; sizes: dead time over period times bus voltage, 0.05 to 0.6 V. The paper sees it as part of R (section 5.4).
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
@@ -29,7 +30,7 @@ pub const CARD: Card = Card {
     title: "Dead time of the bridge",
     summary: "The bridge loses a fixed voltage against the sign of the current, so that small commands do nothing.",
     equation: "Δu = V_d · sat(i / i₀)",
-    source: "average of the sign of a current with triangular ripple; sizes: catalogue E2",
+    source: "average of the sign of a current with triangular ripple: Mohan, Undeland, Robbins, Power Electronics, 2003, ch. 8; sizes: dead time over period times bus voltage, 0.05 to 0.6 V",
     seams: &[Seam::Bridge],
     scope: Scope::Wheels,
     params: &[

@@ -18,7 +18,8 @@
 //! Fails when: one phase is broken: the torque then depends on the angle.
 //! How to measure it: lift the robot and give all wheels the same voltage: the odd wheel runs at another speed (k);
 //! lock the wheels: it draws another current (ρ).
-//! Source: equations of the DC motor; sizes from catalogue notes E8 (−5 to −30 %) and E9 (+5 to +50 %).
+//! Source: Equations of the DC motor (the paper's 21 and 22); sizes: estimated, constants −5 to −30 %, resistance +5 to
+//! +50 %.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Winding};
@@ -31,7 +32,7 @@ pub const CARD: Card = Card {
     title: "Mismatch of one motor",
     summary: "One motor is weaker or stronger than the others, or its winding has another resistance.",
     equation: "K_v → k·K_v,  K_t → k·K_t,  R → ρ·R",
-    source: "equations of the DC motor; sizes: catalogue E8, E9",
+    source: "equations of the DC motor (the paper's 21 and 22); sizes: estimated, constants −5 to −30 %, resistance +5 to +50 %",
     seams: &[Seam::Winding],
     scope: Scope::OneWheel,
     params: &[

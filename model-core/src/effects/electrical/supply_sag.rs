@@ -19,7 +19,8 @@
 //!
 //! Fails when: the battery recovers slowly, or empties within the run.
 //! How to measure it: read the bus voltage with all wheels at rest, and again with all of them held at full command.
-//! Source: voltage source behind a resistance; size from catalogue note E3 (0.05–0.3 Ω).
+//! Source: Voltage source behind a resistance: Thévenin's theorem; sizes: estimated for small lithium packs with their
+//! wiring, 0.05 to 0.3 Ω.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Supply};
@@ -32,7 +33,7 @@ pub const CARD: Card = Card {
     title: "Sag of the supply",
     summary: "Under load the battery voltage falls, and with it the voltage of all wheels at once.",
     equation: "u_bus = U_oc − R_b · I,  u_eff = u · u_bus / u_nominal",
-    source: "voltage source behind a resistance; sizes: catalogue E3",
+    source: "voltage source behind a resistance: Thévenin's theorem; sizes: estimated for small lithium packs with their wiring, 0.05 to 0.3 Ω",
     seams: &[Seam::Supply],
     scope: Scope::Robot,
     params: &[

@@ -20,7 +20,8 @@
 //!
 //! Fails when: the latency varies from frame to frame.
 //! How to measure it: spin the robot up and stop it: the camera sees the stop late by t_d.
-//! Source: pure delay; size from catalogue note S1 (20–90 ms; one camera frame is 40 ms).
+//! Source: Pure delay; sizes: one frame of the paper's camera is 40 ms, vision of the RoboCup small size league adds to
+//! about 20 to 90 ms.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
@@ -43,7 +44,7 @@ pub const CARD: Card = Card {
     title: "Latency of the camera",
     summary: "The camera reports where the robot was a moment ago.",
     equation: "pose_read(t) = pose(t − t_d)",
-    source: "pure delay; sizes: catalogue S1",
+    source: "pure delay; sizes: one frame of the paper's camera is 40 ms, vision of the RoboCup small size league adds to about 20 to 90 ms",
     seams: &[Seam::Sense],
     scope: Scope::Robot,
     params: &[Param {

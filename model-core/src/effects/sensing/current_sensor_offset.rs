@@ -13,7 +13,7 @@
 //!
 //! Fails when: the sensor reads the amount of the current: then the offset turns with the current's sign.
 //! How to measure it: read the current with the bridge off.
-//! Source: zero error of a shunt amplifier; size from catalogue note S9 (10–100 mA).
+//! Source: Zero error of a shunt amplifier; sizes: input offset of data sheets over the shunt, 10 to 100 mA.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
@@ -26,7 +26,7 @@ pub const CARD: Card = Card {
     title: "Offset of the current sensor",
     summary: "The current sensor does not read zero at zero current.",
     equation: "i_read = i + o",
-    source: "zero error of a shunt amplifier; sizes: catalogue S9",
+    source: "zero error of a shunt amplifier; sizes: input offset of data sheets over the shunt, 10 to 100 mA",
     seams: &[Seam::Sense],
     scope: Scope::Wheels,
     params: &[Param {
