@@ -186,9 +186,8 @@ impl Windings {
                 voltage: setpoints.voltage[j],
                 closed: setpoints.closed,
             };
-            let place = Place { motor: j, ready, closed: may >> j & 1 != 0 };
-            command.duties[j] =
-                tick_motor(motor, &mut self.protection, &self.config, &place, codes.halls[j], &measured, &setpoint);
+            let place = Place { motor: j, ready, closed: may >> j & 1 != 0, hall: codes.halls[j] };
+            command.duties[j] = tick_motor(motor, &mut self.protection, &self.config, &place, &measured, &setpoint);
         }
         if self.protection.faults().is_empty() {
             command.enabled = may & !self.protection.disabled();
@@ -244,6 +243,7 @@ struct Place {
     ready: bool,
     /// The bridge may be closed
     closed: bool,
+    hall: HallCode,
 }
 
 /// One motor's turn: what to put on its phases. By itself, so that four motors are not four times the code.
@@ -253,11 +253,10 @@ fn tick_motor(
     protection: &mut Protection,
     config: &WindingConfig,
     place: &Place,
-    hall: HallCode,
     measured: &MotorMeasurement,
     setpoint: &CurrentSetpoint,
 ) -> [f32; 3] {
-    match motor.update_halls(hall) {
+    match motor.update_halls(place.hall) {
         Ok(()) => protection.good_hall(place.motor),
         Err(_) => protection.bad_hall(place.motor, config.wheels),
     }

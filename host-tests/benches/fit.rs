@@ -9,7 +9,7 @@ use std::time::Duration;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use host_tests::catalogue::sessions::truth;
 use model_core::plant::robot::Nominal;
-use omni_gap::identify::{Free, Prior, Shots, WINDOW_S, Windows, fit};
+use omni_gap::identify::{FitOptions, Free, Prior, Shots, WINDOW_S, Windows, fit};
 use omni_gap::known_effects;
 use omni_gap::simulate::{AlignedRun, Model, Slot};
 use omni_gap::synthesize::{Scenario, synthesize};
@@ -53,7 +53,8 @@ fn bench(c: &mut Criterion) {
     let prior = Prior::stated(&session.robot);
     let free: Vec<Free> = WRONG.iter().map(|(_, p, _)| Free { slot: Slot::Nominal(*p), within: (0.1, 4.0) }).collect();
 
-    let fitted = fit(nominal.clone(), shots, None, &free, &prior, 1.0, ROUNDS);
+    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: ROUNDS, by_window: false };
+    let fitted = fit(nominal.clone(), shots, None, options);
     for (key, p, truth) in WRONG {
         let slot = Slot::Nominal(p);
         let (found, sigma) = (fitted.model.get(slot), fitted.std(slot).expect("it was free"));
@@ -69,7 +70,7 @@ fn bench(c: &mut Criterion) {
     group.sample_size(20).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(8));
     group.throughput(Throughput::Elements(laid.iter().map(|run| run.rows() as u64).sum()));
     group.bench_function("7 parameters, 60 s", |b| {
-        b.iter(|| fit(black_box(nominal.clone()), shots, None, &free, &prior, 1.0, ROUNDS));
+        b.iter(|| fit(black_box(nominal.clone()), shots, None, options));
     });
     group.finish();
 }

@@ -17,6 +17,8 @@ mod needles;
 mod notation;
 #[path = "walls/rooms.rs"]
 mod rooms;
+#[path = "walls/signatures.rs"]
+mod signatures;
 #[path = "walls/tree.rs"]
 mod tree;
 
@@ -77,6 +79,11 @@ fn every_name_of_the_notation_is_in_the_core_with_its_unit() {
 #[test]
 fn one_file_is_one_idea() {
     none(in_all(&rust_below(""), |source| finding::too_long(source, MOST_LINES)));
+}
+
+#[test]
+fn no_function_takes_more_than_six_parameters() {
+    none(in_all(&rust_below(""), signatures::too_many));
 }
 
 #[test]

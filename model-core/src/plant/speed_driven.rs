@@ -45,7 +45,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             rolling.to_array()
         };
         state.wheel_speed = *speed;
-        let reading = self.finish(state, memory, truth, next, &contact, &Source::Speed, self.robot.supply, dt);
+        let reading = self.finish(state, memory, (truth, next), &contact, (&Source::Speed, self.robot.supply), dt);
         if !yields {
             state.twist = BodyTwist::from_array(next);
         }

@@ -102,7 +102,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                     let force = (gear.torque - gear.damping * speed) * c.per_radius;
                     (force, (electric.slope + gear.damping) * (c.per_radius * c.per_radius))
                 } else {
-                    let grip = self.grip(&mut at, state, memory, &source, c, gain, &mut electric, &mut gear);
+                    let grip = self.grip(&mut at, state, memory, (&source, gain), c, (&mut electric, &mut gear));
                     speed = grip.wheel_speed;
                     // with inertia the wheel has not moved yet when the reading is taken
                     starts = if gear.inertia > zero { state.wheel_speed[j] } else { speed };
@@ -127,21 +127,18 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             push.rate = self.plain_rate;
         }
         let next = self.move_body(&at, state, memory, &push, &held, dt);
-        self.finish(state, memory, truth, next, contact, &source, bus, dt)
+        self.finish(state, memory, (truth, next), contact, (&source, bus), dt)
     }
 
     /// Moves the pose, takes the reading and lets the effects remember.
     #[inline]
-    #[allow(clippy::too_many_arguments)]
     pub(super) fn finish(
         &self,
         state: &mut State<N, T>,
         memory: &mut [E::State],
-        truth: Reading<N, T>,
-        next: [T; 3],
+        (truth, next): (Reading<N, T>, [T; 3]),
         contact: &[Contact<T>; N],
-        source: &Source<'_, N, T>,
-        bus: T,
+        (source, bus): (&Source<'_, N, T>, T),
         dt: T,
     ) -> Reading<N, T> {
         let sensed = !self.effects.none_at(Seam::Sense);

@@ -46,17 +46,14 @@ pub(super) fn floor_force<T: Real>(c: &Contact<T>, slip: T) -> (T, T) {
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// Solves a wheel whose contact gives way; leaves the motor and gear as they are at the solution.
-    #[allow(clippy::too_many_arguments)]
     pub(super) fn grip(
         &self,
         at: &mut EffectContext<T>,
         state: &State<N, T>,
         memory: &[E::State],
-        source: &Source<'_, N, T>,
+        (source, gain): (&Source<'_, N, T>, T),
         c: &Contact<T>,
-        gain: T,
-        electric: &mut Electric<T>,
-        gear: &mut Gear<T>,
+        (electric, gear): (&mut Electric<T>, &mut Gear<T>),
     ) -> Grip<T> {
         let j = at.wheel;
         let before = state.wheel_speed[j];

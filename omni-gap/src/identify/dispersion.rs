@@ -5,7 +5,7 @@
 
 use model_core::plant::robot::Nominal;
 
-use super::fit::{Fit, Free, fit, profile};
+use super::fit::{Fit, FitOptions, Free, fit, profile};
 use super::prior::Prior;
 use super::settings::FitSettings;
 use super::shoot::Shots;
@@ -27,14 +27,15 @@ pub fn fit_with_dispersion<const N: usize>(
 ) -> Fit<N> {
     let mut dispersion = from.map_or_else(|| settings.caution * misfit(&model, shots, settings), |f| f.spread);
     let starts = from.map(|f| f.starts.clone());
-    let mut fitted = fit(model, shots, starts, free, prior, dispersion, settings.rounds);
+    let options = |dispersion| FitOptions { free, prior, dispersion, rounds: settings.rounds, by_window: false };
+    let mut fitted = fit(model, shots, starts, options(dispersion));
     for _ in 0..settings.temperings {
         if (fitted.spread / dispersion).ln().abs() < settings.settled {
             break;
         }
         dispersion = fitted.spread;
         let Fit { model, starts, .. } = fitted;
-        fitted = fit(model, shots, Some(starts), free, prior, dispersion, settings.rounds);
+        fitted = fit(model, shots, Some(starts), options(dispersion));
     }
     fitted
 }

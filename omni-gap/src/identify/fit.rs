@@ -13,7 +13,7 @@ use super::prior::Prior;
 use super::settings::FitSettings;
 use super::shoot::{Piece, Shots, Starts, first_starts, run_some_windows};
 use super::whiten::Whitener;
-use crate::simulate::{AlignedRun, Model, Slot};
+use crate::simulate::{AlignedRun, FreeRun, Model, Slot};
 use model_core::geometry::frames::{BodyTwist, Pose};
 
 /// A number of the model that the fit may change.
@@ -66,22 +66,9 @@ impl<const N: usize> Fit<N> {
 /// A step that promises less than this of the cost is not taken [σ²]: no number would move by a thirtieth of its sigma.
 const ARRIVED: f64 = 1e-3;
 
-/// Fits the free numbers of `model` to the runs; `starts` are where to begin, if known from a fit before.
-pub fn fit<const N: usize>(
-    model: Model<N>,
-    shots: Shots<'_, N>,
-    starts: Option<Vec<Starts>>,
-    free: &[Free],
-    prior: &Prior,
-    dispersion: f64,
-    rounds: usize,
-) -> Fit<N> {
-    fit_so(model, shots, starts, How { free, prior, dispersion, rounds, by_window: false })
-}
-
-/// How a fit goes.
-#[derive(Clone, Copy)]
-pub(super) struct How<'a> {
+/// What a fit may change, and how it goes.
+#[derive(Clone, Copy, Debug)]
+pub struct FitOptions<'a> {
     /// What is free.
     pub free: &'a [Free],
     /// What was stated.
@@ -94,14 +81,14 @@ pub(super) struct How<'a> {
     pub by_window: bool,
 }
 
-/// The same in every detail.
-pub(super) fn fit_so<const N: usize>(
+/// Fits the free numbers of `model` to the runs; `starts` are where to begin, if known from a fit before.
+pub fn fit<const N: usize>(
     mut model: Model<N>,
     shots: Shots<'_, N>,
     starts: Option<Vec<Starts>>,
-    how: How<'_>,
+    options: FitOptions<'_>,
 ) -> Fit<N> {
-    let How { free, prior, dispersion, rounds, by_window } = how;
+    let FitOptions { free, prior, dispersion, rounds, by_window } = options;
     let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
     let mut starts = starts.unwrap_or_else(|| {
         let plant = model.plant();
@@ -231,8 +218,7 @@ fn cost_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, starts: &[Star
             let mut white = Whitener::<1>::of(run);
             let (mut sum, mut last) = (0.0, usize::MAX);
             run_some_windows(
-                &plant,
-                run,
+                FreeRun::new(&plant, run),
                 &windows[k],
                 which,
                 start,

@@ -21,7 +21,9 @@ fn fitted(runs: &[AlignedRun<4>], windows: impl Fn(&AlignedRun<4>) -> Windows) -
     let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
     let free = TRUTH.map(|(p, _)| Free { slot: Slot::Nominal(p), within: (0.1, 4.0) });
     let shots = Shots { runs: &runs, windows: &windows };
-    fit(Model::nominal(&robot(), 12.0), shots, None, &free, &Prior::stated(&robot()), 1.0, 12)
+    let prior = Prior::stated(&robot());
+    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: false };
+    fit(Model::nominal(&robot(), 12.0), shots, None, options)
 }
 
 /// How far the fitted numbers are from the truth, in their own sigma.

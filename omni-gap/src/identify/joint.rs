@@ -16,7 +16,7 @@ use model_core::plant::robot::Nominal;
 use nalgebra::DMatrix;
 
 use super::driven::by_input;
-use super::fit::{Fit, Free, How, fit_so};
+use super::fit::{Fit, FitOptions, Free, fit};
 use super::identifiability::{Identifiability, KNOWN, TradeOff, identifiability_of, trade_offs};
 use super::linear::linearise;
 use super::noise::{Noise, noise_of};
@@ -118,16 +118,16 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Aligne
     }
     let free = IDENTIFIED.map(|p| Free { slot: Slot::Nominal(p), within: WITHIN });
     let prior = Prior { rows: Vec::new() };
-    let how = How { free: &free, prior: &prior, dispersion: 1.0, rounds: ROUNDS.1, by_window: true };
+    let how = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: ROUNDS.1, by_window: true };
     let short: Vec<Windows> = runs.iter().map(|run| Windows::new(run, WINDOW_S)).collect();
     let whole: Vec<Windows> = runs.iter().map(|run| Windows::whole(run)).collect();
 
     let shots = Shots { runs: &runs, windows: &short };
-    let near = fit_so(model.clone(), shots, None, How { rounds: ROUNDS.0, ..how });
+    let near = fit(model.clone(), shots, None, FitOptions { rounds: ROUNDS.0, ..how });
     let mut noise = noise_of(&near, shots);
     let with_noise: Vec<AlignedRun<N>> = runs.iter().map(|run| noise.applied(run)).collect();
     let mut noisy: Vec<&AlignedRun<N>> = with_noise.iter().collect();
-    let mut best = fit_so(near.model.clone(), Shots { runs: &noisy, windows: &whole }, None, how);
+    let mut best = fit(near.model.clone(), Shots { runs: &noisy, windows: &whole }, None, how);
     let misfit = best.cost / best.samples.max(1) as f64;
     let follows = misfit < FOLLOWS;
     let again;
@@ -137,10 +137,10 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Aligne
         again = runs.iter().map(|run| noise.applied(run)).collect::<Vec<_>>();
         noisy = again.iter().collect();
         // it is there already but for the weights
-        let near = How { rounds: ROUNDS.0, by_window: false, ..how };
-        best = fit_so(best.model, Shots { runs: &noisy, windows }, Some(best.starts), near);
+        let near = FitOptions { rounds: ROUNDS.0, by_window: false, ..how };
+        best = fit(best.model, Shots { runs: &noisy, windows }, Some(best.starts), near);
     } else {
-        best = fit_so(near.model, Shots { runs: &noisy, windows }, Some(near.starts), how);
+        best = fit(near.model, Shots { runs: &noisy, windows }, Some(near.starts), how);
     }
     judged(best, Shots { runs: &noisy, windows }, file, noise, follows, misfit.sqrt())
 }

@@ -32,7 +32,7 @@ pub use answer::model::{
 pub use answer::{answer, number_key};
 pub use disagree::{Disagreement, IndependentEstimate, disagreements};
 pub use dispersion::{fit_with_dispersion, nominal_free};
-pub use fit::{Fit, Free, fit, profile};
+pub use fit::{Fit, FitOptions, Free, fit, profile};
 pub use guess::Guessed;
 pub use identifiability::{Identifiability, TradeOff};
 pub use joint::{GIVEN, IDENTIFIED, Identified, Joint, Refused, joint};

@@ -1,4 +1,4 @@
-use super::super::fit::fit;
+use super::super::fit::{FitOptions, fit};
 use super::super::prior::Prior;
 use super::super::shoot::Windows;
 use super::super::staged::{Staging, robot, staged};
@@ -15,7 +15,12 @@ fn found(how: &Staging, window: f64) -> Noise {
     let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, window)).collect();
     let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
     let shots = Shots { runs: &runs, windows: &windows };
-    let fitted = fit(model, shots, None, &[], &Prior::stated(&robot()), 1.0, 5);
+    let fitted = fit(
+        model,
+        shots,
+        None,
+        FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: false },
+    );
     noise_of(&fitted, shots)
 }
 

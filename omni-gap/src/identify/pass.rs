@@ -8,7 +8,7 @@ use model_core::number::dual::Dual;
 
 use super::shoot::{Starts, Windows, run_some_windows};
 use super::whiten::Whitener;
-use crate::simulate::{AlignedRun, MAX_CHANNELS, Model, Slot};
+use crate::simulate::{AlignedRun, FreeRun, MAX_CHANNELS, Model, Slot};
 
 /// Parameters of a window's start that need the plant to differentiate, v, vn and ω; moving or turning the whole path
 /// is geometry.
@@ -80,7 +80,7 @@ pub(super) fn pass<const N: usize, const LANES: usize>(
     let mut white = (Whitener::<LANES>::of(run), Whitener::<4>::of(run));
     let mut seen = [Seen::<LANES>::NOTHING; MAX_CHANNELS];
     let mut last = usize::MAX;
-    run_some_windows(&plant, run, windows, which, start, enter, |k, row, predicted| {
+    run_some_windows(FreeRun::new(&plant, run), windows, which, start, enter, |k, row, predicted| {
         if k != last {
             white.0.enter();
             white.1.enter();

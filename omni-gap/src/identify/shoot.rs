@@ -123,22 +123,21 @@ pub fn run_windows<const N: usize, T: Real>(
     enter: impl Fn(&mut [EffectState<T>]),
     each: impl FnMut(usize, usize, &[T; MAX_CHANNELS]),
 ) {
-    run_some_windows(plant, run, windows, 0..windows.len(), start, enter, each);
+    run_some_windows(FreeRun::new(plant, run), windows, 0..windows.len(), start, enter, each);
 }
 
-/// The same for some windows of a run, the first of which begins with no memory.
+/// The same for some windows of a run; `on_the_way` has not begun, so that the first begins with no memory.
 ///
 /// `start` makes the window's start in the plant's number type; `enter` may change the memory at a window's beginning.
 pub(super) fn run_some_windows<const N: usize, T: Real>(
-    plant: &Plant<N, T>,
-    run: &AlignedRun<N>,
+    mut on_the_way: FreeRun<'_, N, T>,
     windows: &Windows,
     which: Range<usize>,
     start: impl Fn(usize) -> (Pose<T>, BodyTwist<T>),
     enter: impl Fn(&mut [EffectState<T>]),
     mut each: impl FnMut(usize, usize, &[T; MAX_CHANNELS]),
 ) {
-    let mut on_the_way = FreeRun::new(plant, run);
+    let run = on_the_way.run();
     for window in which {
         let rows = windows.rows(window);
         let (pose, twist) = start(window);

@@ -37,6 +37,11 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
         Self { plant, run, state, memory: plant.memory().collect(), steps_taken: 0 }
     }
 
+    /// What it goes along.
+    pub fn run(&self) -> &'a AlignedRun<N> {
+        self.run
+    }
+
     /// Where it is.
     pub fn state(&self) -> &State<N, T> {
         &self.state
