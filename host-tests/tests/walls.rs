@@ -3,6 +3,8 @@
 //! These tests read files; they run none of the product. Each finding says where it is and what to do about it, and the
 //! helpers that find are tested on small texts beside them, so that every wall is known to be able to fail.
 
+#[path = "walls/architecture.rs"]
+mod architecture;
 #[path = "walls/code.rs"]
 mod code;
 #[path = "walls/engine.rs"]
@@ -74,6 +76,14 @@ fn every_name_of_the_notation_is_in_the_core_with_its_unit() {
     let table = found.iter().find(|source| source.path == notation::TABLE).expect("the table of notation");
     assert!(notation::names(table) >= 50, "only {} names are found in {}", notation::names(table), notation::TABLE);
     none(notation::untrue(table, &rust_below("model-core/src/")));
+}
+
+#[test]
+fn the_page_of_the_architecture_names_what_is_there() {
+    let found = sources(&["md"]);
+    let page = found.iter().find(|source| source.path == architecture::PAGE).expect("the page of the architecture");
+    assert!(architecture::paths(&page.text).len() >= 40, "the page names too few places to be a map");
+    none(architecture::missing(page, &std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..")));
 }
 
 #[test]

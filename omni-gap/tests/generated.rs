@@ -15,7 +15,7 @@ use commands::answers_or_refuses;
 use spoil::spoiled;
 
 /// Sessions in a run of the tests; `GENERATED_SESSIONS` in the environment asks for more.
-const SESSIONS: u32 = 40;
+const SESSIONS: u32 = 300;
 
 #[test]
 fn every_command_answers_or_refuses_whatever_it_is_given() {

@@ -153,7 +153,11 @@ impl ImageMeasurement {
         odd.extend(self.missing.iter().map(|task| format!("{task} is missing")));
         let room = CHIP_RAM.saturating_sub(self.ram);
         vec![
-            Promise { what: "flash, at most 65,536 bytes", found: grouped(self.flash), kept: self.flash <= MOST_FLASH },
+            Promise {
+                what: "flash, at most 114,688 bytes",
+                found: grouped(self.flash),
+                kept: self.flash <= MOST_FLASH,
+            },
             Promise { what: "static RAM, at most 16,384 bytes", found: grouped(self.ram), kept: self.ram <= MOST_RAM },
             Promise {
                 what: "deepest stack fits the RAM that is left",
