@@ -5,9 +5,10 @@ use model_core::effects::active::MAX_EFFECTS;
 use model_core::effects::card::Role;
 
 use crate::log::{Catalogue, KnownEffect, KnownParam};
+use crate::simulate::ROOM_FOR_CAUSES;
 
 /// The most effects that a file may name: a diagnosis needs room for those that it adds.
-const MOST_IN_A_FILE: usize = MAX_EFFECTS - 4;
+const MOST_IN_A_FILE: usize = MAX_EFFECTS - ROOM_FOR_CAUSES;
 
 /// The effects that this program knows.
 pub fn known_effects() -> Catalogue {

@@ -97,7 +97,8 @@ pub struct ScreenKnobs {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SearchKnobs {
-    /// Causes that one corrected model may need, at the most [causes]: a limit of time.
+    /// Causes that one corrected model may need, at the most [causes]: a limit of time. More than 3 counts as 3: a model has
+    /// no room for more beside the effects of its robot file.
     pub most_causes: usize,
     /// What each free number of a cause costs in the score [1]: as in Akaike's criterion.
     pub price_of_freedom: f64,

@@ -32,7 +32,7 @@ pub use floor::{Floor, floor_of};
 pub use free_run::{FreeRun, RowPassed, free_run};
 pub use keys::{NOMINAL_KEYS, NominalKey};
 pub use limits::{Allowed, Lowered, USUAL_FIELD, allowed, usual_voltage};
-pub use model::{EffectInstance, Model, Slot, robot_of};
+pub use model::{EffectInstance, Model, ROOM_FOR_CAUSES, Slot, robot_of};
 pub use predict::{HORIZON_S, Prediction, predict, restart_rows};
 pub use record::{SensorSetup, SpeedSensor, record};
 pub use script::{AXES, Experiment, Plan, Script, along, scripts};

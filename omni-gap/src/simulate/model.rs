@@ -13,6 +13,9 @@ use model_core::plant::winding::Motor;
 
 use crate::log::RobotFile;
 
+/// Effects that a diagnosis may add to those of a robot file: the causes found, and the one that is being tried.
+pub const ROOM_FOR_CAUSES: usize = 4;
+
 /// An effect in a model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EffectInstance {

@@ -6,7 +6,7 @@ use super::round::{Ranking, explain};
 use super::scored::{Data, Scored};
 use crate::engine::knobs::OutcomeKnobs;
 use crate::localise::{floor, measure};
-use crate::simulate::Model;
+use crate::simulate::{Model, ROOM_FOR_CAUSES};
 use crate::vocabulary::Progress;
 
 /// A cause of the corrected model.
@@ -84,7 +84,7 @@ pub fn search<const N: usize>(data: &Data<'_, N>, nominal: &Model<N>, progress: 
         let best = ranking
             .ranked
             .iter()
-            .filter(|_| found.len() < knobs.most_causes)
+            .filter(|_| found.len() < knobs.most_causes.min(ROOM_FOR_CAUSES - 1))
             .take_while(|r| r.scored.score(ranking.scale) - least < knobs.tie)
             .find(|r| convincing(r, ranking, !found.is_empty(), &prior, knobs));
         let Some(best) = best else { break };
