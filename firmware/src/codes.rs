@@ -14,6 +14,9 @@ pub const PERIODS_PER_SECOND: u32 = 20_000;
 /// Periods from one motion turn to the next.
 pub const PERIODS_PER_TICK: u32 = 20;
 
+/// Length of a motion turn [s].
+pub const TICK_SECONDS: f32 = PERIODS_PER_TICK as f32 / PERIODS_PER_SECOND as f32;
+
 /// What was measured in one period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Codes {

@@ -22,6 +22,8 @@ pub mod protection;
 
 pub mod winding_config;
 
+pub mod winding_signals;
+
 pub mod motor_controller;
 
 pub mod windings;

@@ -23,18 +23,15 @@ use model_core::link::faults::{Fault, Faults};
 use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
 use model_core::link::record::OperatingState;
 
-use crate::codes::{PERIODS_PER_SECOND, PERIODS_PER_TICK};
+use crate::codes::TICK_SECONDS;
 use crate::command_receiver::AcceptedParameters;
 use crate::inbox::Inbox;
 use crate::stall::StallDetector;
 use crate::winding_config::{MAX_DUTY, WindingConfig};
-use crate::windings::{MotorSetpoints, WindingFeedback};
+use crate::winding_signals::{MotorSetpoints, WindingFeedback};
 
 /// Turns without a command after which the robot stops: 200 ms.
 pub const COMMAND_TIMEOUT_TICKS: u16 = 200;
-
-/// Length of a turn [s].
-pub(crate) const TICK_SECONDS: f32 = PERIODS_PER_TICK as f32 / PERIODS_PER_SECOND as f32;
 
 /// What a turn decided.
 #[derive(Clone, Copy, Debug, Default)]

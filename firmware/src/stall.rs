@@ -12,9 +12,8 @@
 
 use model_core::control::drive::DriveOutput;
 
-use crate::codes::MOTORS;
-use crate::motion::TICK_SECONDS;
-use crate::windings::WindingFeedback;
+use crate::codes::{MOTORS, TICK_SECONDS};
+use crate::winding_signals::WindingFeedback;
 
 /// Turns for which a wheel may stand: 300 ms.
 pub const STALL_TICKS: u16 = 300;

@@ -12,7 +12,7 @@ use model_core::link::hello::Hello;
 use model_core::link::record::TelemetryRecord;
 
 use crate::motion::{MotionOutput, events};
-use crate::windings::WindingFeedback;
+use crate::winding_signals::WindingFeedback;
 
 /// Something to send.
 #[derive(Clone, Copy, Debug)]

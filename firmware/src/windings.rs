@@ -15,7 +15,7 @@
 
 use model_core::control::current_loop::CurrentSetpoint;
 use model_core::control::halls::HallCode;
-use model_core::link::faults::{Fault, Faults};
+use model_core::link::faults::Fault;
 
 use crate::codes::{Codes, MOTORS, PERIODS_PER_TICK};
 use crate::motion::MotionOutput;
@@ -23,54 +23,7 @@ use crate::motor_controller::{MotorController, MotorMeasurement, NO_VOLTAGE};
 use crate::offsets::Offsets;
 use crate::protection::Protection;
 use crate::winding_config::WindingConfig;
-
-/// What the motion turn asks of the windings.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MotorSetpoints {
-    /// DC-equivalent currents [A]
-    pub current: [f32; MOTORS],
-    /// DC-equivalent voltages [V] that go ahead of the currents, or stand alone where `closed` is false
-    pub voltage: [f32; MOTORS],
-    /// True: the currents are controlled; false: the voltages are applied as they are
-    pub closed: bool,
-    /// One bit a motor: its bridge may be closed
-    pub enabled: u8,
-}
-
-/// What the motion turn is told of the windings.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct WindingFeedback {
-    /// The period of the codes, since the start
-    pub period: u32,
-    /// The codes themselves
-    pub codes: Codes,
-    /// Electrical angle that the currents were turned by [2⁻¹⁶ turn]
-    pub angle: [u16; MOTORS],
-    /// Hall edges since the start
-    pub edges: [i32; MOTORS],
-    /// Periods since the last edge
-    pub since_edge: [u16; MOTORS],
-    /// Periods that the edges looked at for the speed took
-    pub interval: [u16; MOTORS],
-    /// Speed at the wheel's shaft [rad/s]
-    pub wheel_speed: [f32; MOTORS],
-    /// DC-equivalent current measured last [A]
-    pub current: [f32; MOTORS],
-    /// What the converters say without current [counts]
-    pub offsets: [[f32; 3]; MOTORS],
-    /// Mean DC-equivalent voltage since the last turn [V]
-    pub voltage: [f32; MOTORS],
-    /// Supply [V]
-    pub bus: f32,
-    /// Faults that are latched here and open all bridges
-    pub faults: Faults,
-    /// Faults that are latched here and cost a wheel
-    pub motor_faults: Faults,
-    /// One bit a motor: it is out of use
-    pub disabled: u8,
-    /// True once the offsets are known
-    pub ready: bool,
-}
+use crate::winding_signals::{MotorSetpoints, WindingFeedback};
 
 /// What the board is to do in the next period.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

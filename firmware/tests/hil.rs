@@ -22,7 +22,8 @@ mod tests {
     use firmware::protection::TripLimits;
     use firmware::registers::timing;
     use firmware::winding_config::WindingConfig;
-    use firmware::windings::{MotorSetpoints, Windings};
+    use firmware::winding_signals::MotorSetpoints;
+    use firmware::windings::Windings;
     use model_core::control::calibration::{AdcCode, Calibration};
     use model_core::control::current_loop::CurrentLoop;
     use model_core::control::halls::HallCode;

@@ -8,7 +8,7 @@ use firmware::motion::events;
 use firmware::motor_controller::NO_VOLTAGE;
 use firmware::tx_queue::{self, TxStorage};
 use firmware::winding_config::{MAX_TRIP_COUNTS, WindingConfig};
-use firmware::windings::WindingFeedback;
+use firmware::winding_signals::WindingFeedback;
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
 use model_core::geometry::frames::BodyTwist;

@@ -2,7 +2,7 @@
 //!
 //! Seeded and the same on every machine: integer arithmetic draws the numbers, so a failing seed is a whole bug report.
 
-use crate::matrices::{Drivetrain, GenericRobot, Wheel};
+use crate::generic_robot::{Drivetrain, GenericRobot, Wheel};
 use crate::paper::THREE_WHEELS;
 
 /// Voltages held for a while.

@@ -3,6 +3,7 @@
 //! No product code lives here. The rooms, in reading order:
 //!
 //! - [`paper`]: the paper's two robots, typed in once;
+//! - [`generic_robot`]: any robot, as a list of wheels;
 //! - [`matrices`]: A, B and K of `dx/dt = A·x + B·u + K·sign(x)`, as printed and as derived from virtual work;
 //! - [`flow`]: the exact solution between two sign changes, and when the next one comes;
 //! - [`mod@reference`]: the f64 robot that every other implementation is measured against;
@@ -21,7 +22,7 @@
 //! - [`image`]: sizes, symbols, reach and stack of the firmware's image.
 //!
 //! The paper is Oliveira, Sousa, Moreira and Costa, *Dynamical Models for Omni-directional Robots with 3 and 4 Wheels*
-//! (ICINCO 2008). Nothing in the first five rooms depends on the core: two implementations that agree prove something only
+//! (ICINCO 2008). Nothing in the first six rooms depends on the core: two implementations that agree prove something only
 //! if they share no line.
 
 // A unit in brackets, [V], is not a link.
@@ -33,6 +34,7 @@ pub mod emulator;
 pub mod excitation;
 pub mod flow;
 pub mod frozen;
+pub mod generic_robot;
 pub mod golden;
 pub mod identification;
 pub mod image;

@@ -3,7 +3,7 @@
 //! One prototype that carries three or four wheels. Wheels, gears and motors are the same in both; mass, inertia and
 //! friction are not. The paper takes Kt = Kv (SI units).
 
-use crate::matrices::{Drivetrain, GenericRobot, Wheel};
+use crate::generic_robot::{Drivetrain, GenericRobot, Wheel};
 
 /// One robot in the paper's own symbols.
 #[derive(Clone, Copy, Debug, PartialEq)]

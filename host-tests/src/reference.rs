@@ -19,7 +19,8 @@
 use nalgebra::{Matrix3, Rotation2, SVector, Vector2, Vector3};
 
 use crate::flow::Flow;
-use crate::matrices::{GenericRobot, Matrices};
+use crate::generic_robot::GenericRobot;
+use crate::matrices::Matrices;
 use crate::paper::PaperRobot;
 
 /// A speed past zero by less than this is rounding [m/s or rad/s].

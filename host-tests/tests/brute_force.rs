@@ -1,7 +1,7 @@
 //! The reference against brute force: explicit Euler, a microsecond a step.
 
 use host_tests::excitation::voltages;
-use host_tests::matrices::GenericRobot;
+use host_tests::generic_robot::GenericRobot;
 use host_tests::paper::{FOUR_WHEELS, THREE_WHEELS};
 use host_tests::reference::Reference;
 use nalgebra::{SVector, Vector3};

@@ -1,7 +1,7 @@
 //! The reference itself is right: against algebra, closed forms, symmetry, energy and brute force.
 
 use host_tests::excitation::{SeededRng, random_robot, voltages};
-use host_tests::matrices::GenericRobot;
+use host_tests::generic_robot::GenericRobot;
 use host_tests::paper::{FOUR_WHEELS, THREE_WHEELS};
 use host_tests::reference::Reference;
 use nalgebra::{Rotation2, Rotation3, SVector, Vector2, Vector3};

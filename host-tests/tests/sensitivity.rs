@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use host_tests::matrices::GenericRobot;
+use host_tests::generic_robot::GenericRobot;
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, PaperRobot, THREE_HEADINGS_DEG, THREE_WHEELS};
 use host_tests::paper_source::tree;
 use host_tests::reference::Reference;

@@ -7,10 +7,14 @@
 mod architecture;
 #[path = "walls/code.rs"]
 mod code;
+#[path = "walls/cycles.rs"]
+mod cycles;
 #[path = "walls/engine.rs"]
 mod engine;
 #[path = "walls/finding.rs"]
 mod finding;
+#[path = "walls/imports.rs"]
+mod imports;
 #[path = "walls/manifest.rs"]
 mod manifest;
 #[path = "walls/needles.rs"]
@@ -58,6 +62,14 @@ fn the_core_depends_on_libm_and_crc_alone() {
 #[test]
 fn doors_between_the_rooms_open_one_way() {
     none(in_all(&rust_below(rooms::HOUSE), rooms::backward_doors));
+}
+
+#[test]
+fn no_files_take_names_from_each_other_in_a_circle() {
+    let top = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let read = |path: &std::path::Path| std::fs::read_to_string(top.join(path)).ok();
+    let found: Vec<String> = cycles::ROOTS.iter().flat_map(|root| cycles::circles(root.as_ref(), &read)).collect();
+    assert!(found.is_empty(), "{} circles of files:\n{}", found.len(), found.join("\n"));
 }
 
 #[test]

@@ -13,7 +13,8 @@ use firmware::codes::Codes;
 use firmware::motion::MotionOutput;
 use firmware::offsets;
 use firmware::winding_config::{MAX_DUTY, WindingConfig};
-use firmware::windings::{BridgeCommand, MotorSetpoints, Windings};
+use firmware::winding_signals::MotorSetpoints;
+use firmware::windings::{BridgeCommand, Windings};
 use model_core::control::calibration::AdcCode;
 use model_core::control::compensation::Compensation;
 use model_core::control::current_loop::{

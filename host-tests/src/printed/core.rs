@@ -19,7 +19,8 @@ use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use crate::matrices::{Drivetrain, Matrices};
+use crate::generic_robot::Drivetrain;
+use crate::matrices::Matrices;
 
 /// v, vn, ω and up to four voltages.
 type D = Dual<7>;

@@ -1,7 +1,7 @@
 //! Feedforward: what is asked for is what the plant does.
 
 use host_tests::excitation::{SeededRng, random_robot};
-use host_tests::matrices::GenericRobot;
+use host_tests::generic_robot::GenericRobot;
 use model_core::geometry::frames::BodyTwist;
 use model_core::plant::Input;
 use model_core::plant::robot::Robot;

@@ -1,7 +1,7 @@
 //! The core's robots, built from the reference's numbers, and runs of them.
 
 use host_tests::excitation::VoltageHold;
-use host_tests::matrices::GenericRobot;
+use host_tests::generic_robot::GenericRobot;
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Card, Scope};

@@ -1,7 +1,7 @@
 //! Any geometry: the core against the reference derived from virtual work.
 
 use host_tests::excitation::{SeededRng, random_robot};
-use host_tests::matrices::GenericRobot;
+use host_tests::generic_robot::GenericRobot;
 use host_tests::reference::Reference;
 use model_core::plant::Input;
 use proptest::prelude::*;

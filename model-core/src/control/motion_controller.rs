@@ -43,6 +43,7 @@
 
 mod build;
 mod compensate;
+mod terms;
 
 use core::array;
 
@@ -53,7 +54,7 @@ use crate::geometry::frames::BodyTwist;
 use crate::number::linalg::{add_scaled, dot, scaled};
 use crate::number::scalar::Real;
 use crate::plant::robot::Robot;
-use compensate::CompensationTerms;
+use terms::CompensationTerms;
 
 /// How far feedforward alone looks ahead for the direction of friction [s]: less than any rounding of a speed.
 const AHEAD: f64 = 1e-9;
@@ -209,7 +210,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
         measured: &Measurement<N, T>,
         want: BodyTwist<T>,
     ) -> Output<N, T> {
-        if self.flags & compensate::IMMOBILE != 0 {
+        if self.flags & terms::IMMOBILE != 0 {
             return tick_immobile(memory);
         }
         self.tick_unlimited::<true>(memory, measured, want).unwrap_or_else(|| self.tick_limited(memory, measured, want))

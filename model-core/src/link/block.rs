@@ -30,10 +30,12 @@ use crate::plant::winding::Motor;
 mod bounds;
 mod effects;
 mod error;
+mod limits;
 
 pub use bounds::{BoundedField, USABLE_COUNTS};
 pub use effects::{BlockEffect, BlockEffects, EFFECT_CODES, EffectCode};
 pub use error::{BlockError, BlockErrorKind};
+pub use limits::Limits;
 
 /// Version of the form that this program writes and the newest that it reads.
 pub const VERSION: u16 = 1;
@@ -58,21 +60,6 @@ pub enum ControlMode {
     /// By currents that a loop holds.
     #[default]
     Current,
-}
-
-/// What a robot must not do.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limits {
-    /// Largest current of a motor [A]
-    pub current: f32,
-    /// Largest speed of the body [m/s]
-    pub speed: f32,
-    /// Largest acceleration along v, along vn and about the vertical axis [m/s², m/s², rad/s²]
-    pub acceleration: [f32; 3],
-    /// Lowest bus voltage [V]
-    pub under_voltage: f32,
-    /// Highest bus voltage [V]
-    pub over_voltage: f32,
 }
 
 /// The parameters of a robot with `N` wheels.

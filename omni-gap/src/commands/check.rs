@@ -5,9 +5,10 @@ use std::path::Path;
 use omni_gap::Verdict;
 use omni_gap::check::{Fault, check};
 
+use super::console::Console;
 use super::console::wrapped;
+use super::done::{DONE, Done};
 use super::given::GivenSession;
-use super::{Console, DONE, Done};
 
 /// Look for faults of the recordings, and say how to mend them
 #[derive(Debug, clap::Args)]

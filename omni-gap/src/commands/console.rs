@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use omni_gap::Error;
 
-use super::CliError;
+use super::cli_error::CliError;
 
 /// The console of one command.
 #[derive(Debug)]

@@ -8,10 +8,11 @@ use omni_gap::simulate::{EffectInstance, HORIZON_S};
 use omni_gap::synthesize::{Scenario, synthesize};
 use omni_gap::{Error, Report, Session, known_effects};
 
+use super::console::Console;
 use super::console::wrapped;
 use super::diagnose::{FILES, diagnosed};
+use super::done::{DONE, Done};
 use super::output_path::{self, NewFolder};
-use super::{Console, DONE, Done};
 
 /// Record a robot whose real behaviour has an effect that its simulator lacks, and diagnose it
 #[derive(Debug, clap::Args)]

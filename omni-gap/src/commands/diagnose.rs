@@ -7,9 +7,11 @@ use omni_gap::report::{self, Written};
 use omni_gap::simulate::HORIZON_S;
 use omni_gap::{Diagnosis, Options, Report, Session};
 
+use super::cli_error::CliError;
+use super::console::Console;
+use super::done::{DONE, Done};
 use super::given::{GivenSession, seconds};
 use super::output_path::{self, NewFolder};
-use super::{CliError, Console, DONE, Done};
 
 /// Say where the gap lies, which cause it has and how far it shrinks
 #[derive(Debug, clap::Args)]

@@ -8,9 +8,11 @@ use omni_gap::simulate::{Allowed, Experiment, Lowered, Plan, Sensing, USUAL_FIEL
 use omni_gap::simulate_experiments::{drag_a_load, simulate_some_experiments};
 use omni_gap::{Error, known_effects};
 
+use super::cli_error::CliError;
+use super::console::Console;
+use super::done::{DONE, Done};
 use super::given::volts;
 use super::output_path::{self, NewFolder};
-use super::{CliError, Console, DONE, Done};
 
 /// Write the scripts of the experiments that tell a robot's parameters, and how to do them
 #[derive(Debug, clap::Args)]

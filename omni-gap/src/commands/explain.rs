@@ -9,8 +9,10 @@ use omni_gap::log::nearest;
 use omni_gap::report::num;
 use omni_gap::simulate::NOMINAL_KEYS;
 
+use super::cli_error::CliError;
+use super::console::Console;
 use super::console::wrapped;
-use super::{CliError, Console, DONE, Done};
+use super::done::{DONE, Done};
 
 /// Explain an effect or a parameter that can be the cause of a gap; without a name, list all
 #[derive(Debug, clap::Args)]

@@ -6,8 +6,10 @@ use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, write_whole};
 use omni_gap::wire::block::{Exported, export};
 
+use super::console::Console;
 use super::console::wrapped;
-use super::{Console, DONE, Done, output_path};
+use super::done::{DONE, Done};
+use super::output_path;
 
 /// Write the parameter block that a robot accepts, from a robot file with its [controller] table
 #[derive(Debug, clap::Args)]

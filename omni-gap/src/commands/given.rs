@@ -6,7 +6,8 @@ use clap::Args;
 use omni_gap::log::{Columns, RobotFile, Run};
 use omni_gap::{Session, known_effects};
 
-use super::{CliError, Console};
+use super::cli_error::CliError;
+use super::console::Console;
 
 /// A session: a folder, or a robot file and runs that lie anywhere.
 #[derive(Debug, Args)]

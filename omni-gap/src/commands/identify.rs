@@ -9,8 +9,10 @@ use omni_gap::identify::Asked;
 use omni_gap::log::write_whole;
 use omni_gap::report::num;
 
+use super::console::Console;
+use super::done::{DONE, Done};
 use super::given::GivenSession;
-use super::{Console, DONE, Done, output_path};
+use super::output_path;
 
 /// Fit the robot file's numbers to the recordings, within their stated uncertainty
 #[derive(Debug, clap::Args)]
@@ -37,7 +39,7 @@ impl Identify {
     pub fn run(&self, console: &Console) -> Done {
         output_path::file(&self.out, &[&self.session.robot_path()])?;
         if let Some(asked) = self.experiment {
-            return by_experiment::run(asked, self, console);
+            return by_experiment::run(asked, &self.session, &self.out, self.json.as_deref(), console);
         }
         let session = self.session.load(console)?;
         console.phase("fitting the numbers of the robot file");

@@ -9,6 +9,7 @@ mod cli_error;
 mod console;
 mod demo;
 mod diagnose;
+mod done;
 mod experiment;
 mod explain;
 mod export;
@@ -23,7 +24,6 @@ mod validate;
 
 use clap::{Parser, Subcommand};
 
-use cli_error::CliError;
 use console::Console;
 
 /// Tells why an omnidirectional robot does not do what its simulator says.
@@ -89,12 +89,6 @@ impl Cli {
         }
     }
 }
-
-/// The exit code of a command that did what was asked.
-const DONE: u8 = 0;
-
-/// How every command ends.
-type Done = Result<u8, CliError>;
 
 #[cfg(test)]
 mod tests {

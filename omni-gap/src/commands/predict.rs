@@ -6,8 +6,10 @@ use omni_gap::api;
 use omni_gap::log::{Channel, Group, Run, write_whole_with};
 use omni_gap::simulate::HORIZON_S;
 
+use super::console::Console;
+use super::done::{DONE, Done};
 use super::given::{robot_and_run, seconds};
-use super::{Console, DONE, Done, output_path};
+use super::output_path;
 
 /// Predict the measured columns of a run by free runs, restarted every horizon
 #[derive(Debug, clap::Args)]

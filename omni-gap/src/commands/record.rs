@@ -12,8 +12,11 @@ use omni_gap::wire::capture::Capture;
 use omni_gap::wire::run::{columns, faults, run};
 use omni_gap::wire::source::Source;
 
+use super::console::Console;
 use super::console::wrapped;
-use super::{Console, DONE, Done, given, output_path};
+use super::done::{DONE, Done};
+use super::given;
+use super::output_path;
 
 /// Record what a robot sends into a session: a run, the robot file, and how to read the columns
 #[derive(Debug, clap::Args)]

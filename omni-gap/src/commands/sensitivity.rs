@@ -7,9 +7,11 @@ use omni_gap::report::{num, sensitivity_terminal, write_sensitivity};
 use omni_gap::simulate::{StepPlan, sensitivity};
 use omni_gap::{Error, known_effects};
 
+use super::cli_error::CliError;
+use super::console::Console;
+use super::done::{DONE, Done};
 use super::given::volts;
 use super::output_path::{self, NewFolder};
-use super::{CliError, Console, DONE, Done};
 
 /// Say which numbers of a robot file its motion depends on, axis by axis
 #[derive(Debug, clap::Args)]

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use omni_gap::api;
 use omni_gap::log::write_whole_with;
 
+use super::console::Console;
+use super::done::{DONE, Done};
 use super::given::robot_and_run;
-use super::{Console, DONE, Done, output_path};
+use super::output_path;
 
 /// Record what a robot file's model does with a run's inputs, starting at rest in the origin
 #[derive(Debug, clap::Args)]

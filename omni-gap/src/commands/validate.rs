@@ -8,9 +8,11 @@ use omni_gap::localise::validation::{HORIZONS_S, Validated, validate};
 use omni_gap::log::write_whole;
 use omni_gap::report::validation as report;
 
+use super::cli_error::CliError;
+use super::console::Console;
+use super::done::{DONE, Done};
 use super::given::{GivenSession, seconds};
 use super::output_path::{self, NewFolder};
-use super::{CliError, Console, DONE, Done};
 
 /// Simulate every run from its start and say how well it fits what was measured
 #[derive(Debug, clap::Args)]

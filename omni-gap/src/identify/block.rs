@@ -6,8 +6,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::linear::{START, WindowLinear};
 use super::pass::Seen;
+use super::window::{START, WindowLinear};
 
 /// Keeps a start regular that nothing in its window measures: 1/σ² of (m, m, rad, m/s, m/s, rad/s), much looser than
 /// any sensor, as damping only.

@@ -3,6 +3,8 @@
 use model_core::plant::robot::Nominal;
 use nalgebra::DMatrix;
 
+use super::information::invert;
+
 /// A relative uncertainty up to which a number counts as known.
 pub(super) const KNOWN: f64 = 0.15;
 /// A number that would be this uncertain if all others were known has left no trace.
@@ -56,8 +58,7 @@ pub(super) fn identifiability_of(information: &DMatrix<f64>, k: usize, at_bound:
     }
     let seen: Vec<usize> =
         (0..information.ncols()).filter(|j| information[(*j, *j)] * TRACELESS.powi(2) >= 1.0).collect();
-    let inverse =
-        super::joint::invert(&DMatrix::from_fn(seen.len(), seen.len(), |a, b| information[(seen[a], seen[b])]));
+    let inverse = invert(&DMatrix::from_fn(seen.len(), seen.len(), |a, b| information[(seen[a], seen[b])]));
     let at = seen.iter().position(|j| *j == k).unwrap_or(0);
     let std = inverse[(at, at)].sqrt();
     match std {
@@ -126,7 +127,7 @@ mod tests {
         let info = information(&[([-1.0, 1.0, 0.0], 0.01), ([1.0, 0.0, 0.0], 5.0), ([0.0, 0.0, 1.0], 0.02)]);
         let words: Vec<Identifiability> = (0..3).map(|k| identifiability_of(&info, k, false)).collect();
         assert_eq!(words, [Identifiability::Combined, Identifiability::Combined, Identifiability::Identified]);
-        let found = trade_offs(&super::super::joint::invert(&info), &MEMBERS, &words);
+        let found = trade_offs(&invert(&info), &MEMBERS, &words);
         assert_eq!(found.len(), 1);
         let ([(a, one), (b, power)], std) = found[0].known.unwrap();
         assert_eq!([a, b].map(|p| MEMBERS[..2].contains(&p)), [true, true]);

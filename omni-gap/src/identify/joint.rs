@@ -18,6 +18,7 @@ use nalgebra::DMatrix;
 use super::driven::by_input;
 use super::fit::{Fit, FitOptions, Free, fit};
 use super::identifiability::{Identifiability, KNOWN, TradeOff, identifiability_of, trade_offs};
+use super::information::invert;
 use super::linear::linearise;
 use super::noise::{Noise, noise_of};
 use super::prior::Prior;
@@ -242,12 +243,4 @@ fn by_given(relative: &DMatrix<f64>, inverse: &DMatrix<f64>, seen: &[usize], fil
         }
     }
     square.into_iter().map(f64::sqrt).collect()
-}
-
-/// The inverse of an information matrix; directions without information become very uncertain, not infinitely so.
-pub(super) fn invert(information: &DMatrix<f64>) -> DMatrix<f64> {
-    let eigen = information.clone().symmetric_eigen();
-    let floor = 1e-12 * eigen.eigenvalues.max();
-    let inverse = DMatrix::from_diagonal(&eigen.eigenvalues.map(|x| 1.0 / x.max(floor).max(f64::MIN_POSITIVE)));
-    &eigen.eigenvectors * inverse * eigen.eigenvectors.transpose()
 }

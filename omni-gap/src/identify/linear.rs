@@ -11,10 +11,8 @@ use rayon::prelude::*;
 use super::block::{Block, Sums};
 use super::pass::{Course, TWIST, pass};
 use super::shoot::{Piece, Shots, Starts};
+use super::window::{START, WindowLinear};
 use crate::simulate::{AlignedRun, Model, Slot};
-
-/// Parameters of a window's start: x, y, θ, v, vn, ω.
-pub const START: usize = 6;
 
 /// The most derivatives that one pass takes; more than these are taken in passes of [`KEPT`].
 const MOST: usize = 20;
@@ -24,17 +22,6 @@ const KEPT: usize = 10;
 
 /// As many as a fit of all runs together takes: nine numbers and a twist.
 const JOINT: usize = 12;
-
-/// One window: its errors and derivatives, in units of sigma, whitened.
-#[derive(Clone, Debug)]
-pub struct WindowLinear {
-    /// (row, channel) of each measured number.
-    pub places: Vec<(u32, u8)>,
-    /// Measured minus predicted [σ]
-    pub error: DVector<f64>,
-    /// d predicted / d (start, parameters) [σ]
-    pub jacobian: DMatrix<f64>,
-}
 
 /// The windows of all runs, linearised.
 #[derive(Clone, Debug)]

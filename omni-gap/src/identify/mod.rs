@@ -14,6 +14,7 @@ pub mod experiments;
 mod fit;
 mod guess;
 mod identifiability;
+mod information;
 mod joint;
 mod linear;
 mod noise;
@@ -25,6 +26,7 @@ mod shoot;
 #[cfg(test)]
 mod staged;
 mod whiten;
+mod window;
 
 pub use answer::model::{
     Answer, Apart, Asked, Counted, LeftOut, Moved, Number, Power, Product, SCHEMA, SensorNoise, Side, Together, Value,
@@ -36,10 +38,11 @@ pub use fit::{Fit, FitOptions, Free, fit, profile};
 pub use guess::Guessed;
 pub use identifiability::{Identifiability, TradeOff};
 pub use joint::{GIVEN, IDENTIFIED, Identified, Joint, Refused, joint};
-pub use linear::{Linearised, WindowLinear, linearise};
+pub use linear::{Linearised, linearise};
 pub use noise::{Noise, noise_of};
 pub use prior::{FreedPrior, Prior, PriorRow};
 pub use relative::relative_std;
 pub use settings::FitSettings;
 pub use shoot::{Shots, Starts, WINDOW_S, Windows, first_starts, run_windows};
 pub use whiten::Whitener;
+pub use window::WindowLinear;

@@ -15,8 +15,9 @@ use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 
 use super::fit::Fit;
-use super::linear::{START, WindowLinear, linearise};
+use super::linear::linearise;
 use super::shoot::Shots;
+use super::window::{START, WindowLinear};
 use crate::simulate::AlignedRun;
 
 /// Groups of channels that share a sensor: currents, wheel speeds, position, heading.

@@ -7,8 +7,7 @@ use model_core::effects::card::Scope;
 
 use super::catalogue::{Catalogue, KnownEffect, nearest};
 use super::robot_file::EffectEntry;
-use super::robot_read::tables;
-use super::toml_walk::Section;
+use super::toml_walk::{Section, tables};
 use crate::error::{Error, Result};
 use std::collections::BTreeMap;
 

@@ -5,15 +5,10 @@
 //!
 //! [`Catalogue`]: super::Catalogue
 
-use super::catalogue::Catalogue;
 use super::controller::ControllerFile;
-use super::robot_read;
-use super::toml_walk::read_text;
-use crate::error::Result;
 use model_core::effects::nominal;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// One wheel. Wheel j rolls along (cos a, sin a) of the body axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -196,16 +191,6 @@ macro_rules! place_of {
 }
 
 impl RobotFile {
-    /// Reads and checks a robot file.
-    pub fn load(path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
-        RobotFile::parse(&read_text(path, "a robot file")?, path, catalogue)
-    }
-
-    /// Checks the text of a robot file; `path` is named in messages.
-    pub fn parse(text: &str, path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
-        robot_read::robot(text, path, catalogue)
-    }
-
     /// One-sigma relative uncertainty (1) of a nominal parameter, by its key in the robot file; none for other keys.
     pub fn relative_uncertainty(&self, key: &str) -> Option<f64> {
         let default = nominal::numbers().find(|number| number.key == key)?.relative_uncertainty;

@@ -5,12 +5,12 @@ use super::controller::controller;
 use super::effects_read::effects;
 use super::plausible;
 use super::robot_file::*;
-use super::toml_walk::{Section, Source};
+use super::toml_walk::{Section, Source, read_text, tables};
 use crate::error::{Error, Result};
 use model_core::effects::nominal::{IN_THE_FILE, Table};
 use std::collections::BTreeMap;
 use std::path::Path;
-use toml_edit::{Item, TableLike};
+use toml_edit::TableLike;
 
 /// The newest form of the robot file that this program knows.
 const NEWEST_SCHEMA: usize = 1;
@@ -30,7 +30,19 @@ const TOP: [&str; 12] = [
     "effects",
 ];
 
-pub(super) fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
+impl RobotFile {
+    /// Reads and checks a robot file.
+    pub fn load(path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
+        RobotFile::parse(&read_text(path, "a robot file")?, path, catalogue)
+    }
+
+    /// Checks the text of a robot file; `path` is named in messages.
+    pub fn parse(text: &str, path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
+        robot(text, path, catalogue)
+    }
+}
+
+fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
     let source = Source { path, text };
     let document = source.parse()?;
     let top = Section::of(source, "the robot file", document.as_table(), None);
@@ -62,17 +74,6 @@ pub(super) fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<Ro
     };
     plausible::together(&robot, &needed)?;
     Ok(robot)
-}
-
-/// The tables of an array of tables, whether written with `[[…]]` or as an inline list.
-pub(super) fn tables(item: &Item) -> Option<Vec<&dyn TableLike>> {
-    match item {
-        Item::ArrayOfTables(list) => Some(list.iter().map(|table| table as &dyn TableLike).collect()),
-        Item::Value(value) => {
-            value.as_array()?.iter().map(|v| v.as_inline_table().map(|table| table as &dyn TableLike)).collect()
-        }
-        _ => None,
-    }
 }
 
 fn span_of(table: &dyn TableLike) -> Option<std::ops::Range<usize>> {

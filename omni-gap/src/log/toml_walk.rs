@@ -178,3 +178,14 @@ impl<'a> Section<'a> {
         item.as_bool().map(Some).ok_or_else(problem)
     }
 }
+
+/// The tables of an array of tables, whether written with `[[…]]` or as an inline list.
+pub(crate) fn tables(item: &Item) -> Option<Vec<&dyn TableLike>> {
+    match item {
+        Item::ArrayOfTables(list) => Some(list.iter().map(|table| table as &dyn TableLike).collect()),
+        Item::Value(value) => {
+            value.as_array()?.iter().map(|v| v.as_inline_table().map(|table| table as &dyn TableLike)).collect()
+        }
+        _ => None,
+    }
+}

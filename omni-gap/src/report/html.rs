@@ -3,6 +3,7 @@
 mod blame;
 mod gap;
 pub(super) mod notes;
+pub(super) mod page;
 mod signals;
 
 use super::markup::Markup;
@@ -11,6 +12,7 @@ use super::number::{num, percent, percents};
 use super::phrases;
 use super::picture::Pictures;
 use crate::vocabulary::Verdict;
+use page::page;
 
 /// The whole page.
 pub fn html(report: &Report, pictures: &Pictures) -> String {
@@ -27,35 +29,6 @@ pub fn html(report: &Report, pictures: &Pictures) -> String {
         notes::notices(m, report);
         foot(m);
     })
-}
-
-/// A page with its title and style, around what `fill` writes.
-pub(super) fn page(title: &str, fill: impl FnOnce(&mut Markup)) -> String {
-    let mut m = Markup::default();
-    m.own("<!doctype html>\n");
-    m.within("html", &[("lang", &"en")], |m| {
-        m.within("head", &[], |m| {
-            m.own("<meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">");
-            m.own("<meta name=\"color-scheme\" content=\"light dark\">");
-            m.leaf("title", &[], title);
-            m.within("style", &[], |m| m.own(include_str!("html/style.css")));
-        });
-        m.within("body", &[], |m| {
-            m.within("main", &[], fill);
-        });
-    });
-    m.finish() + "\n"
-}
-
-/// A section under a heading, with a line that says how to read it.
-pub(super) fn section(m: &mut Markup, title: &str, explained: &str, fill: impl FnOnce(&mut Markup)) {
-    m.within("section", &[], |m| {
-        m.leaf("h2", &[], title);
-        if !explained.is_empty() {
-            m.leaf("p", &[("class", &"how")], explained);
-        }
-        fill(m);
-    });
 }
 
 fn subject(report: &Report) -> String {

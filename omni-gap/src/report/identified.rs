@@ -1,27 +1,12 @@
 //! What experiments tell of a robot, as tables and sentences for a person at a terminal.
 
 mod sentences;
+mod symbol;
 mod table;
 
 use super::number::NBSP;
 use super::terminal::Page;
 use crate::identify::Answer;
-
-/// The symbol of a number in the paper, and its unit.
-fn symbol(key: &str) -> (&'static str, &'static str) {
-    match key {
-        "resistance_ohm" => ("R", "Ω"),
-        "emf_constant_V_s" => ("K_v", "V·s"),
-        "inertia_kg_m2" => ("J", "kg·m²"),
-        "viscous_v_N_s_per_m" => ("B_v", "N·s/m"),
-        "viscous_vn_N_s_per_m" => ("B_vn", "N·s/m"),
-        "viscous_w_Nm_s" => ("B_ω", "N·m·s"),
-        "coulomb_v_N" => ("C_v", "N"),
-        "coulomb_vn_N" => ("C_vn", "N"),
-        "coulomb_w_Nm" => ("C_ω", "N·m"),
-        _ => ("?", ""),
-    }
-}
 
 /// The answer in plain text.
 pub fn identified_terminal(answer: &Answer) -> String {

@@ -1,24 +1,22 @@
 //! The sensitivity of a robot's motion to the numbers of its file: in the terminal, on a page, in files.
 
 mod bars;
+mod phrases;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::html::{page, section};
+use super::html::page::{page, section};
 use super::markup::Markup;
 use super::number::num;
 use super::picture::{Panel, Series, chart, ink};
 use super::write::{put, unwritable};
 use crate::error::Result;
 use crate::simulate::{AxisSensitivity, Influence, NOMINAL_KEYS, NominalKey, Sensitivity};
+use phrases::{short, signed, split};
 
-/// Numbers that the pictures show.
-const MOST_BARS: usize = 8;
+/// Numbers that the picture shows.
 const MOST_CURVES: usize = 4;
-/// A sensitivity that is shown as zero [1]
-const NOTHING: f64 = 0.005;
-
 /// Names of what an axis has.
 struct Names {
     axis: &'static str,
@@ -41,26 +39,6 @@ fn names(axis: &AxisSensitivity) -> Names {
 
 fn key(influence: &Influence) -> &'static NominalKey {
     NominalKey::of(influence.key).expect("an influence is that of a key")
-}
-
-/// A sensitivity with its sign.
-fn signed(x: f64) -> String {
-    if x.abs() < NOTHING { "0".into() } else { format!("{x:+.2}").replace('-', "−") }
-}
-
-/// Those that count and, by key, those that do not.
-fn split(axis: &AxisSensitivity) -> (Vec<&Influence>, Vec<&'static str>) {
-    let counts = |i: &&Influence| {
-        [i.speed, i.distance, i.final_speed.unwrap_or(0.0)].into_iter().any(|slope| slope.abs() >= NOTHING)
-    };
-    let (some, none): (Vec<_>, Vec<_>) = axis.influences.iter().partition(counts);
-    (some, none.into_iter().map(|i| i.key).collect())
-}
-
-/// A number without zeros that say nothing.
-fn short(x: f64) -> String {
-    let text = num(if x.abs() < 1e-9 { 0.0 } else { x });
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// The step in a phrase.

@@ -2,7 +2,7 @@
 
 use core::array;
 
-use super::compensate::{self, CompensationTerms};
+use super::terms::{self, CompensationTerms};
 use super::{Controller, Settings, WheelMap};
 use crate::control::compensation::Compensation;
 use crate::control::reference::AccelerationLimiter;
@@ -136,7 +136,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
 
     /// True if the robot can move with the wheels that work.
     pub fn moves(&self) -> bool {
-        self.flags & compensate::IMMOBILE == 0
+        self.flags & terms::IMMOBILE == 0
     }
 }
 
@@ -173,11 +173,11 @@ fn flags<const N: usize, T: Real>(settings: &Settings<N, T>, moves: bool, couple
     let at = |seam: Seam| kinds().any(|kind| kind.undone_by_turn() && kind.home() == seam);
     let motion = settings.feedforward;
     let bit = |there: bool, bit: u32| if there { bit } else { 0 };
-    bit(!moves, compensate::IMMOBILE)
-        | bit(motion && (at(Seam::Gear) || at(Seam::Body)), compensate::FORCES)
-        | bit(motion && coupled, compensate::COUPLING)
-        | bit(at(Seam::Gear), compensate::GEAR)
-        | bit(motion && at(Seam::Contact), compensate::CONTACT)
-        | bit(kinds().any(|kind| kind.home() == Seam::Winding), compensate::WINDINGS)
-        | bit(at(Seam::Bridge) || at(Seam::Sense), compensate::LAST)
+    bit(!moves, terms::IMMOBILE)
+        | bit(motion && (at(Seam::Gear) || at(Seam::Body)), terms::FORCES)
+        | bit(motion && coupled, terms::COUPLING)
+        | bit(at(Seam::Gear), terms::GEAR)
+        | bit(motion && at(Seam::Contact), terms::CONTACT)
+        | bit(kinds().any(|kind| kind.home() == Seam::Winding), terms::WINDINGS)
+        | bit(at(Seam::Bridge) || at(Seam::Sense), terms::LAST)
 }

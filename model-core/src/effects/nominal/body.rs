@@ -1,6 +1,6 @@
 //! The body: M and J.
 
-use super::{NominalCard, Number, Table};
+use super::card::{NominalCard, Number, Table};
 use crate::effects::card::Stage;
 use crate::plant::robot::Nominal;
 

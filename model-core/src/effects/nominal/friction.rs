@@ -4,7 +4,7 @@
 //! B = 0.2 s⁻¹·M,   C = 0.05·M·g;   about ω times d², and times d        where a fit begins
 //! ```
 
-use super::{NominalCard, Number, Table};
+use super::card::{NominalCard, Number, Table};
 use crate::effects::card::Stage;
 use crate::effects::seams::STANDARD_GRAVITY;
 use crate::plant::robot::Nominal;

@@ -1,6 +1,6 @@
 //! The motor: R, K_v and K_t.
 
-use super::{NominalCard, Number, Table};
+use super::card::{NominalCard, Number, Table};
 use crate::effects::card::Stage;
 use crate::plant::robot::Nominal;
 

@@ -1,6 +1,6 @@
 //! The wheels: r and d, common to all of them. What sets one wheel apart is an effect.
 
-use super::{NominalCard, Number, Table};
+use super::card::{NominalCard, Number, Table};
 use crate::effects::card::Stage;
 use crate::plant::robot::Nominal;
 

@@ -1,5 +1,7 @@
 //! `identify --experiment`: the numbers by the paper's experiments, and by all runs together.
 
+use std::path::Path;
+
 use omni_gap::api;
 use omni_gap::error::Error;
 use omni_gap::identify::Asked;
@@ -7,32 +9,34 @@ use omni_gap::log::{corrected, write_whole};
 use omni_gap::report::{identified_json, identified_terminal};
 use omni_gap::simulate::Experiment;
 
-use super::super::{Console, DONE, Done, output_path};
-use super::Identify;
+use super::super::console::Console;
+use super::super::done::{DONE, Done};
+use super::super::given::GivenSession;
+use super::super::output_path;
 
 /// Does it.
-pub fn run(asked: Asked, with: &Identify, console: &Console) -> Done {
-    let robot = with.session.robot_path();
-    if let Some(json) = &with.json {
+pub fn run(asked: Asked, given: &GivenSession, out: &Path, json: Option<&Path>, console: &Console) -> Done {
+    let robot = given.robot_path();
+    if let Some(json) = json {
         output_path::file(json, &[&robot])?;
-        if *json == with.out {
+        if json == out {
             let told = "it is named by --json and by --out";
             return Err(Error::output(json, told, "Name two files").into());
         }
     }
-    let session = with.session.load(console)?;
+    let session = given.load(console)?;
     console.phase("fitting the numbers to the experiments");
-    let answer = api::identify_by_experiment(asked, &session, &with.session.runs_path())?;
+    let answer = api::identify_by_experiment(asked, &session, &given.runs_path())?;
     let text = corrected(&session.robot_text, &answer.changes(&session.robot))?;
     let mut said = identified_terminal(&answer);
-    if let Some(json) = &with.json {
+    if let Some(json) = json {
         let text = identified_json(&answer);
         let text = text.map_err(|why| Error::output(json, why.to_string(), "Name another place with --json"))?;
         write_whole(json, text.as_bytes())?;
         said += &format!("{:12}{}\n", "numbers", json.display());
     }
-    write_whole(&with.out, text.as_bytes())?;
-    said += &format!("{:12}{}\n", "robot file", with.out.display());
+    write_whole(out, text.as_bytes())?;
+    said += &format!("{:12}{}\n", "robot file", out.display());
     console.say(&said)?;
     Ok(DONE)
 }

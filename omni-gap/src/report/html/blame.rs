@@ -1,6 +1,6 @@
 //! Where the gap lies, and which cause is behind it.
 
-use super::section;
+use super::page::section;
 use crate::engine::findings::Which;
 use crate::report::markup::Markup;
 use crate::report::model::Report;

@@ -1,6 +1,6 @@
 //! How large the gap is: before, after and noise floor, in total, per signal group and per horizon.
 
-use super::section;
+use super::page::section;
 use crate::engine::findings::SignalGap;
 use crate::report::horizons::horizon_chart;
 use crate::report::markup::Markup;

@@ -1,6 +1,6 @@
 //! Parameters, what to do next, what could not be seen, what is wrong with the log.
 
-use super::section;
+use super::page::section;
 use crate::engine::findings::Corrected;
 use crate::report::markup::Markup;
 use crate::report::model::Report;

@@ -1,6 +1,6 @@
 //! What was measured, and what either model predicts, over time.
 
-use super::section;
+use super::page::section;
 use crate::report::markup::Markup;
 use crate::report::phrases;
 use crate::report::picture::{Pictures, chart, ink};

@@ -1,6 +1,6 @@
 //! The sentences below the tables: what is missing, what is known only together, the noise, what does not fit.
 
-use super::symbol;
+use super::symbol::symbol;
 use crate::identify::{Answer, Apart, Identifiability, Moved, Power, Product, SensorNoise, Side, Together};
 use crate::report::number::{NBSP, estimate, num, percent};
 

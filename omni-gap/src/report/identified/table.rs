@@ -1,6 +1,6 @@
 //! The tables: the paper's numbers beside those of all runs together.
 
-use super::symbol;
+use super::symbol::symbol;
 use crate::identify::{Answer, Identifiability, Number, Value};
 use crate::report::number::{NBSP, num, percent};
 

@@ -1,10 +1,12 @@
 //! Sensitivities as bars to both sides of zero, the final speed's as dots.
 
-use super::{MOST_BARS, short, signed, split};
+use super::phrases::{short, signed, split};
 use crate::report::markup::{Markup, Px};
 use crate::report::scale::Scale;
 use crate::simulate::AxisSensitivity;
 
+/// Numbers that the picture shows.
+const MOST_BARS: usize = 8;
 /// Width of the picture and height of a row (px).
 const WIDTH: f64 = 420.0;
 const ROW: f64 = 21.0;

@@ -3,7 +3,8 @@
 use super::phrases::{self, fit_cell, fit_text, rms_cell};
 use super::{curves, run};
 use crate::localise::validation::{HorizonFigures, RunTraces, Signal, SignalFigures, Validation};
-use crate::report::html::{notes, page, section};
+use crate::report::html::notes;
+use crate::report::html::page::{page, section};
 use crate::report::markup::Markup;
 use crate::report::number::num;
 use crate::report::phrases::sentence;

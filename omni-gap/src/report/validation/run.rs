@@ -2,7 +2,7 @@
 
 use super::phrases;
 use crate::localise::validation::{RunFigures, RunTraces, Signal, SignalFigures, Trace};
-use crate::report::html::section;
+use crate::report::html::page::section;
 use crate::report::markup::Markup;
 use crate::report::number::num;
 use crate::report::phrases::sentence;
