@@ -17,32 +17,36 @@ use std::f64::consts::TAU;
 /// `t_s` is the time of each row (s), `edges_per_turn` how many edges a turn of the wheel has. A number equal to the one
 /// before is the same one held. Rows without a number of their own are missing as stale.
 pub(crate) fn retimed(held: &Channel, t_s: &[f64], edges_per_turn: f64) -> Channel {
-    let intervals = intervals(held, t_s, edges_per_turn);
-    let mut told: Vec<Option<f64>> = vec![None; held.len()];
+    let told = speeds_on_rows(&intervals(held, t_s, edges_per_turn), t_s);
+    told.into_iter().map(|speed| speed.ok_or(Missing::Stale)).collect()
+}
+
+/// The speeds (rad/s) of intervals between edges, each on the row nearest to its middle, moved there along the slope of
+/// the intervals around it; none on other rows. Middles lie within the rows' times `t_s` (s) and grow.
+pub(crate) fn speeds_on_rows(intervals: &[EdgeInterval], t_s: &[f64]) -> Vec<Option<f64>> {
+    let mut told = vec![None; t_s.len()];
     for (k, now) in intervals.iter().enumerate() {
-        let after = t_s.partition_point(|t| *t < now.middle_s).min(now.row);
+        let after = t_s.partition_point(|t| *t < now.middle_s).min(t_s.len() - 1);
         let before_is_nearer = after > 0 && now.middle_s - t_s[after - 1] < t_s[after] - now.middle_s;
         let row = if before_is_nearer { after - 1 } else { after };
-        // from the middle to its row along the slope of the intervals around it
         let around = intervals.get(k.wrapping_sub(1)).zip(intervals.get(k + 1));
         let slope = around.map_or(0.0, |(a, b)| (b.speed - a.speed) / (b.middle_s - a.middle_s));
         told[row] = Some(now.speed + slope * (t_s[row] - now.middle_s));
     }
-    told.into_iter().map(|speed| speed.ok_or(Missing::Stale)).collect()
+    told
 }
 
-/// An interval between two edges.
-struct Interval {
-    /// The row on which it was first told.
-    row: usize,
+/// An interval between two edges of a wheel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct EdgeInterval {
     /// Its middle (s)
-    middle_s: f64,
+    pub middle_s: f64,
     /// Mean speed (rad/s)
-    speed: f64,
+    pub speed: f64,
 }
 
-fn intervals(held: &Channel, t_s: &[f64], edges_per_turn: f64) -> Vec<Interval> {
-    let mut all: Vec<Interval> = Vec::new();
+fn intervals(held: &Channel, t_s: &[f64], edges_per_turn: f64) -> Vec<EdgeInterval> {
+    let mut all: Vec<EdgeInterval> = Vec::new();
     let mut last = None;
     for (row, speed) in held.present() {
         let is_new = last.is_some_and(|before: f64| before != speed);
@@ -56,7 +60,7 @@ fn intervals(held: &Channel, t_s: &[f64], edges_per_turn: f64) -> Vec<Interval> 
         let middle_s = t_s[row] - 0.5 * (row_s + interval_s);
         // two edges of one row's length may seem to come in the wrong order
         if all.last().is_none_or(|before| before.middle_s < middle_s) {
-            all.push(Interval { row, middle_s, speed });
+            all.push(EdgeInterval { middle_s, speed });
         }
     }
     all

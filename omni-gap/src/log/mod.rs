@@ -27,7 +27,7 @@ pub use catalogue::{Catalogue, KnownEffect, KnownParam, nearest};
 pub use columns::Columns;
 pub use controller::ControllerFile;
 pub use correct::{Change, corrected};
-pub(crate) use edges::retimed;
+pub(crate) use edges::{EdgeInterval, retimed, speeds_on_rows};
 pub use robot_file::*;
 pub use run::{Channel, Group, Missing, Run, Sampled};
 pub use session::Session;

@@ -4,10 +4,10 @@
 //! measured, and what got lost is counted and left out, never made up.
 //!
 //! Reading order: [`block`] (a robot file → the parameter block), [`source`] (where bytes come from), [`capture`] (bytes →
-//! records), [`speeds`] (hall edges → wheel speeds), [`run`] (records → a run).
+//! records), `speeds` (hall edges → wheel speeds), [`run`] (records → a run).
 
 pub mod block;
 pub mod capture;
 pub mod run;
 pub mod source;
-pub mod speeds;
+mod speeds;

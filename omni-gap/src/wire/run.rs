@@ -22,9 +22,9 @@ use model_core::link::record::{OperatingState, TelemetryRecord};
 
 use super::capture::Capture;
 use super::source::Source;
-use super::speeds::{edges_per_turn, intervals, on_rows};
+use super::speeds::{edges_per_turn, intervals};
 use crate::error::Result;
-use crate::log::{Channel, Group, Missing, Run, Sampled};
+use crate::log::{Channel, Group, Missing, Run, Sampled, speeds_on_rows};
 
 /// A longer gap is left as it is, without rows in it [rows]
 const LONGEST_GAP: u32 = 10_000;
@@ -93,7 +93,7 @@ pub fn run(capture: &Capture, source: &Source, name: &str, wheels: usize) -> Res
     let t_s: Vec<f64> = t_s.into_iter().take(channels.enable.len()).collect();
     for (wheel, channel) in channels.w.iter_mut().enumerate() {
         let edges = edges_per_turn(hello.calibration.pole_pairs, f64::from(hello.gear_ratio));
-        let speeds = on_rows(&intervals(records, &t, wheel, clock, edges), &t_s);
+        let speeds = speeds_on_rows(&intervals(records, &t, wheel, clock, edges), &t_s);
         *channel = speeds.into_iter().map(|speed| speed.ok_or(Missing::Stale)).collect();
     }
     Ok(Run {

@@ -1,8 +1,7 @@
 //! # Wheel speeds from hall edges
 //!
 //! A record counts edges and says how long ago the last one was, so an interval between two edges is known as a whole:
-//! its length, and its middle. Its mean speed is told once, on the row nearest to the middle, moved there along the
-//! slope of the intervals around it; no other row has a speed.
+//! its length, and its middle. Its mean speed is told once (`log/edges.rs`).
 //!
 //! ```text
 //! ω̄ = n·φ/τ,   ω(middle) = ω̄ + O(τ²·d²ω/dt²/24),   σ(ω̄) = ω·Δt/(√6·τ)
@@ -15,6 +14,8 @@ use std::f64::consts::TAU;
 
 use model_core::link::record::TelemetryRecord;
 
+use crate::log::EdgeInterval;
+
 /// The shortest interval that is told [s]
 const SHORTEST_S: f64 = 4e-3;
 
@@ -26,15 +27,6 @@ const LONGEST_S: f64 = 0.1;
 struct Edge {
     number: i64,
     t: f64,
-}
-
-/// An interval between two edges.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
-    /// Its middle [s]
-    pub middle: f64,
-    /// Mean speed of the wheel [rad/s]
-    pub speed: f64,
 }
 
 /// Edges in a turn of the wheel.
@@ -51,7 +43,7 @@ pub fn intervals(
     wheel: usize,
     period: f64,
     edges_per_turn: f64,
-) -> Vec<Interval> {
+) -> Vec<EdgeInterval> {
     let angle = TAU / edges_per_turn;
     let mut all = Vec::new();
     let (mut count, mut from): (i64, Option<Edge>) = (0, None);
@@ -80,30 +72,17 @@ pub fn intervals(
             from = Some(now);
         } else if length >= SHORTEST_S {
             let speed = (now.number - start.number) as f64 * angle / length;
-            all.push(Interval { middle: 0.5 * (now.t + start.t), speed });
+            all.push(EdgeInterval { middle_s: 0.5 * (now.t + start.t), speed });
             from = Some(now);
         }
     }
     all
 }
 
-/// The speeds on the rows at the times `t` [s]; none where no interval has its middle nearest.
-pub fn on_rows(intervals: &[Interval], t: &[f64]) -> Vec<Option<f64>> {
-    let mut told = vec![None; t.len()];
-    for (k, now) in intervals.iter().enumerate() {
-        let after = t.partition_point(|t| *t < now.middle).min(t.len() - 1);
-        let before_is_nearer = after > 0 && now.middle - t[after - 1] < t[after] - now.middle;
-        let row = if before_is_nearer { after - 1 } else { after };
-        let around = intervals.get(k.wrapping_sub(1)).zip(intervals.get(k + 1));
-        let slope = around.map_or(0.0, |(a, b)| (b.speed - a.speed) / (b.middle - a.middle));
-        told[row] = Some(now.speed + slope * (t[row] - now.middle));
-    }
-    told
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::log::speeds_on_rows;
 
     const PERIOD: f64 = 50e-6;
     const EDGES: f64 = 240.0;
@@ -130,7 +109,7 @@ mod tests {
         let (start, slope) = (3.0, 30.0);
         for sign in [1.0, -1.0] {
             let (records, t) = recorded(|t| sign * (start * t + 0.5 * slope * t * t) + 0.01, 1000);
-            let told = on_rows(&intervals(&records, &t, 1, PERIOD, EDGES), &t);
+            let told = speeds_on_rows(&intervals(&records, &t, 1, PERIOD, EDGES), &t);
             let errors: Vec<(f64, f64)> = told
                 .iter()
                 .zip(&t)
@@ -158,7 +137,7 @@ mod tests {
         let (records, t) = recorded(|t| 5.0 * t.min(0.2) + 5.0 * (t - 0.5).max(0.0) + 0.01, 700);
         let all = intervals(&records, &t, 1, PERIOD, EDGES);
         assert!(all.iter().all(|x| (x.speed - 5.0).abs() < 0.05), "{all:?}");
-        assert!(all.iter().all(|x| x.middle < 0.2 || x.middle > 0.5));
+        assert!(all.iter().all(|x| x.middle_s < 0.2 || x.middle_s > 0.5));
     }
 
     #[test]
