@@ -271,7 +271,7 @@ fn push(run: &mut Run, robot: &RobotFile) {
         let (speed, way) = (0.5 * (1.0 - phase.cos()), 0.5 * (phase - phase.sin()) / std::f64::consts::TAU);
         run.t_s.push(end + t);
         for (j, wheel) in robot.wheel.iter().enumerate() {
-            let turns = wheel.row()[0] * speed / wheel.radius_m;
+            let turns = wheel.wheel().row()[0] * speed / wheel.radius_m;
             group(run, "u")[j].push(0.0);
             group(run, "w")[j].push(turns + 0.01 * (37.0 * t).sin());
             group(run, "i")[j].push(0.001 * (41.0 * t).cos() - per_speed * turns);

@@ -7,7 +7,8 @@
 //! u_j = R·i_j + l·K_v·ω_j                     (eq. 21)
 //! ```
 //!
-//! The inverse of the plain model: what to ask of the motors so that the body accelerates as wanted. At rest the
+//! The inverse of the plain model, as it is read. [`Controller::feedforward`](crate::control::motion_controller::Controller::feedforward)
+//! is the same folded for a turn of the loop, and a test holds them together: what to ask of the motors so that the body accelerates as wanted. At rest the
 //! friction to overcome is that of the direction in which the body is to start, sign(a).
 
 use crate::geometry::frames::BodyTwist;

@@ -219,6 +219,12 @@ impl<const N: usize, T: Real> Wheels<N, T> {
         sum
     }
 
+    /// G·(GᵀG)⁻¹, row by row: rim force of least sum of squares over body force [1, 1, 1/m].
+    #[inline]
+    pub fn force_shares(&self) -> [[T; 3]; N] {
+        self.pseudo_inverse
+    }
+
     /// The rim forces [N] of least sum of squares that together do (F_v, F_vn, Γ) [N, N, N·m] to the body.
     #[inline]
     pub fn wheel_forces(&self, body_force: [T; 3]) -> [T; N] {

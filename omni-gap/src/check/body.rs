@@ -12,7 +12,7 @@ pub(super) struct BodyFromWheels {
 
 impl BodyFromWheels {
     pub fn new(robot: &RobotFile) -> Option<BodyFromWheels> {
-        let rows: Vec<f64> = robot.wheel.iter().flat_map(|wheel| wheel.row()).collect();
+        let rows: Vec<f64> = robot.wheel.iter().flat_map(|wheel| wheel.wheel().row()).collect();
         let inverse = DMatrix::from_row_slice(robot.wheel.len(), 3, &rows).pseudo_inverse(1e-9).ok()?;
         Some(BodyFromWheels { inverse, radius_m: robot.wheel.iter().map(|wheel| wheel.radius_m).collect() })
     }

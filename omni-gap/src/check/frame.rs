@@ -46,7 +46,7 @@ impl Seen {
         let rims: Vec<f64> = late[0].iter().flat_map(|w| &w.rims).copied().collect();
         let square: f64 = rims.iter().map(|v| v * v).sum();
         let enough = late[0].len() >= FEWEST && square > SLOWEST_M_S * SLOWEST_M_S * rims.len() as f64;
-        enough.then(|| Seen { rows: robot.wheel.iter().map(|wheel| wheel.row()).collect(), late })
+        enough.then(|| Seen { rows: robot.wheel.iter().map(|wheel| wheel.wheel().row()).collect(), late })
     }
 
     pub fn windows(&self) -> &[Window] {

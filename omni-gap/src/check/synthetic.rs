@@ -88,7 +88,7 @@ pub fn run(made: &Made) -> Run {
     let n = made.wheels;
     let k = robot.volts_per_wheel_speed() * made.wrong;
     let r_ohm = robot.motor.resistance_ohm * made.wrong;
-    let rows: Vec<[f64; 3]> = robot.wheel.iter().map(|w| w.row()).collect();
+    let rows: Vec<[f64; 3]> = robot.wheel.iter().map(|w| w.wheel().row()).collect();
     let radius = robot.wheel[0].radius_m;
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(7);
     let mut noise = move |sigma: f64| made.noise * sigma * ((0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0);

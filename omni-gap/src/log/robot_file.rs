@@ -7,6 +7,7 @@
 
 use super::controller::ControllerFile;
 use model_core::effects::nominal;
+use model_core::geometry::kinematics::Wheel;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -22,15 +23,9 @@ pub struct WheelFile {
 }
 
 impl WheelFile {
-    /// Direction of rolling in body axes (rad).
-    pub fn drive_angle_rad(&self) -> f64 {
-        self.drive_angle_deg.to_radians()
-    }
-
-    /// Rim speed (m/s) per body twist (v (m/s), vn (m/s), ω (rad/s)): (cos a, sin a, d).
-    pub fn row(&self) -> [f64; 3] {
-        let (sin, cos) = self.drive_angle_rad().sin_cos();
-        [cos, sin, self.distance_m]
+    /// The wheel as the model has it.
+    pub fn wheel(&self) -> Wheel<f64> {
+        Wheel::from_degrees(self.drive_angle_deg, self.distance_m, self.radius_m)
     }
 }
 

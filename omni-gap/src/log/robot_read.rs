@@ -8,6 +8,7 @@ use super::robot_file::*;
 use super::toml_walk::{Section, Source, read_text, tables};
 use crate::error::{Error, Result};
 use model_core::effects::nominal::{IN_THE_FILE, Table};
+use model_core::geometry::kinematics::Wheels;
 use std::collections::BTreeMap;
 use std::path::Path;
 use toml_edit::TableLike;
@@ -120,16 +121,13 @@ fn wheels(source: Source, top: &dyn TableLike) -> Result<Vec<WheelFile>> {
     Ok(wheels)
 }
 
-/// Whether the kinematic rows have rank three: det(AᵀA) of rows scaled to lever 1 is not tiny.
+/// Whether the wheels fix all three directions.
 fn tells_the_motion(wheels: &[WheelFile]) -> bool {
-    let lever = wheels.iter().map(|w| w.distance_m).fold(0.0, f64::max);
-    let mut m = nalgebra::Matrix3::<f64>::zeros();
-    for wheel in wheels {
-        let [c, s, d] = wheel.row();
-        let row = nalgebra::RowVector3::new(c, s, d / lever);
-        m += row.transpose() * row;
+    let regular = |wheels: &[WheelFile; 3]| Wheels::new(wheels.map(|wheel| wheel.wheel())).is_regular();
+    match wheels {
+        [a, b, c, d] => Wheels::new([a, b, c, d].map(WheelFile::wheel)).is_regular(),
+        wheels => wheels.try_into().is_ok_and(regular),
     }
-    m.determinant() > 1e-6
 }
 
 /// The keys of a table's nominal numbers, in the order of the file.

@@ -1,7 +1,5 @@
 //! From settings to a controller: everything that does not change from turn to turn, worked out once.
 
-use core::array;
-
 use super::terms::{self, CompensationTerms};
 use super::{Controller, Settings, WheelMap};
 use crate::control::compensation::Compensation;
@@ -10,7 +8,7 @@ use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{EffectContext, Gear, Winding};
 use crate::geometry::kinematics::Wheels;
-use crate::number::linalg::{accumulate_outer, determinant3, inverse3, mul_mat_vec};
+use crate::number::linalg::accumulate_outer;
 use crate::number::scalar::Real;
 
 /// How the wheels that work share a body force, and by how much less they can do than all together.
@@ -26,27 +24,24 @@ struct Shares<const N: usize, T> {
 /// The shares of the wheels that work; `None` if they cannot move the robot as it likes.
 fn shares<const N: usize, T: Real>(wheels: &Wheels<N, T>, working: &[bool; N]) -> Option<Shares<N, T>> {
     let (zero, one) = (T::zero(), T::one());
-    let axes = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
-    let columns = axes.map(|axis| wheels.wheel_forces(axis));
-    let all: [[T; 3]; N] = array::from_fn(|j| columns.map(|column| column[j]));
-    let lost = working.iter().filter(|works| !**works).count();
-    if lost == 0 {
+    let all = wheels.force_shares();
+    let mut kept = [0; 3];
+    let working_wheels = (0..N).filter(|j| working[*j]);
+    let count = working_wheels.zip(&mut kept).map(|(j, slot)| *slot = j).count();
+    if working.iter().all(|works| *works) {
         return wheels.is_regular().then_some(Shares { rows: all, plane: one, turn: one });
     }
-    if N - lost < 3 {
+    if count < 3 {
         return None;
     }
-    let mut gram = [[zero; 3]; 3];
-    for (row, _) in wheels.rows().iter().zip(working).filter(|(_, works)| **works) {
-        accumulate_outer(&mut gram, one, *row);
-    }
-    // as for all wheels: det(GᵀG) against the most that columns so long can span
-    let regular = determinant3(&gram) > T::lit(1.0e-9) * gram[0][0] * gram[1][1] * gram[2][2];
-    if !regular {
+    let three = Wheels::new(kept.map(|j| wheels.wheels()[j]));
+    if !three.is_regular() {
         return None;
     }
-    let inverse = inverse3(&gram);
-    let rows = array::from_fn(|j| if working[j] { mul_mat_vec(&inverse, wheels.rows()[j]) } else { [zero; 3] });
+    let mut rows = [[zero; 3]; N];
+    for (j, share) in kept.into_iter().zip(three.force_shares()) {
+        rows[j] = share;
+    }
     // the largest wheel force for one newton in the plane, in its worst direction, and for one newton metre
     let plane = |rows: &[[T; 3]; N]| rows.iter().fold(zero, |most, r| most.max((r[0] * r[0] + r[1] * r[1]).sqrt()));
     let turn = |rows: &[[T; 3]; N]| rows.iter().fold(zero, |most, r| most.max(r[2].abs()));
