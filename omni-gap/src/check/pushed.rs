@@ -34,6 +34,8 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
     let pose = speed_from_pose(run, robot, 0.25);
     let (mut rows, mut pushed_s, mut top, mut steep): (Vec<(usize, usize)>, f64, f64, bool) =
         (Vec::new(), 0.0, 0.0, false);
+    // a tenth of a second in all
+    let half = ((0.05 / run.median_step_s()) as usize).max(2);
     let mut from = 0;
     for to in 0..=run.rows() {
         if to < run.rows() && off(to) {
@@ -41,7 +43,7 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
         }
         if to > from + 1 && run.t_s[to - 1] - run.t_s[from] > SETTLE_S + 0.2 {
             for speed in [&wheels, &pose].into_iter().flatten() {
-                if let Some((first, last, growth, rate)) = growth(run, speed, (from, to - 1)) {
+                if let Some((first, last, growth, rate)) = growth(run, speed, half, (from, to - 1)) {
                     rows.push((first, last));
                     pushed_s += run.t_s[last] - run.t_s[first];
                     top = f64::max(top, growth);
@@ -64,9 +66,14 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Option<Fault> {
 }
 
 /// The largest growth of a speed within rows without drive: from the lowest to the highest after it.
-fn growth(run: &Run, speed: &[Option<f64>], (first, last): (usize, usize)) -> Option<(usize, usize, f64, f64)> {
+fn growth(
+    run: &Run,
+    speed: &[Option<f64>],
+    half: usize,
+    (first, last): (usize, usize),
+) -> Option<(usize, usize, f64, f64)> {
     let start_s = run.t_s[first] + SETTLE_S;
-    let smooth = smoothed(run, speed, (first, last));
+    let smooth = smoothed(speed, half, (first, last));
     let mut low: Option<(usize, f64)> = None;
     let mut best: Option<(usize, usize, f64)> = None;
     for &(row, now) in smooth.iter().filter(|(row, _)| run.t_s[*row] >= start_s && run.t_s[*row] <= run.t_s[last] - 0.1)
@@ -93,9 +100,8 @@ fn growth(run: &Run, speed: &[Option<f64>], (first, last): (usize, usize)) -> Op
     })
 }
 
-/// Middle values over a tenth of a second.
-fn smoothed(run: &Run, speed: &[Option<f64>], (first, last): (usize, usize)) -> Vec<(usize, f64)> {
-    let half = ((0.05 / run.median_step_s()) as usize).max(2);
+/// Middle values over `half` rows to either side.
+fn smoothed(speed: &[Option<f64>], half: usize, (first, last): (usize, usize)) -> Vec<(usize, f64)> {
     let mut near = Vec::with_capacity(2 * half + 1);
     let middle = |row: usize| {
         near.clear();
