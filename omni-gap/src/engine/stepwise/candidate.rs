@@ -93,7 +93,9 @@ pub fn candidates<const N: usize>(present: &[EffectInstance], knobs: &ScreenKnob
             .into_iter()
             .chain((card.scope != Scope::Robot).then_some(0..N).into_iter().flatten().map(Some));
         for wheel in places {
-            let taken = present.iter().any(|p| p.id == card.id && (p.wheel.is_none() || p.wheel == wheel));
+            // on all wheels and on one of them too it would act there twice, and no robot file may say so
+            let overlaps = |p: &EffectInstance| p.wheel.is_none() || wheel.is_none() || p.wheel == wheel;
+            let taken = present.iter().any(|p| p.id == card.id && overlaps(p));
             if !taken {
                 // on one wheel alone only the plain sizes: the shapes were looked at on all wheels together
                 let trials = trials(card, wheel, wheel.is_none() || !anywhere, knobs);
