@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+pub use model_core::effects::card::Stage;
+
 /// Told, from any thread, what is being done.
 pub type Progress<'a> = &'a (dyn Fn(&str) + Sync);
 
@@ -47,36 +49,22 @@ pub enum Kind {
     Parameter,
 }
 
-/// The five stages, in signal order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Stage {
-    /// Voltage to current.
-    Electrical,
-    /// Current to torque at the wheel.
-    Drivetrain,
-    /// Wheel to floor.
-    Contact,
-    /// Force to motion.
-    Body,
-    /// Motion to reading.
-    Sensing,
-}
+/// A [`Stage`] in files: the name that its card has, for `#[serde(with = "stage_name")]`.
+pub(crate) mod stage_name {
+    use model_core::effects::card::Stage;
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
 
-impl Stage {
-    /// All stages, in signal order.
-    pub const ALL: [Stage; 5] = [Stage::Electrical, Stage::Drivetrain, Stage::Contact, Stage::Body, Stage::Sensing];
-}
+    /// Its name.
+    pub fn serialize<S: Serializer>(stage: &Stage, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(stage.name())
+    }
 
-impl From<model_core::effects::card::Stage> for Stage {
-    fn from(stage: model_core::effects::card::Stage) -> Stage {
-        match stage {
-            model_core::effects::card::Stage::Electrical => Stage::Electrical,
-            model_core::effects::card::Stage::Drivetrain => Stage::Drivetrain,
-            model_core::effects::card::Stage::Contact => Stage::Contact,
-            model_core::effects::card::Stage::Body => Stage::Body,
-            model_core::effects::card::Stage::Sensing => Stage::Sensing,
-        }
+    /// The stage of a name.
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Stage, D::Error> {
+        let name = String::deserialize(from)?;
+        let found = Stage::ALL.into_iter().find(|stage| stage.name() == name);
+        found.ok_or_else(|| D::Error::custom(format!("`{name}` is no stage")))
     }
 }
 
@@ -100,13 +88,6 @@ impl Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn stages_are_called_what_the_cards_call_them() {
-        for stage in model_core::effects::card::Stage::ALL {
-            assert_eq!(serde_json::to_value(Stage::from(stage)).unwrap(), stage.name());
-        }
-    }
 
     #[test]
     fn words_of_the_verdict_are_the_contracts() {

@@ -56,17 +56,6 @@ pub fn change(report: &Report) -> Option<String> {
     })
 }
 
-/// A stage, as it stands in a sentence.
-pub fn stage(stage: Stage) -> &'static str {
-    match stage {
-        Stage::Electrical => "electrical",
-        Stage::Drivetrain => "drivetrain",
-        Stage::Contact => "contact",
-        Stage::Body => "body",
-        Stage::Sensing => "sensing",
-    }
-}
-
 /// What a stage turns into what.
 pub fn stage_path(stage: Stage) -> &'static str {
     match stage {
@@ -110,7 +99,7 @@ pub fn verdict(verdict: Verdict) -> &'static str {
 
 /// Stage, wheel and axis of an entry of `where`.
 pub fn place(w: &Where) -> String {
-    format!("the {} stage{}", stage(w.stage), spot(w.wheel, w.axis))
+    format!("the {} stage{}", w.stage.name(), spot(w.wheel, w.axis))
 }
 
 /// ", wheel 2" or ", turning (w)"; empty where neither is known.

@@ -66,8 +66,7 @@ fn where_(page: &mut Page, report: &Report) {
     places.sort_by(|a, b| b.share.total_cmp(&a.share));
     let Some((first, rest)) = places.split_first() else { return };
     let regime = first.regime.as_ref().map(|r| format!("; {} of it where {}", percent(r.share), r.text));
-    let told =
-        |w: &Where| format!("{}{}: {}", phrases::stage(w.stage), phrases::spot(w.wheel, w.axis), percent(w.share));
+    let told = |w: &Where| format!("{}{}: {}", w.stage.name(), phrases::spot(w.wheel, w.axis), percent(w.share));
     page.line("where", &format!("{} of the gap{}", told(first), regime.unwrap_or_default()));
     let rest: Vec<_> = rest.iter().filter(|w| w.share >= WORTH_A_LINE).map(|w| told(w)).collect();
     if !rest.is_empty() {

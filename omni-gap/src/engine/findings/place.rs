@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::vocabulary::{Axis, Stage};
+use crate::vocabulary::{Axis, Stage, stage_name};
 
 /// A place of the robot and its share of the gap.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Where {
     /// Stage of the signal path.
+    #[serde(with = "stage_name")]
     pub stage: Stage,
     /// Body axis, where the gap sits on one.
     pub axis: Option<Axis>,

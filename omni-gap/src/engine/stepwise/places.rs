@@ -72,7 +72,7 @@ fn stage_weights<const N: usize>(search: &Search<N>, data: &Data<'_, N>) -> [f64
     let at = |stage: Stage| Stage::ALL.iter().position(|s| *s == stage).unwrap_or(0);
     if search.found.is_empty() {
         for s in &search.rounds[0].screened {
-            weights[at(s.candidate.card.stage().into())] += s.gain.sqrt();
+            weights[at(s.candidate.card.stage())] += s.gain.sqrt();
         }
         // a nominal value that a re-fit drives far from what was stated speaks for its own stage
         for (row, violation) in prior.rows.iter().zip(prior.violations(&search.refitted.fit.model)) {

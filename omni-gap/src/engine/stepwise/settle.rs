@@ -34,5 +34,5 @@ pub(super) fn next_experiment(which: &[Which], causes: &[String]) -> Option<Next
 
 /// The stage of a cause.
 pub(super) fn stage_of(id: &str) -> Stage {
-    effects::cause(id).map_or(Stage::Body, |cause| cause.stage().into())
+    effects::cause(id).map_or(Stage::Body, |cause| cause.stage())
 }

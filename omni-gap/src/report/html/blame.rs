@@ -36,7 +36,7 @@ pub(super) fn places(m: &mut Markup, report: &Report) {
             for stage in Stage::ALL {
                 let class = if Some(stage) == most { "most" } else { "" };
                 m.within("li", &[("class", &class)], |m| {
-                    m.leaf("strong", &[], phrases::stage(stage));
+                    m.leaf("strong", &[], stage.name());
                     m.leaf("span", &[("class", &"share")], &percent(share(stage)));
                     m.leaf("small", &[], phrases::stage_path(stage));
                 });
@@ -50,7 +50,7 @@ pub(super) fn places(m: &mut Markup, report: &Report) {
                     .map(|r| format!(". {} of it where {}", percent(r.share), phrases::open_ended(&r.text)));
                 let spot = phrases::spot(w.wheel, w.axis);
                 m.within("li", &[], |m| {
-                    m.leaf("strong", &[], &format!("{}{spot}: {}", phrases::stage(w.stage), percent(w.share)));
+                    m.leaf("strong", &[], &format!("{}{spot}: {}", w.stage.name(), percent(w.share)));
                     m.text(&format!("{}.", regime.unwrap_or_default()));
                 });
             }
