@@ -13,6 +13,8 @@ mod cycles;
 mod engine;
 #[path = "walls/finding.rs"]
 mod finding;
+#[path = "walls/golden_pages.rs"]
+mod golden_pages;
 #[path = "walls/imports.rs"]
 mod imports;
 #[path = "walls/manifest.rs"]
@@ -96,6 +98,15 @@ fn the_page_of_the_architecture_names_what_is_there() {
     let page = found.iter().find(|source| source.path == architecture::PAGE).expect("the page of the architecture");
     assert!(architecture::paths(&page.text).len() >= 40, "the page names too few places to be a map");
     none(architecture::missing(page, &std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..")));
+}
+
+#[test]
+fn every_golden_page_is_compared_or_is_a_record_of_a_command_at_a_commit() {
+    let pages: Vec<Source> =
+        sources(&["md"]).into_iter().filter(|page| page.path.starts_with(golden_pages::PAGES)).collect();
+    assert!(!pages.is_empty(), "no golden page is found");
+    let code = rust_below("host-tests/");
+    none(in_all(&pages, |page| golden_pages::unheld(page, &code)));
 }
 
 #[test]
