@@ -9,12 +9,38 @@ use std::path::{Path, PathBuf};
 /// The result of everything that touches a file.
 pub type Result<T> = std::result::Result<T, Error>;
 
+/// What kind of mistake an input has, for programs that want to act on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum InputKind {
+    /// There is no such file or folder.
+    NotFound,
+    /// It is there and cannot be read: no permission, a folder for a file, a line that breaks off.
+    Unreadable,
+    /// It can be read and is not of its form: not text, not TOML, no table of equal rows.
+    Malformed,
+    /// It has a newer form than this program knows.
+    Newer,
+    /// Something that is needed is not in it: a table, a key, a column, a signal.
+    Missing,
+    /// It names something that there is not: a key, a column, an effect.
+    Unknown,
+    /// A value is not of the kind, or not within the bounds, that are expected there.
+    Invalid,
+    /// Two things in it do not go together.
+    Conflict,
+    /// It is sound, and too little to work with.
+    TooLittle,
+}
+
 /// A mistake in a file, or a place that cannot be written to.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
     /// A file or folder that was given cannot be used as it is.
     #[error("{}{}: {problem}. {fix}", Place(file, *line), InColumn(column.as_deref()))]
     Input {
+        /// What kind of mistake it is.
+        kind: InputKind,
         /// The file or folder.
         file: PathBuf,
         /// The line in the file, counted from 1.
@@ -51,9 +77,26 @@ pub enum Error {
 }
 
 impl Error {
-    /// A mistake in `file` as a whole.
+    /// A value in `file` that is not what was expected; of another kind, say so with [`Error::of_kind`].
     pub fn input(file: &Path, problem: impl Into<String>, fix: impl Into<String>) -> Error {
-        Error::Input { file: file.into(), line: None, column: None, problem: problem.into(), fix: fix.into() }
+        let (problem, fix) = (problem.into(), fix.into());
+        Error::Input { kind: InputKind::Invalid, file: file.into(), line: None, column: None, problem, fix }
+    }
+
+    /// The same mistake, of this kind.
+    pub fn of_kind(mut self, is: InputKind) -> Error {
+        if let Error::Input { kind, .. } = &mut self {
+            *kind = is;
+        }
+        self
+    }
+
+    /// The kind of mistake that an input has; none of an output, and of a recording that is only faulty.
+    pub fn input_kind(&self) -> Option<InputKind> {
+        match self {
+            Error::Input { kind, .. } => Some(*kind),
+            Error::Faulty { .. } | Error::Output { .. } => None,
+        }
     }
 
     /// The same mistake, with the line (counted from 1) where it stands.

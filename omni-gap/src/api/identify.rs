@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::check::check;
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use crate::identify::{Fit, FitSettings, Prior, Shots, WINDOW_S, Windows, fit_with_dispersion, nominal_free};
 use crate::log::{RobotFile, Session, corrected};
 use crate::simulate::{AlignedRun, Model, NOMINAL_KEYS, NominalKey, Slot, supply_seen};
@@ -93,7 +93,8 @@ fn identified<const N: usize>(session: &Session) -> Result<Identification> {
         let problem =
             "no run has a voltage, a signed current, a wheel speed or a commanded speed to drive the model with";
         let place = session.runs.first().map_or(std::path::Path::new("runs"), |run| run.place());
-        return Err(Error::input(place, problem, "Log at least one of u, i, w or wset for every wheel"));
+        return Err(Error::input(place, problem, "Log at least one of u, i, w or wset for every wheel")
+            .of_kind(InputKind::Missing));
     }
     let model = Model::<N>::nominal(&session.robot, supply_seen(&runs));
     let windows: Vec<Windows> = runs.iter().map(|r| Windows::new(r, WINDOW_S)).collect();

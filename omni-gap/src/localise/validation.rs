@@ -21,7 +21,7 @@ mod tests;
 
 use rayon::prelude::*;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use crate::log::{Run, Session};
 use crate::simulate::{AlignedRun, Model, drivable, supply_seen};
 
@@ -148,4 +148,5 @@ fn pictured(runs: &[RunFigures]) -> Vec<usize> {
 fn nothing_to_compare(run: &Run) -> Error {
     let problem = "nothing was measured in it that the model could be compared with, beside the signal that drives it";
     Error::input(run.place(), problem, "Log what the robot does as well: i, w or the pose, or leave the run out")
+        .of_kind(InputKind::Missing)
 }

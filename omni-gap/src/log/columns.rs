@@ -5,7 +5,7 @@ use super::csv::Layout;
 use super::run::Sampled;
 use super::target::{Quantity, Target};
 use super::toml_walk::{Section, Source, read_text};
-use crate::error::Result;
+use crate::error::{InputKind, Result};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
@@ -148,9 +148,9 @@ impl Columns {
             }
         };
         let Some(item) = top.table.get("columns") else {
-            return Err(
-                top.error("[columns] is missing: no column is mapped", "Add [columns] with t_s and the signals")
-            );
+            return Err(top
+                .error("[columns] is missing: no column is mapped", "Add [columns] with t_s and the signals")
+                .of_kind(InputKind::Missing));
         };
         let columns = Section::new(source, "[columns]", item)?;
         let rules =
@@ -201,7 +201,7 @@ fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> 
         ];
         let fix = nearest(name, known)
             .map_or(format!("Known are {}", known.join(", ")), |near| format!("Did you mean `{near}`?"));
-        return Err(columns.key_error(name, "this is not a column of the run log", fix));
+        return Err(columns.key_error(name, "this is not a column of the run log", fix).of_kind(InputKind::Unknown));
     };
     let title = format!("[columns] {name}");
     let s = Section::new(columns.source, &title, item)?;
@@ -220,7 +220,10 @@ fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> 
             ));
         }
         _ => {
-            return Err(s.error("`from` is missing", "Name the source column, or give its position").in_column(name));
+            return Err(s
+                .error("`from` is missing", "Name the source column, or give its position")
+                .in_column(name)
+                .of_kind(InputKind::Missing));
         }
     };
     let sign = s.number("sign")?.unwrap_or(1.0);
@@ -230,12 +233,16 @@ fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> 
     let unit = unit(&s, target)?;
     let counts = counts(&s, target)?;
     if counts.is_some() && s.table.contains_key("unit") {
-        return Err(s.key_error("unit", "counts have no unit", "Remove `unit`, or `counts_per_turn`"));
+        return Err(s
+            .key_error("unit", "counts have no unit", "Remove `unit`, or `counts_per_turn`")
+            .of_kind(InputKind::Conflict));
     }
     let optional = s.flag("optional")?.unwrap_or(false);
     let running_sum = s.flag("running_sum")?.unwrap_or(false);
     if running_sum && target != Target::Time {
-        return Err(s.key_error("running_sum", "only time can be a running sum", "Remove the key"));
+        return Err(s
+            .key_error("running_sum", "only time can be a running sum", "Remove the key")
+            .of_kind(InputKind::Conflict));
     }
     let offset = s.number("offset")?.unwrap_or(0.0);
     Ok((target, Rule { from, factor: sign * scale * unit, offset, counts, running_sum, optional }))
@@ -259,7 +266,9 @@ fn counts(s: &Section, target: Target) -> Result<Option<Counts>> {
     if !s.table.contains_key("counts_per_turn") {
         return match kind {
             None => Ok(None),
-            Some(_) => Err(s.key_error("counts", "`counts_per_turn` is missing", "Say how many counts make a turn")),
+            Some(_) => Err(s
+                .key_error("counts", "`counts_per_turn` is missing", "Say how many counts make a turn")
+                .of_kind(InputKind::Missing)),
         };
     }
     let per_turn = s.positive("counts_per_turn")?;

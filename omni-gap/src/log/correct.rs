@@ -4,7 +4,7 @@
 
 use super::robot_file::EffectEntry;
 use super::toml_walk::Source;
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use std::path::Path;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, value};
 
@@ -26,12 +26,15 @@ pub enum Change {
 pub fn corrected(text: &str, changes: &[Change]) -> Result<String> {
     let path = Path::new("robot.toml");
     Source { path, text }.parse()?;
-    let unreadable = |broken: toml_edit::TomlError| Error::input(path, broken.message(), "Correct the robot file");
+    let unreadable = |broken: toml_edit::TomlError| {
+        Error::input(path, broken.message(), "Correct the robot file").of_kind(InputKind::Malformed)
+    };
     let mut document: DocumentMut = text.parse().map_err(unreadable)?;
     for change in changes {
         match change {
-            Change::Number { path: at, value } => set_number(document.as_table_mut(), at, *value)
-                .ok_or_else(|| Error::input(path, format!("there is no place `{at}`"), "Correct the path"))?,
+            Change::Number { path: at, value } => set_number(document.as_table_mut(), at, *value).ok_or_else(|| {
+                Error::input(path, format!("there is no place `{at}`"), "Correct the path").of_kind(InputKind::Missing)
+            })?,
             Change::Effect(entry) => set_effect(document.as_table_mut(), entry)
                 .ok_or_else(|| Error::input(path, "`effects` is not a table", "Write [effects.<id>] tables"))?,
         }

@@ -4,7 +4,7 @@
 
 use super::run::{Channel, Missing};
 use super::toml_walk::read_bytes;
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use std::path::{Path, PathBuf};
 
 /// How the text is laid out.
@@ -43,7 +43,9 @@ impl Table {
         if let Err(broken) = std::str::from_utf8(&bytes) {
             let line = 1 + count_lines(&bytes[..broken.valid_up_to()]);
             let problem = "found bytes that are not UTF-8, expected text";
-            return Err(Error::input(path, problem, "Save the log as plain UTF-8 text").at_line(line));
+            return Err(Error::input(path, problem, "Save the log as plain UTF-8 text")
+                .at_line(line)
+                .of_kind(InputKind::Malformed));
         }
         let mut start = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
         if bytes[start..].iter().all(u8::is_ascii_whitespace) {
@@ -51,7 +53,8 @@ impl Table {
                 path,
                 "the file is empty, expected a header line and rows",
                 "Record the run again",
-            ));
+            )
+            .of_kind(InputKind::TooLittle));
         }
         for _ in 0..layout.skip_lines {
             start += line_end(&bytes[start..]);
@@ -68,7 +71,8 @@ impl Table {
         let mut record = csv::ByteRecord::new();
         let mut reader = table.reader();
         if !reader.read_byte_record(&mut record).map_err(|e| table.broken(&e))? {
-            return Err(Error::input(path, "there are no rows below the lines to skip", "Check skip_lines"));
+            return Err(Error::input(path, "there are no rows below the lines to skip", "Check skip_lines")
+                .of_kind(InputKind::TooLittle));
         }
         let end = reader.position().byte() as usize;
         let lines = reader.position().line() as usize - 1;
@@ -93,12 +97,14 @@ impl Table {
                 problem,
                 "Add the header line, or describe the layout in columns.toml",
             )
-            .at_line(line));
+            .at_line(line)
+            .of_kind(InputKind::Missing));
         }
         let twice =
             self.names.iter().enumerate().find(|(at, name)| self.names[..*at].contains(name) && !name.is_empty());
         twice.map_or(Ok(()), |(_, name)| {
-            let error = Error::input(&self.path, "the column stands twice in the header", "Keep one of the two");
+            let error = Error::input(&self.path, "the column stands twice in the header", "Keep one of the two")
+                .of_kind(InputKind::Conflict);
             Err(error.at_line(line).in_column(name))
         })
     }
@@ -128,7 +134,9 @@ impl Table {
             if record.len() != self.width && !extra {
                 let problem = format!("found {} fields, expected {}", record.len(), self.width);
                 let fix = "Complete or remove the row; an empty field marks a missing sample";
-                return Err(Error::input(&self.path, problem, fix).at_line(self.line(&record)));
+                return Err(Error::input(&self.path, problem, fix)
+                    .at_line(self.line(&record))
+                    .of_kind(InputKind::Malformed));
             }
             for (channel, &column) in columns.iter_mut().zip(wanted) {
                 let field = record[column].trim_ascii();
@@ -176,6 +184,7 @@ impl Table {
 
     fn broken(&self, reason: &csv::Error) -> Error {
         Error::input(&self.path, format!("cannot be read as a table: {reason}"), "Check separators and quotes")
+            .of_kind(InputKind::Malformed)
     }
 }
 

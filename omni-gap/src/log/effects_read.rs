@@ -8,7 +8,7 @@ use model_core::effects::card::Scope;
 use super::catalogue::{Catalogue, KnownEffect, nearest};
 use super::robot_file::EffectEntry;
 use super::toml_walk::{Section, tables};
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use std::collections::BTreeMap;
 
 pub(super) fn effects(s: &Section, catalogue: &Catalogue, wheels: usize) -> Result<Vec<EffectEntry>> {
@@ -44,7 +44,7 @@ fn unknown(s: &Section, id: &str, catalogue: &Catalogue) -> Error {
         Some(near) => format!("Did you mean `{near}`?"),
         None => "`omni-gap explain` lists the effects there are".to_string(),
     };
-    s.key_error(id, format!("unknown effect `{id}`"), fix)
+    s.key_error(id, format!("unknown effect `{id}`"), fix).of_kind(InputKind::Unknown)
 }
 
 /// Whether two tables of one effect act on the same wheel.
@@ -65,7 +65,7 @@ fn twice(s: &Section, before: &EffectEntry, now: &EffectEntry) -> Error {
             (problem, "Remove the table without `wheel`, or give every wheel a table of its own".to_string())
         }
     };
-    s.error(problem, fix).in_column(id)
+    s.error(problem, fix).in_column(id).of_kind(InputKind::Conflict)
 }
 
 fn effect(s: &Section, known: &KnownEffect, wheels: usize) -> Result<EffectEntry> {
@@ -81,13 +81,13 @@ fn effect(s: &Section, known: &KnownEffect, wheels: usize) -> Result<EffectEntry
         (Scope::OneWheel, None) => {
             let problem = format!("`{}` sits on one wheel, expected `wheel` to say which", known.id);
             let fix = format!("Add `wheel = …`, from 0 to {}; for several wheels write a table for each", wheels - 1);
-            return Err(s.error(problem, fix).in_column("wheel"));
+            return Err(s.error(problem, fix).in_column("wheel").of_kind(InputKind::Missing));
         }
         _ => {}
     }
     if let Some(wheel) = wheel.filter(|wheel| *wheel >= wheels) {
         let problem = format!("found wheel {wheel}, the robot has wheels 0 to {}", wheels - 1);
-        return Err(s.key_error("wheel", problem, "Wheels are counted from 0"));
+        return Err(s.key_error("wheel", problem, "Wheels are counted from 0").of_kind(InputKind::Unknown));
     }
     let mut given = BTreeMap::new();
     for param in &known.params {

@@ -6,7 +6,7 @@
 
 use super::robot_file::{RobotFile, WheelFile};
 use super::toml_walk::Section;
-use crate::error::Result;
+use crate::error::{InputKind, Result};
 use std::f64::consts::PI;
 
 /// A unit that a number may have been written in, and how it becomes the key's own.
@@ -132,7 +132,7 @@ pub(super) fn together<'a>(
             true => format!("Write mass_kg = {}, if the mass is in grams", rounded(body.mass_kg / 1000.0)),
             false => "Write the mass in kg, the inertia in kg·m² and the wheels' distance in m".to_string(),
         };
-        return Err(section("body", "[body]")?.key_error("mass_kg", problem, fix));
+        return Err(section("body", "[body]")?.key_error("mass_kg", problem, fix).of_kind(InputKind::Conflict));
     }
     let constants = motor.torque_constant_nm_per_a / motor.emf_constant_v_s;
     if !fits(CONSTANTS, constants) {
@@ -140,7 +140,9 @@ pub(super) fn together<'a>(
             "the motor's torque constant is {constants:.3} times its EMF constant, expected one: in SI units the two are the same number"
         );
         let fix = "Write Kt in N·m/A (not mN·m/A) and Kv in V/(rad/s) (9.5493 over the rpm/V of a data sheet)";
-        return Err(section("motor", "[motor]")?.key_error("torque_constant_Nm_per_A", problem, fix));
+        return Err(section("motor", "[motor]")?
+            .key_error("torque_constant_Nm_per_A", problem, fix)
+            .of_kind(InputKind::Conflict));
     }
     let weight = body.mass_kg * GRAVITY_M_S2;
     let f = &robot.friction;
@@ -155,7 +157,7 @@ pub(super) fn together<'a>(
             let problem =
                 format!("found {found}, expected at most {most:.3} {unit}, {WEIGHTS} times the robot's weight");
             let fix = "Write the friction in N (or N·m) and the mass in kg";
-            return Err(section("friction", "[friction]")?.key_error(key, problem, fix));
+            return Err(section("friction", "[friction]")?.key_error(key, problem, fix).of_kind(InputKind::Conflict));
         }
     }
     Ok(())

@@ -5,7 +5,7 @@ use super::csv::{Layout, Table};
 use super::edges::retimed;
 use super::run::{Channel, Missing, Run};
 use super::target::Target;
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -30,7 +30,8 @@ impl Run {
                 path,
                 format!("there is a header and {rows}, expected at least two rows"),
                 "Record the run again",
-            ));
+            )
+            .of_kind(InputKind::TooLittle));
         }
         let mut raw: Vec<(Target, Rule, Channel)> =
             bindings.into_iter().zip(raw).map(|((target, _, rule), channel)| (target, rule, channel)).collect();
@@ -88,7 +89,8 @@ fn mapped(table: &Table, columns: &Columns, notices: &mut Vec<String>) -> Result
                     &table.path,
                     problem,
                     "Correct `from` in columns.toml, or set optional = true",
-                ));
+                )
+                .of_kind(InputKind::Missing));
             }
         }
     }
@@ -109,7 +111,8 @@ fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
             &table.path,
             format!("the column is missing: {why}"),
             "Add the column, or map it in columns.toml",
-        );
+        )
+        .of_kind(InputKind::Missing);
         Err(error.in_column(target.to_string()))
     };
     if !has(Target::Time) {
@@ -119,6 +122,7 @@ fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
     {
         let problem = format!("a column for a wheel that the robot file does not have; it has {wheels} wheels");
         return Err(Error::input(&table.path, problem, "Describe the wheel in robot.toml, or remove the column")
+            .of_kind(InputKind::Unknown)
             .in_column(target.to_string()));
     }
     for group in [Target::U, Target::I, Target::W, Target::Wset] {
@@ -138,7 +142,8 @@ fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
             &table.path,
             problem,
             "Name the columns as the log form says, or map them in columns.toml",
-        ));
+        )
+        .of_kind(InputKind::Missing));
     }
     Ok(())
 }
@@ -251,7 +256,8 @@ fn finish(run: &mut Run, columns: Option<&Columns>, notices: &mut Vec<String>) -
     open_bridges_apply_nothing(run)?;
     match any {
         true => Ok(()),
-        false => Err(Error::input(&run.path, "every signal is empty throughout", "Record the run again")),
+        false => Err(Error::input(&run.path, "every signal is empty throughout", "Record the run again")
+            .of_kind(InputKind::TooLittle)),
     }
 }
 

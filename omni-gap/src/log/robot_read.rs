@@ -6,7 +6,7 @@ use super::effects_read::effects;
 use super::plausible;
 use super::robot_file::*;
 use super::toml_walk::{Section, Source, read_text, tables};
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use model_core::effects::nominal::{IN_THE_FILE, Table};
 use model_core::geometry::kinematics::Wheels;
 use std::collections::BTreeMap;
@@ -50,12 +50,16 @@ fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
     let schema = top.whole("schema")?;
     if let Some(newer) = schema.filter(|schema| *schema > NEWEST_SCHEMA) {
         let problem = format!("the robot file has form {newer}, this program knows forms up to {NEWEST_SCHEMA}");
-        return Err(top.key_error("schema", problem, "Use a newer program, or write the file in the older form"));
+        return Err(top
+            .key_error("schema", problem, "Use a newer program, or write the file in the older form")
+            .of_kind(InputKind::Newer));
     }
     top.only_keys(&TOP)?;
     let section = |key, title| top.table.get(key).map(|item| Section::new(source, title, item)).transpose();
     let needed = |key, title: &'static str| {
-        section(key, title)?.ok_or_else(|| Error::input(path, format!("{title} is missing"), format!("Add {title}")))
+        section(key, title)?.ok_or_else(|| {
+            Error::input(path, format!("{title} is missing"), format!("Add {title}")).of_kind(InputKind::Missing)
+        })
     };
     let wheel = wheels(source, top.table)?;
     let count = wheel.len();
@@ -87,7 +91,8 @@ fn wheels(source: Source, top: &dyn TableLike) -> Result<Vec<WheelFile>> {
             source.path,
             "no [[wheel]] found, expected three or four",
             "Add one [[wheel]] per wheel",
-        ));
+        )
+        .of_kind(InputKind::Missing));
     };
     let expected = || source.error(item.span(), "`wheel` is not a list of tables", "Write [[wheel]] once per wheel");
     let list = tables(item).ok_or_else(expected)?;
@@ -116,7 +121,9 @@ fn wheels(source: Source, top: &dyn TableLike) -> Result<Vec<WheelFile>> {
     }
     if !tells_the_motion(&wheels) {
         let problem = "the drive angles cannot tell the body's motion: a direction moves no wheel";
-        return Err(source.error(first, problem, "Correct drive_angle_deg; wheels must not all roll along one line"));
+        return Err(source
+            .error(first, problem, "Correct drive_angle_deg; wheels must not all roll along one line")
+            .of_kind(InputKind::Conflict));
     }
     Ok(wheels)
 }

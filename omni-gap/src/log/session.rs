@@ -5,7 +5,7 @@ use super::columns::Columns;
 use super::robot_file::RobotFile;
 use super::run::Run;
 use super::toml_walk::read_text;
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use std::path::{Path, PathBuf};
 
 /// A robot file and its runs, all read and sound.
@@ -29,14 +29,17 @@ impl Session {
     pub fn load(folder: &Path, columns: Option<&Path>, catalogue: &Catalogue) -> Result<Session> {
         if !folder.is_dir() {
             let found = if folder.exists() { "this is a file, expected a session folder" } else { "no such folder" };
-            return Err(Error::input(folder, found, "Give a folder with robot.toml and runs/"));
+            return Err(
+                Error::input(folder, found, "Give a folder with robot.toml and runs/").of_kind(InputKind::NotFound)
+            );
         }
         let own = folder.join("columns.toml");
         let columns = columns.or_else(|| own.exists().then_some(&*own)).map(Columns::load).transpose()?;
         let mut session = Session::of_robot(&folder.join("robot.toml"), catalogue)?;
         let runs = folder.join("runs");
         if !runs.is_dir() {
-            return Err(Error::input(&runs, "there is no such folder", "Put the run logs into a folder named runs"));
+            return Err(Error::input(&runs, "there is no such folder", "Put the run logs into a folder named runs")
+                .of_kind(InputKind::NotFound));
         }
         let paths = session.files_in(&runs, columns.as_ref())?;
         session.runs = session.read(&paths, columns.as_ref())?;
@@ -71,8 +74,10 @@ impl Session {
 
     /// The run logs in a folder, by name. Without a mapping they are the `.csv` files.
     fn files_in(&mut self, folder: &Path, columns: Option<&Columns>) -> Result<Vec<PathBuf>> {
-        let told =
-            |reason: std::io::Error| Error::input(folder, format!("cannot be read: {reason}"), "Check its permissions");
+        let told = |reason: std::io::Error| {
+            Error::input(folder, format!("cannot be read: {reason}"), "Check its permissions")
+                .of_kind(InputKind::Unreadable)
+        };
         let mut paths = Vec::new();
         for entry in std::fs::read_dir(folder).map_err(told)? {
             let path = entry.map_err(told)?.path();
@@ -94,7 +99,8 @@ impl Session {
                 folder,
                 "there is no run log in the folder",
                 "Put run logs into it, named *.csv or mapped in columns.toml",
-            )),
+            )
+            .of_kind(InputKind::Missing)),
             false => Ok(paths),
         }
     }

@@ -1,7 +1,7 @@
 //! # Walking a TOML file so that every mistake has its line
 
 use super::catalogue::nearest;
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use std::ops::Range;
 use std::path::Path;
 use toml_edit::{Document, Item, TableLike};
@@ -18,20 +18,25 @@ pub(crate) fn read_text(path: &Path, what: &str) -> Result<String> {
     String::from_utf8(read_bytes(path, what)?).map_err(|broken| {
         let start = broken.utf8_error().valid_up_to();
         let line = 1 + broken.as_bytes()[..start].iter().filter(|b| **b == b'\n').count();
-        Error::input(path, "found bytes that are not UTF-8, expected text", "Save the file as UTF-8 text").at_line(line)
+        Error::input(path, "found bytes that are not UTF-8, expected text", "Save the file as UTF-8 text")
+            .at_line(line)
+            .of_kind(InputKind::Malformed)
     })
 }
 
 /// Reads a file, with one clear message where that cannot be done.
 pub(crate) fn read_bytes(path: &Path, what: &str) -> Result<Vec<u8>> {
     if path.is_dir() {
-        return Err(Error::input(path, format!("this is a folder, expected {what}"), "Name a file inside it"));
+        return Err(Error::input(path, format!("this is a folder, expected {what}"), "Name a file inside it")
+            .of_kind(InputKind::Unreadable));
     }
     std::fs::read(path).map_err(|reason| match reason.kind() {
         std::io::ErrorKind::NotFound => {
             Error::input(path, format!("no such file, expected {what}"), "Check the path, or put the file there")
+                .of_kind(InputKind::NotFound)
         }
-        _ => Error::input(path, format!("cannot be read: {reason}"), "Check the file's permissions"),
+        _ => Error::input(path, format!("cannot be read: {reason}"), "Check the file's permissions")
+            .of_kind(InputKind::Unreadable),
     })
 }
 
@@ -41,6 +46,7 @@ impl<'a> Source<'a> {
         Document::parse(self.text).map_err(|broken| {
             let told = broken.message().lines().collect::<Vec<_>>().join(", ");
             self.error(broken.span(), format!("this is not valid TOML: {told}"), "Correct the line")
+                .of_kind(InputKind::Malformed)
         })
     }
 
@@ -96,7 +102,7 @@ impl<'a> Section<'a> {
                 Some(near) => format!("Did you mean `{near}`?"),
                 None => format!("Known here: {}", known.join(", ")),
             };
-            Err(self.key_error(key, format!("unknown key in {}", self.title), fix))
+            Err(self.key_error(key, format!("unknown key in {}", self.title), fix).of_kind(InputKind::Unknown))
         })
     }
 
@@ -121,7 +127,9 @@ impl<'a> Section<'a> {
     /// A finite number that must be there.
     pub fn needed(&self, key: &str) -> Result<f64> {
         self.number(key)?.ok_or_else(|| {
-            self.error(format!("{} lacks `{key}`", self.title), format!("Add `{key} = …`")).in_column(key)
+            self.error(format!("{} lacks `{key}`", self.title), format!("Add `{key} = …`"))
+                .in_column(key)
+                .of_kind(InputKind::Missing)
         })
     }
 

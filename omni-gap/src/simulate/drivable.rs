@@ -1,7 +1,7 @@
 //! A run that must be able to drive a model, or one message that says why it cannot.
 
 use super::aligned_run::AlignedRun;
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use crate::log::{RobotFile, Run};
 
 /// Lays a run out for the plant.
@@ -12,5 +12,6 @@ pub fn drivable<const N: usize>(run: &Run, robot: &RobotFile) -> Result<AlignedR
     AlignedRun::new(run, robot).ok_or_else(|| {
         let problem = "nothing in it can drive a model: no voltage, signed current, wheel speed or commanded speed";
         Error::input(run.place(), problem, "Log at least one of u, i, w or wset for every wheel")
+            .of_kind(InputKind::Missing)
     })
 }

@@ -11,7 +11,7 @@ use model_core::link::block::{
 };
 use model_core::link::hello::Commutation;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use crate::log::{ControllerFile, EffectEntry, RobotFile};
 use crate::simulate::robot_of;
 
@@ -55,7 +55,7 @@ pub fn export(file: &RobotFile, path: &Path) -> Result<Exported> {
 fn export_of<const N: usize>(file: &RobotFile, path: &Path) -> Result<Exported> {
     let Some(supply) = file.supply.map(|supply| supply.voltage_v) else {
         let problem = "the file does not state the supply, and a robot must know what it drives with";
-        return Err(Error::input(path, problem, "Add [supply] with voltage_V"));
+        return Err(Error::input(path, problem, "Add [supply] with voltage_V").of_kind(InputKind::Missing));
     };
     let controller = file.controller.unwrap_or_default();
     let (limits, taken) = limits(file, &controller, supply);

@@ -23,7 +23,7 @@ use model_core::link::record::{OperatingState, TelemetryRecord};
 use super::capture::Capture;
 use super::source::Source;
 use super::speeds::{edges_per_turn, intervals};
-use crate::error::Result;
+use crate::error::{InputKind, Result};
 use crate::log::{Channel, Group, Missing, Run, Sampled, speeds_on_rows};
 
 /// A longer gap is left as it is, without rows in it [rows]
@@ -62,20 +62,22 @@ pub fn run(capture: &Capture, source: &Source, name: &str, wheels: usize) -> Res
     if capture.good_frames() == 0 {
         let fix = "Check that it is a robot's link, and --baud for a serial line";
         let found = if capture.bad_frames() == 0 { "nothing came" } else { "bytes came, but no whole frame" };
-        return Err(source.error(found, fix));
+        return Err(source.error(found, fix).of_kind(InputKind::TooLittle));
     }
     let Some(hello) = capture.hello(0) else {
         let problem =
             "no frame says how to read the records: a robot says so once a second, once its sensors' zeros are known";
-        return Err(source.error(problem, "Record two seconds or more, with the robot awake"));
+        return Err(source
+            .error(problem, "Record two seconds or more, with the robot awake")
+            .of_kind(InputKind::TooLittle));
     };
     if let Some((_, other)) = capture.hellos.iter().find(|(_, hello)| usize::from(hello.wheels) != wheels) {
         let problem = format!("the robot has {} wheels, the robot file {wheels}", other.wheels);
-        return Err(source.error(problem, "Name the robot's own file with --robot"));
+        return Err(source.error(problem, "Name the robot's own file with --robot").of_kind(InputKind::Conflict));
     }
     if records.len() < 3 {
         let problem = format!("{} records came, expected three at least", records.len());
-        return Err(source.error(problem, "Record for longer"));
+        return Err(source.error(problem, "Record for longer").of_kind(InputKind::TooLittle));
     }
     let clock = clock(hello);
     let t: Vec<f64> = (0..records.len()).map(|k| turns_since(records, k) * clock).collect();

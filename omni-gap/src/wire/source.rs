@@ -6,7 +6,7 @@ use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 
 /// A place that bytes come from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -99,9 +99,9 @@ impl Source {
             }
             Source::File(path) => match File::open(path) {
                 Ok(file) => Ok(Box::new(file)),
-                Err(why) if why.kind() == ErrorKind::NotFound => {
-                    Err(self.error("no such file, expected a file of frames", "Check the path, or the device's name"))
-                }
+                Err(why) if why.kind() == ErrorKind::NotFound => Err(self
+                    .error("no such file, expected a file of frames", "Check the path, or the device's name")
+                    .of_kind(InputKind::NotFound)),
                 Err(why) => Err(self.error(why.to_string(), "Check the file's permissions")),
             },
             Source::Tcp(address) => {
@@ -120,7 +120,7 @@ impl Source {
 
     /// A mistake about this source.
     pub fn error(&self, problem: impl Into<String>, fix: impl Into<String>) -> Error {
-        Error::input(&self.place(), problem, fix)
+        Error::input(&self.place(), problem, fix).of_kind(InputKind::Unreadable)
     }
 }
 

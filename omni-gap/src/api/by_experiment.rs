@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::identify::refuse_faulty;
-use crate::error::{Error, Result};
+use crate::error::{Error, InputKind, Result};
 use crate::identify::{Answer, Asked, Refused, answer};
 use crate::log::Session;
 use crate::simulate::{AlignedRun, Experiment, drivable};
@@ -37,7 +37,7 @@ fn refuse_without_runs(asked: Asked, session: &Session, runs: &Path) -> Result<(
     };
     let problem = format!("there is no run of {what}; its runs are told by their names: {names}");
     let fix = "`omni-gap experiment ROBOT.toml --out DIR` writes what to play and how to name the logs";
-    Err(Error::input(runs, problem, fix))
+    Err(Error::input(runs, problem, fix).of_kind(InputKind::Missing))
 }
 
 fn answered<const N: usize>(asked: Asked, session: &Session, place: &Path) -> Result<Answer> {
@@ -56,16 +56,19 @@ fn refused(why: Refused, asked: Asked, place: &Path) -> Error {
             place,
             "the motor experiment has no run without a load to fit a model to, or nothing was measured in it",
             "Record motor-load-0, with currents and wheel speeds or poses",
-        ),
+        )
+        .of_kind(InputKind::Missing),
         Refused::NothingMeasured => Error::input(
             place,
             "nothing was measured in these runs that a model could be compared with",
             "Log currents, wheel speeds or poses beside the voltages",
-        ),
+        )
+        .of_kind(InputKind::Missing),
         Refused::NothingMoves => Error::input(
             place,
             "the robot stands still in these runs, or moves so little that no number shows above the noise",
             "Check that the motors were enabled and the scripts were played, and drive with more voltage",
-        ),
+        )
+        .of_kind(InputKind::TooLittle),
     }
 }
