@@ -11,16 +11,23 @@
 //! | [`validate`] | [`Validated`]: every run simulated over what was measured |
 //! | [`predict`](fn@predict) | [`Run`]: what the model says of each measured column |
 //! | [`simulate`](fn@simulate) | [`Run`]: what the robot of a file would have recorded |
+//! | [`check`](fn@check) | [`Fault`]s of the recordings, each with a code and a mend |
+//! | [`experiments`], [`rehearse`] | [`PlannedExperiments`]: what to play so that a robot's numbers can be told |
+//! | [`sensitivity`](fn@sensitivity) | [`Sensitivity`]: which numbers of a robot file its motion depends on |
+//! | [`export`], [`record`](fn@record) | the parameter block of a robot file; a [`Run`] of what a robot sent |
 //!
 //! Sessions come from files ([`Session::load`]) or from memory ([`Session`] has public fields). Whatever is wrong with
 //! them is an [`Error`] that says where it stands and how to mend it; recordings that cannot be used are no error of
 //! [`diagnose`] but its answer, `unfit_data`.
 
-mod experiments;
+mod by_experiment;
+mod experiment;
 mod identify;
 mod predict;
+mod record;
 mod simulate;
 
+pub use crate::check::{Fault, check};
 pub use crate::diagnosis::{Diagnosis, Options, diagnose};
 pub use crate::engine::{Findings, Knobs};
 pub use crate::error::Error;
@@ -28,7 +35,11 @@ pub use crate::known::known_effects;
 pub use crate::localise::validation::{Validated, validate};
 pub use crate::log::{RobotFile, Run, Session};
 pub use crate::report::Report;
-pub use experiments::identify_by_experiment;
+pub use crate::simulate::{Sensitivity, StepPlan, sensitivity};
+pub use crate::wire::block::{Exported, export};
+pub use by_experiment::identify_by_experiment;
+pub use experiment::{PlannedExperiments, PlannedScript, experiments, rehearse};
 pub use identify::{FitRemark, FittedNumber, Identification, identify};
 pub use predict::predict;
+pub use record::{Recording, record};
 pub use simulate::simulate;

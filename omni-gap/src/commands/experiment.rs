@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use omni_gap::log::{Change, RobotFile, SensorsFile, corrected, write_whole, write_whole_with};
+use omni_gap::api::{Error, PlannedExperiments, RobotFile, experiments, known_effects, rehearse};
+use omni_gap::log::{Change, SensorsFile, corrected, write_whole, write_whole_with};
 use omni_gap::report::{Instructions, ScriptSaid, instructions, num};
-use omni_gap::simulate::{Allowed, Experiment, Lowered, Plan, Sensing, USUAL_FIELD, allowed, usual_voltage};
-use omni_gap::simulate_experiments::{drag_a_load, simulate_some_experiments};
-use omni_gap::{Error, known_effects};
+use omni_gap::simulate::{Experiment, Lowered, Plan, Sensing, USUAL_FIELD, usual_voltage};
+use omni_gap::simulate_experiments::drag_a_load;
 
 use super::cli_error::CliError;
 use super::console::Console;
@@ -72,10 +72,7 @@ impl Experiments {
         let file = RobotFile::load(&self.robot, &known_effects())?;
         let plan = self.plan(&file)?;
         console.phase("planning the experiments");
-        let said = match file.wheel.len() {
-            3 => self.written::<3>(&file, &plan, console),
-            _ => self.written::<4>(&file, &plan, console),
-        }?;
+        let said = self.written(&file, &experiments(&file, &plan, &self.wanted()), console)?;
         console.say(&said)?;
         Ok(DONE)
     }
@@ -101,10 +98,7 @@ impl Experiments {
         Experiment::ALL.into_iter().filter(|e| self.only.is_empty() || self.only.contains(e)).collect()
     }
 
-    fn written<const N: usize>(&self, file: &RobotFile, plan: &Plan, console: &Console) -> Result<String, CliError> {
-        let wanted = self.wanted();
-        let all: Allowed<N> =
-            allowed(file, plan, |script| Experiment::of(&script.name).is_some_and(|e| wanted.contains(&e)));
+    fn written(&self, file: &RobotFile, all: &PlannedExperiments, console: &Console) -> Result<String, CliError> {
         let notes: Vec<String> = all.lowered.iter().map(lowered_in_words).collect();
         if let Some(axis) = all.held.first() {
             let told = format!(
@@ -120,13 +114,13 @@ impl Experiments {
         let session = NewFolder::make(&self.out.join("session/runs"))?;
         for script in &all.scripts {
             let path = self.out.join(format!("scripts/{}.csv", script.name));
-            write_whole_with(&path, |out| script.to_run().write_csv(out))?;
+            write_whole_with(&path, |out| script.run.write_csv(out))?;
         }
         self.write_session(file, &all.plan, console)?;
-        let page = self.page(file, &all, notes.clone());
+        let page = self.page(file, all, notes.clone());
         write_whole(&self.out.join("README.md"), page.as_bytes())?;
         [folder, scripts, session].into_iter().for_each(NewFolder::keep);
-        Ok(self.said(&all, &notes))
+        Ok(self.said(all, &notes))
     }
 
     /// The robot file, and where it is rehearsed the recordings.
@@ -138,28 +132,24 @@ impl Experiments {
             return Ok(write_whole(&self.out.join("session/robot.toml"), text.as_bytes())?);
         };
         console.phase("rehearsing them");
-        let how = sensing.recording();
-        let truth = RobotFile { sensors: how.sensors, ..file.clone() };
-        for run in simulate_some_experiments(&truth, plan, &self.wanted(), &how, self.seed) {
+        for run in rehearse(file, plan, &self.wanted(), sensing, self.seed) {
             let path = self.out.join(format!("session/runs/{}.csv", run.name));
             write_whole_with(&path, |out| run.write_csv(out))?;
         }
-        let text = corrected(&text, &sensors(&how.sensors))?;
+        let text = corrected(&text, &sensors(&sensing.recording().sensors))?;
         Ok(write_whole(&self.out.join("session/robot.toml"), text.as_bytes())?)
     }
 
-    fn page<const N: usize>(&self, file: &RobotFile, all: &Allowed<N>, notes: Vec<String>) -> String {
-        let said = all.scripts.iter().zip(&all.floors).filter_map(|(script, floor)| {
-            Some(ScriptSaid {
-                name: script.name.clone(),
-                experiment: Experiment::of(&script.name)?,
-                seconds: script.t.len() as f64 / all.plan.rate,
-                floor: *floor,
-            })
+    fn page(&self, file: &RobotFile, all: &PlannedExperiments, notes: Vec<String>) -> String {
+        let said = all.scripts.iter().map(|script| ScriptSaid {
+            name: script.name.clone(),
+            experiment: script.experiment,
+            seconds: script.seconds,
+            floor: script.floor,
         });
         instructions(&Instructions {
             robot: file.name.clone(),
-            wheels: N,
+            wheels: file.wheel.len(),
             folder: self.out.display().to_string(),
             voltage: all.plan.voltage,
             notes,
@@ -170,9 +160,9 @@ impl Experiments {
         })
     }
 
-    fn said<const N: usize>(&self, all: &Allowed<N>, notes: &[String]) -> String {
+    fn said(&self, all: &PlannedExperiments, notes: &[String]) -> String {
         let at = |name: &str| self.out.join(name).display().to_string();
-        let seconds: f64 = all.scripts.iter().map(|s| s.t.len() as f64 / all.plan.rate).sum();
+        let seconds: f64 = all.scripts.iter().map(|script| script.seconds).sum();
         let mut text = format!(
             "{} scripts of up to {} V, {:.0} minute(s) of driving, written to {}\n",
             all.scripts.len(),

@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use omni_gap::known_effects;
-use omni_gap::log::{RobotFile, write_whole};
-use omni_gap::wire::block::{Exported, export};
+use omni_gap::api::{Exported, RobotFile, export, known_effects};
+use omni_gap::log::write_whole;
 
 use super::console::Console;
 use super::console::wrapped;

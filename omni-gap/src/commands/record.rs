@@ -3,13 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use model_core::link::hello::Hello;
-use omni_gap::Error;
+use omni_gap::api::{Error, Recording, export, known_effects, record};
 use omni_gap::error::Result;
-use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, Run, write_whole, write_whole_with};
-use omni_gap::wire::block::export;
 use omni_gap::wire::capture::Capture;
-use omni_gap::wire::run::{columns, faults, run};
+use omni_gap::wire::run::{columns, faults};
 use omni_gap::wire::source::Source;
 
 use super::console::Console;
@@ -46,12 +44,6 @@ pub struct Record {
     name: String,
 }
 
-/// Turns of the currents in a second [1/s]; a robot tells its own, this one only says when there is enough.
-const TURNS_A_SECOND: f64 = 20_000.0;
-
-/// Seconds of a robot that are recorded where none are asked for [s]
-const USUAL_SECONDS: f64 = 10.0;
-
 impl Record {
     /// Does it.
     pub fn run(&self, console: &Console) -> Done {
@@ -71,11 +63,8 @@ impl Record {
         if source.file().is_none() {
             console.phase("recording");
         }
-        let seconds = self.seconds.or(source.is_live().then_some(USUAL_SECONDS));
-        let wanted = seconds.map(|seconds| (seconds * TURNS_A_SECOND).min(f64::from(u32::MAX / 2)) as u32);
-        let mut capture = Capture::new(wanted);
-        source.read(self.baud, |bytes| capture.take(bytes))?;
-        let run = run(&capture, &source, &self.name, robot.wheel.len())?;
+        let (baud, seconds, wheels) = (self.baud, self.seconds, robot.wheel.len());
+        let (run, capture) = record(&Recording { source: &source, baud, seconds, name: &self.name, wheels })?;
         console.end_phase();
 
         let made = output_path::NewFolder::make(&runs)?;

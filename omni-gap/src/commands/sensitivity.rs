@@ -2,10 +2,8 @@
 
 use std::path::PathBuf;
 
-use omni_gap::log::RobotFile;
+use omni_gap::api::{Error, RobotFile, StepPlan, known_effects, sensitivity};
 use omni_gap::report::{num, sensitivity_terminal, write_sensitivity};
-use omni_gap::simulate::{StepPlan, sensitivity};
-use omni_gap::{Error, known_effects};
 
 use super::cli_error::CliError;
 use super::console::Console;

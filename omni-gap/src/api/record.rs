@@ -1,0 +1,42 @@
+//! Record: what a robot sends, as a run.
+
+use crate::error::Result;
+use crate::log::Run;
+use crate::wire::capture::Capture;
+use crate::wire::run::run;
+use crate::wire::source::Source;
+
+/// Turns of the currents in a second [1/s]; a robot tells its own, this one only says when there is enough.
+const TURNS_A_SECOND: f64 = 20_000.0;
+
+/// Seconds of a robot that are recorded where none are asked for [s]
+const USUAL_SECONDS: f64 = 10.0;
+
+/// What to record.
+#[derive(Clone, Debug)]
+pub struct Recording<'a> {
+    /// Where the frames come from.
+    pub source: &'a Source,
+    /// Speed of a serial line.
+    pub baud: u32,
+    /// How much, by the robot's clock [s]; where none is asked, of a robot 10 s and of a file all.
+    pub seconds: Option<f64>,
+    /// The run's name.
+    pub name: &'a str,
+    /// Wheels of the robot.
+    pub wheels: usize,
+}
+
+/// Records a run, and what was captured on the way: losses, faults, how the robot says it is set up.
+///
+/// # Errors
+/// Where the source cannot be read, no record came, or the robot has another number of wheels.
+pub fn record(recording: &Recording) -> Result<(Run, Capture)> {
+    let Recording { source, baud, seconds, name, wheels } = *recording;
+    let seconds = seconds.or(source.is_live().then_some(USUAL_SECONDS));
+    let wanted = seconds.map(|seconds| (seconds * TURNS_A_SECOND).min(f64::from(u32::MAX / 2)) as u32);
+    let mut capture = Capture::new(wanted);
+    source.read(baud, |bytes| capture.take(bytes))?;
+    let run = run(&capture, source, name, wheels)?;
+    Ok((run, capture))
+}
