@@ -102,8 +102,7 @@ fn the_page_of_the_architecture_names_what_is_there() {
 
 #[test]
 fn every_golden_page_is_compared_or_is_a_record_of_a_command_at_a_commit() {
-    let pages: Vec<Source> =
-        sources(&["md"]).into_iter().filter(|page| page.path.starts_with(golden_pages::PAGES)).collect();
+    let pages: Vec<Source> = sources(&["md"]).into_iter().filter(golden_pages::is_page).collect();
     assert!(!pages.is_empty(), "no golden page is found");
     let code = rust_below("host-tests/");
     none(in_all(&pages, |page| golden_pages::unheld(page, &code)));

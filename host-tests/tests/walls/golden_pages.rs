@@ -5,8 +5,13 @@ use host_tests::golden::RECORD;
 use crate::finding::Finding;
 use crate::tree::Source;
 
-/// Where the pages are.
-pub const PAGES: &str = "host-tests/golden/";
+/// Where the pages are; folders within hold what people wrote.
+const PAGES: &str = "host-tests/golden/";
+
+/// True of a page that a program makes.
+pub fn is_page(source: &Source) -> bool {
+    source.path.strip_prefix(PAGES).is_some_and(|name| !name.contains('/'))
+}
 
 /// A page that is neither compared by this code nor a record of a command at a commit, or is both.
 pub fn unheld(page: &Source, code: &[Source]) -> Vec<Finding> {
