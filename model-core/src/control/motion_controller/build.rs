@@ -7,7 +7,7 @@ use crate::control::reference::AccelerationLimiter;
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{EffectContext, Gear, Winding};
-use crate::geometry::kinematics::Wheels;
+use crate::geometry::kinematics::{Wheel, Wheels};
 use crate::number::linalg::accumulate_outer;
 use crate::number::scalar::Real;
 
@@ -25,23 +25,23 @@ struct Shares<const N: usize, T> {
 fn shares<const N: usize, T: Real>(wheels: &Wheels<N, T>, working: &[bool; N]) -> Option<Shares<N, T>> {
     let (zero, one) = (T::zero(), T::one());
     let all = wheels.force_shares();
-    let mut kept = [0; 3];
-    let working_wheels = (0..N).filter(|j| working[*j]);
-    let count = working_wheels.zip(&mut kept).map(|(j, slot)| *slot = j).count();
-    if working.iter().all(|works| *works) {
+    let count = working.iter().filter(|works| **works).count();
+    if count == N {
         return wheels.is_regular().then_some(Shares { rows: all, plane: one, turn: one });
     }
     if count < 3 {
         return None;
     }
-    let three = Wheels::new(kept.map(|j| wheels.wheels()[j]));
+    // of four wheels one is lost
+    let mut three = [Wheel::default(); 3];
+    let kept = wheels.wheels().iter().zip(working).filter(|(_, works)| **works);
+    three.iter_mut().zip(kept).for_each(|(slot, (wheel, _))| *slot = *wheel);
+    let three = Wheels::new(three);
     if !three.is_regular() {
         return None;
     }
-    let mut rows = [[zero; 3]; N];
-    for (j, share) in kept.into_iter().zip(three.force_shares()) {
-        rows[j] = share;
-    }
+    let mut shares = three.force_shares().into_iter();
+    let rows = working.map(|works| if works { shares.next().unwrap_or([zero; 3]) } else { [zero; 3] });
     // the largest wheel force for one newton in the plane, in its worst direction, and for one newton metre
     let plane = |rows: &[[T; 3]; N]| rows.iter().fold(zero, |most, r| most.max((r[0] * r[0] + r[1] * r[1]).sqrt()));
     let turn = |rows: &[[T; 3]; N]| rows.iter().fold(zero, |most, r| most.max(r[2].abs()));
