@@ -25,6 +25,7 @@ const PLAN: Scenario = Scenario {
     rate: 200.0,
     voltage: 8.0,
     seed: 6000,
+    beside: false,
 };
 
 fn found(plan: &Scenario, knobs: Knobs) -> Diagnosis {

@@ -12,9 +12,6 @@ use omni_gap::log::{RobotFile, SensorsFile};
 use omni_gap::simulate::{AlignedRun, Experiment, Model, NominalKey, Plan, Sensing, SensorSetup};
 use omni_gap::simulate_experiments::simulate_experiments;
 
-const SILENT: SensorsFile =
-    SensorsFile { current_noise_a: 0.0, wheel_speed_noise_rad_s: 0.0, position_noise_m: 0.0, heading_noise_rad: 0.0 };
-
 fn file(wheels: usize, more: &str) -> RobotFile {
     let text = format!("{}\n{more}", truth(wheels));
     RobotFile::parse(&text, Path::new("robot.toml"), &known_effects()).expect("the example is sound")
@@ -38,7 +35,7 @@ fn value(file: &RobotFile, nominal: Nominal) -> f64 {
 #[test]
 fn without_noise_the_papers_experiments_find_the_robot_again() {
     let truth = file(4, "");
-    let runs = played::<4>(&truth, &truth, SILENT);
+    let runs = played::<4>(&truth, &truth, SensorsFile::SILENT);
     let found = classic(&Model::nominal(&truth, 8.0), &runs);
     let near = |nominal: Nominal, found: f64, within: f64| {
         let off = found / value(&truth, nominal) - 1.0;

@@ -36,6 +36,8 @@ pub struct Scenario {
     pub voltage: f64,
     /// Seed of everything random.
     pub seed: u64,
+    /// Whether yaw rate and battery voltage are logged too.
+    pub beside: bool,
 }
 
 impl Default for Scenario {
@@ -49,6 +51,7 @@ impl Default for Scenario {
             rate: 500.0,
             voltage: 8.0,
             seed: 1,
+            beside: false,
         }
     }
 }
@@ -89,7 +92,7 @@ fn perform<const N: usize>(file: &RobotFile, plan: &Scenario) -> Vec<Run> {
         model.add_effect(effect.clone());
     }
     let plant: Plant<N, f64> = model.plant();
-    let how = SensorSetup { sensors: file.sensors, ..SensorSetup::default() };
+    let how = SensorSetup { sensors: file.sensors, gyro: plan.beside, battery: plan.beside, ..SensorSetup::default() };
     (0..plan.runs)
         .map(|k| {
             let seed = plan.seed.wrapping_mul(1000).wrapping_add(k as u64);

@@ -204,6 +204,19 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         };
         solve(state.bus, supplied).x
     }
+
+    /// Bus voltage that the battery would have without load [V].
+    #[inline]
+    pub fn open_circuit_voltage(&self, state: &State<N, T>, memory: &[E::State]) -> T {
+        let mut supply = Supply { current: T::zero(), voltage: self.robot.supply };
+        if !self.effects.none_at(Seam::Supply) {
+            let at = self.at(state, T::zero());
+            for active in self.effects.at(Seam::Supply) {
+                active.effect.supply(&memory[active.memory(0)], &at, &mut supply);
+            }
+        }
+        supply.voltage
+    }
 }
 
 /// A fixed point that was found.

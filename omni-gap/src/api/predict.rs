@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::log::{Channel, Group, RobotFile, Run, Sampled};
-use crate::simulate::{self, Model, Prediction, drivable, supply_seen};
+use crate::simulate::{self, Channels, Model, Prediction, SignalGroup, drivable, supply_seen};
 
 /// Predicts every measured column of a run by free runs that are restarted every `horizon_s` [s] from the smoothed
 /// measurement and driven by the run's own input. The answer has the run's rows and measured columns, all filled.
@@ -30,17 +30,18 @@ fn as_run(run: &Run, prediction: &Prediction, wheels: usize) -> Run {
         let above = shift.then_some(0.0).into_iter();
         Channel::from_values(above.chain(prediction.rows.iter().map(|row| row[c])).take(run.rows()))
     };
-    let group = |there: &Option<Group>, first: usize, count: usize, shift: bool| {
-        there.as_ref().map(|_| Group::new((first..first + count).map(|c| column(c, shift)).collect()))
+    let channels = Channels { wheels };
+    let group = |there: &Option<Group>, of: SignalGroup, shift: bool| {
+        there.as_ref().map(|_| Group::new(channels.of(of).map(|c| column(c, shift)).collect()))
     };
     Run {
         name: run.name.clone(),
         t_s: run.t_s.clone(),
-        i: group(&run.i, 0, wheels, late),
-        w: group(&run.w, wheels, wheels, false),
-        pose: group(&run.pose, 2 * wheels, 3, false),
+        i: group(&run.i, SignalGroup::Current, late),
+        w: group(&run.w, SignalGroup::WheelSpeed, false),
+        pose: group(&run.pose, SignalGroup::Pose, false),
         vbat: run.vbat.as_ref().map(|_| Channel::from_values(prediction.bus.iter().copied())),
-        gyro: run.gyro.as_ref().map(|_| Channel::from_values(prediction.gyro.iter().copied())),
+        gyro: run.gyro.as_ref().map(|_| column(channels.gyro(), false)),
         ..Run::default()
     }
 }

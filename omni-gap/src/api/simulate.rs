@@ -25,19 +25,15 @@ pub fn simulate(robot: &RobotFile, input: &Run, noise_seed: Option<u64>) -> Resu
 fn simulated<const N: usize>(robot: &RobotFile, input: &Run, noise_seed: Option<u64>) -> Result<Run> {
     let recorded = drivable::<N>(input, robot)?;
     let plant = Model::<N>::nominal(robot, supply_seen([&recorded])).plant();
-    let silent = SensorsFile {
-        current_noise_a: 0.0,
-        wheel_speed_noise_rad_s: 0.0,
-        position_noise_m: 0.0,
-        heading_noise_rad: 0.0,
-    };
     let rows = recorded.rows();
     let mean: usize = (0..rows).map(|row| recorded.steps(row)).sum::<usize>().div_ceil(rows);
     let how = SensorSetup {
         steps_a_row: FINER * mean,
         camera_rate: EVERY_ROW,
         dropouts: 0.0,
-        sensors: if noise_seed.is_some() { robot.sensors } else { silent },
+        gyro: input.gyro.is_some(),
+        battery: input.vbat.is_some(),
+        sensors: if noise_seed.is_some() { robot.sensors } else { SensorsFile::SILENT },
         ..SensorSetup::default()
     };
     let inputs: Vec<_> = (0..rows).map(|row| recorded.input(row)).collect();

@@ -10,7 +10,7 @@ use super::guess::guessed;
 use super::identifiability::TradeOff;
 use super::joint::{Identified, Joint, Refused, joint};
 use crate::log::{Change, RobotFile};
-use crate::simulate::{AlignedRun, Chain, Experiment, Model, NOMINAL_KEYS, NominalKey, supply_seen};
+use crate::simulate::{AlignedRun, Chain, Experiment, Model, NOMINAL_KEYS, NominalKey, SignalGroup, supply_seen};
 use model::*;
 
 /// Figures of a number that is written into a robot file, and of its uncertainty.
@@ -119,9 +119,9 @@ fn not_logged<const N: usize>(runs: &[&AlignedRun<N>]) -> Vec<&'static str> {
     let speeds = by(Chain::WheelSpeed);
     let groups = [
         ("voltages", no(&volts)),
-        ("currents", no(&|run| run.has_group("i") || amps(run))),
-        ("wheel speeds", no(&|run| run.has_group("w") || speeds(run))),
-        ("poses", no(&|run| run.has_group("pose"))),
+        ("currents", no(&|run| run.has_group(SignalGroup::Current) || amps(run))),
+        ("wheel speeds", no(&|run| run.has_group(SignalGroup::WheelSpeed) || speeds(run))),
+        ("poses", no(&|run| run.has_group(SignalGroup::Pose))),
     ];
     groups.into_iter().filter(|(_, missing)| *missing).map(|(name, _)| name).collect()
 }
@@ -170,12 +170,12 @@ fn together(t: &TradeOff) -> Together {
 }
 
 fn noise<const N: usize>(found: &Joint<N>, file: &RobotFile, runs: &[&AlignedRun<N>]) -> Vec<SensorNoise> {
-    let sensors = &file.sensors;
+    let (sensors, channels) = (&file.sensors, AlignedRun::<N>::channels());
     let of = [
-        ("current_noise_A", sensors.current_noise_a, 0),
-        ("wheel_speed_noise_rad_s", sensors.wheel_speed_noise_rad_s, N),
-        ("position_noise_m", sensors.position_noise_m, 2 * N),
-        ("heading_noise_rad", sensors.heading_noise_rad, 2 * N + 2),
+        ("current_noise_A", sensors.current_noise_a, channels.current(0)),
+        ("wheel_speed_noise_rad_s", sensors.wheel_speed_noise_rad_s, channels.wheel_speed(0)),
+        ("position_noise_m", sensors.position_noise_m, channels.pose()[0]),
+        ("heading_noise_rad", sensors.heading_noise_rad, channels.heading()),
     ];
     let mut all = Vec::new();
     for (group, (key, stated, channel)) in of.into_iter().enumerate() {

@@ -4,6 +4,8 @@
 //! H = Σ JᵀJ,  g = Σ Jᵀe          J: d predicted / d (start, parameters), one row a measured number
 //! ```
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::pass::Seen;
@@ -54,9 +56,9 @@ impl<const LANES: usize> Sums<LANES> {
         count: 0,
     };
 
-    /// Adds the numbers of one row; `pose` is the first channel that depends on where the start is.
+    /// Adds the numbers of one row; `pose` are the channels that depend on where the start is.
     #[inline]
-    pub fn add(&mut self, row: &[Seen<LANES>], pose: usize) {
+    pub fn add(&mut self, row: &[Seen<LANES>], pose: &Range<usize>) {
         // H += JᵀJ, a line at a time: the line stays in registers while the row's numbers pass; H is symmetric, and a
         // quarter of it is not needed
         let (upper, lower) = self.lanes.split_at_mut(LANES / 2);
@@ -85,7 +87,7 @@ impl<const LANES: usize> Sums<LANES> {
                 *g += slope * seen.error;
             }
             self.cost += seen.error * seen.error;
-            if seen.channel >= pose {
+            if pose.contains(&seen.channel) {
                 self.add_moved(seen);
             }
         }

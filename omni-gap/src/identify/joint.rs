@@ -24,7 +24,7 @@ use super::noise::{Noise, noise_of};
 use super::prior::Prior;
 use super::shoot::{Shots, WINDOW_S, Windows};
 use crate::log::RobotFile;
-use crate::simulate::{AlignedRun, Model, NominalKey, Slot};
+use crate::simulate::{AlignedRun, Model, NominalKey, SignalGroup, Slot};
 
 /// What is identified: R, K_t = K_v, J, and the friction of the body. Mass and geometry are weighed and measured.
 pub const IDENTIFIED: [Nominal; 9] = [
@@ -149,10 +149,11 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Aligne
 /// True if any wheel speed or pose of a run varies by more than its noise; currents can flow in a robot that is held. A
 /// run that shows neither is not judged.
 fn moves<const N: usize>(run: &AlignedRun<N>) -> bool {
-    if !run.has_group("w") && !run.has_group("pose") {
+    if !run.has_group(SignalGroup::WheelSpeed) && !run.has_group(SignalGroup::Pose) {
         return true;
     }
-    (N..2 * N + 3).any(|channel| {
+    let channels = AlignedRun::<N>::channels();
+    (channels.wheel_speed(0)..=channels.heading()).any(|channel| {
         let told = (0..run.rows()).filter(|row| run.saw(*row, channel)).map(|row| run.measured[row][channel]);
         let (n, sum) = told.clone().fold((0.0, 0.0), |(n, sum), x| (n + 1.0, sum + x));
         let square: f64 = told.map(|x| (x - sum / n).powi(2)).sum();

@@ -12,7 +12,7 @@ use super::block::{Block, Sums};
 use super::pass::{Course, TWIST, pass};
 use super::shoot::{Piece, Shots, Starts};
 use super::window::{START, WindowLinear};
-use crate::simulate::{AlignedRun, Model, Slot};
+use crate::simulate::{AlignedRun, Model, SignalGroup, Slot};
 
 /// The most derivatives that one pass takes; more than these are taken in passes of [`KEPT`].
 const MOST: usize = 20;
@@ -103,7 +103,8 @@ pub fn linearise<const N: usize>(
 fn summed<const N: usize, const LANES: usize>(course: Course<'_, N>, piece: &Piece) -> Vec<Block> {
     let lanes = TWIST + course.free.len();
     let mut sums = vec![Sums::<LANES>::NOTHING; piece.windows.len()];
-    pass::<N, LANES>(course, piece.windows.clone(), 0, |k, _, seen| sums[k - piece.windows.start].add(seen, 2 * N));
+    let pose = AlignedRun::<N>::channels().of(SignalGroup::Pose);
+    pass::<N, LANES>(course, piece.windows.clone(), 0, |k, _, seen| sums[k - piece.windows.start].add(seen, &pose));
     sums.iter().map(|sums| sums.block(lanes)).collect()
 }
 

@@ -18,10 +18,10 @@ use super::fit::Fit;
 use super::linear::linearise;
 use super::shoot::Shots;
 use super::window::{START, WindowLinear};
-use crate::simulate::AlignedRun;
+use crate::simulate::{AlignedRun, Channels, SignalGroup};
 
-/// Groups of channels that share a sensor: currents, wheel speeds, position, heading.
-const GROUPS: usize = 4;
+/// Groups of channels that share a sensor: currents, wheel speeds, position, heading, gyro, battery.
+const GROUPS: usize = 6;
 /// Times that the groups are estimated in turn.
 const TURNS: usize = 3;
 /// A lag-one autocorrelation counts if it is above that of white noise by this many of its standard errors 1/√n.
@@ -35,25 +35,25 @@ const HALVINGS: usize = 14;
 /// No sensor is believed to be this much better than its file says.
 const LEAST_SCALE: f64 = 1e-3;
 
-/// The noise of each group of channels: currents, wheel speeds, position (x and y), heading.
+/// The noise of each group of channels: currents, wheel speeds, position (x and y), heading, gyro, battery.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
     /// Its standard deviation over the run's sigma; one where nothing was measured.
-    pub scale: [f64; 4],
+    pub scale: [f64; GROUPS],
     /// How long it remembers itself [s]; zero where it cannot be told from white.
-    pub correlation_time: [f64; 4],
+    pub correlation_time: [f64; GROUPS],
 }
 
 /// The group of a channel of a robot with `wheels` wheels.
-const fn group(wheels: usize, channel: usize) -> usize {
-    if channel < wheels {
-        0
-    } else if channel < 2 * wheels {
-        1
-    } else if channel < 2 * wheels + 2 {
-        2
-    } else {
-        3
+fn group(wheels: usize, channel: usize) -> usize {
+    let channels = Channels { wheels };
+    match channels.group(channel) {
+        SignalGroup::Current => 0,
+        SignalGroup::WheelSpeed => 1,
+        SignalGroup::Pose if channel != channels.heading() => 2,
+        SignalGroup::Pose => 3,
+        SignalGroup::Gyro => 4,
+        SignalGroup::Battery => 5,
     }
 }
 

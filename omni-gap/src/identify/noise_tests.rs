@@ -29,6 +29,9 @@ fn only(which: usize, inside: f64, outside: f64) -> [f64; MAX_CHANNELS] {
     std::array::from_fn(|c| if group(4, c) == which { inside } else { outside })
 }
 
+/// The groups that the staging measures: all but gyro and battery.
+const STAGED: usize = 4;
+
 /// How many numbers a group of the default staging has, near enough for a standard error.
 fn numbers(how: &Staging, group: usize) -> f64 {
     let rate = if group < 2 { how.rate } else { 0.95 * how.camera_rate };
@@ -39,7 +42,8 @@ fn numbers(how: &Staging, group: usize) -> f64 {
 fn white_noise_of_one_sigma_is_found_as_such() {
     let how = Staging::default();
     let noise = found(&how, 0.5);
-    for g in 0..GROUPS {
+    assert_eq!(noise.scale[STAGED..], [1.0; GROUPS - STAGED], "nothing was measured there");
+    for g in 0..STAGED {
         assert_eq!(noise.correlation_time[g], 0.0, "group {g}: {noise:?}");
         // four standard errors of a standard deviation, 1/√(2n)
         let tolerance = 4.0 / (2.0 * numbers(&how, g)).sqrt();
@@ -49,10 +53,10 @@ fn white_noise_of_one_sigma_is_found_as_such() {
 
 #[test]
 fn a_sensor_that_is_worse_than_stated_is_found_and_the_others_are_not_blamed() {
-    for g in 0..GROUPS {
+    for g in 0..STAGED {
         let how = Staging { scale: only(g, 3.0, 1.0), ..Staging::default() };
         let noise = found(&how, 0.5);
-        for h in 0..GROUPS {
+        for h in 0..STAGED {
             let truth = if h == g { 3.0 } else { 1.0 };
             let tolerance = 4.0 / (2.0 * numbers(&how, h)).sqrt();
             assert!((noise.scale[h] / truth - 1.0).abs() < tolerance, "{h} with {g} worse: {noise:?}");
@@ -67,7 +71,7 @@ fn the_correlation_time_of_a_slow_pose_is_found_within_30_percent() {
         let correlation_time = std::array::from_fn(|c| if group(4, c) >= 2 { TAU } else { 0.0 });
         let how = Staging { runs: 10, camera_rate: 25.0, correlation_time, channels, ..Staging::default() };
         let noise = found(&how, 1.0);
-        for g in 2..GROUPS {
+        for g in 2..STAGED {
             assert!((noise.correlation_time[g] / TAU - 1.0).abs() < 0.3, "group {g} of {channels:b}: {noise:?}");
             // three standard errors of the heading's 60 s/2τ = 200 independent numbers
             assert!((noise.scale[g] - 1.0).abs() < 0.15, "group {g} of {channels:b}: {noise:?}");
@@ -79,9 +83,9 @@ fn the_correlation_time_of_a_slow_pose_is_found_within_30_percent() {
 #[test]
 fn noise_that_is_applied_is_the_runs_own() {
     let run = &staged(&Model::<4>::nominal(&robot(), 12.0), &Staging { runs: 1, ..Staging::default() })[0];
-    let noise = Noise { scale: [1.0, 2.0, 3.0, 4.0], correlation_time: [0.0, 0.1, 0.2, 0.3] };
+    let noise = Noise { scale: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], correlation_time: [0.0, 0.1, 0.2, 0.3, 0.4, 0.5] };
     let applied = noise.applied(run);
-    for (c, g) in [(0, 0), (3, 0), (4, 1), (7, 1), (8, 2), (9, 2), (10, 3)] {
+    for (c, g) in [(0, 0), (3, 0), (4, 1), (7, 1), (8, 2), (9, 2), (10, 3), (11, 4), (12, 5)] {
         assert_eq!(applied.sigma[c], run.sigma[c] * noise.scale[g]);
         assert_eq!(applied.correlation_time[c], noise.correlation_time[g]);
     }

@@ -75,7 +75,8 @@ pub(super) fn pass<const N: usize, const LANES: usize>(
     let enter = |memory: &mut [EffectState<Dual<LANES>>]| {
         memory.iter_mut().for_each(|state| state.for_each_mut(|number| number.eps[..own].fill(0.0)));
     };
-    let count = AlignedRun::<N>::channels().count();
+    let channels = AlignedRun::<N>::channels();
+    let [cx, cy, ctheta] = channels.pose();
     let per_sigma = run.sigma.map(|sigma| 1.0 / sigma);
     let mut white = (Whitener::<LANES>::of(run), Whitener::<4>::of(run));
     let mut seen = [Seen::<LANES>::NOTHING; MAX_CHANNELS];
@@ -87,15 +88,18 @@ pub(super) fn pass<const N: usize, const LANES: usize>(
             last = k;
         }
         let mut at = 0;
-        for c in (0..count).filter(|c| run.saw(row, *c)) {
+        for c in (0..channels.count()).filter(|c| run.saw(row, *c)) {
             let now = &mut seen[at];
             let error = run.error(row, c, predicted[c].re);
             // moving and turning the start moves and turns the path
-            let moved = match c.checked_sub(2 * N) {
-                None => [0.0; 3],
-                Some(0) => [per_sigma[c], 0.0, -(predicted[2 * N + 1].re - starts[k][1]) * per_sigma[c]],
-                Some(1) => [0.0, per_sigma[c], (predicted[2 * N].re - starts[k][0]) * per_sigma[c]],
-                Some(_) => [0.0, 0.0, per_sigma[c]],
+            let moved = if c == cx {
+                [per_sigma[c], 0.0, -(predicted[cy].re - starts[k][1]) * per_sigma[c]]
+            } else if c == cy {
+                [0.0, per_sigma[c], (predicted[cx].re - starts[k][0]) * per_sigma[c]]
+            } else if c == ctheta {
+                [0.0, 0.0, per_sigma[c]]
+            } else {
+                [0.0; 3]
             };
             now.channel = c;
             for (slope, eps) in now.lanes.iter_mut().zip(&predicted[c].eps) {

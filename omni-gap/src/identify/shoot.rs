@@ -7,7 +7,7 @@ use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::Plant;
 
-use crate::simulate::{AlignedRun, FreeRun, HORIZON_S, MAX_CHANNELS, Model, RowPassed, restart_rows, start_at};
+use crate::simulate::{AlignedRun, FreeRun, HORIZON_S, MAX_CHANNELS, Model, restart_rows, start_at};
 
 /// The state from which a window starts: x, y, θ, v, vn, ω [m, m, rad, m/s, m/s, rad/s].
 pub type StartState = [f64; 6];
@@ -143,8 +143,8 @@ pub(super) fn run_some_windows<const N: usize, T: Real>(
         let (pose, twist) = start(window);
         on_the_way.restart_with(rows.start, pose, twist, &enter);
         for row in rows {
-            let RowPassed { reading, .. } = on_the_way.pass(row, &run.input(row));
-            each(window, row, &run.row_of(&reading));
+            let passed = on_the_way.pass(row, &run.input(row));
+            each(window, row, &run.row_of(&passed));
         }
     }
 }

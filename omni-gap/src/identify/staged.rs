@@ -71,8 +71,7 @@ pub fn staged(model: &Model<4>, how: &Staging) -> Vec<AlignedRun<4>> {
             let blank = run.clone();
             let mut on_the_way = FreeRun::new(&plant, &blank);
             for row in 0..run.rows() {
-                let reading = on_the_way.pass(row, &run.input(row)).reading;
-                let mut says = run.row_of(&reading);
+                let mut says = run.row_of(&on_the_way.pass(row, &run.input(row)));
                 for c in 0..MAX_CHANNELS {
                     // x_k = ρ·x_{k−1} + √(1 − ρ²)·n
                     let tau = how.correlation_time[c];

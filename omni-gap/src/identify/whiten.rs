@@ -84,7 +84,6 @@ mod tests {
             sigma: [1.0; MAX_CHANNELS],
             correlation_time: [tau; MAX_CHANNELS],
             unsigned_current: false,
-            gyro: Vec::new(),
             largest_voltage: 0.0,
         }
     }

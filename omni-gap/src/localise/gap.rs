@@ -6,10 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use crate::simulate::{AlignedRun, HORIZON_S, MAX_CHANNELS, free_run, predict};
-
-/// The signal groups, in the order of their channels.
-pub const GROUPS: [&str; 3] = ["i", "w", "pose"];
+use crate::simulate::{AlignedRun, HORIZON_S, PerGroup, SignalGroup, free_run, predict};
 
 /// Lengths between restarts of the horizon curves [s]
 pub const HORIZONS_S: [f64; 5] = [0.1, 0.25, HORIZON_S, 1.0, 2.0];
@@ -18,20 +15,21 @@ pub const HORIZONS_S: [f64; 5] = [0.1, 0.25, HORIZON_S, 1.0, 2.0];
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
     /// Per window (of all runs): Σ error² [σ²] and count, per group.
-    pub windows: Vec<[(f64, f64); 3]>,
+    pub windows: Vec<PerGroup<(f64, f64)>>,
 }
 
-/// RMS of one group, and the RMS over the groups, of sums of squares.
-fn rms(sums: &[(f64, f64); 3]) -> ([Option<f64>; 3], f64) {
+/// RMS of each group, and the RMS over those that count in totals, of sums of squares.
+fn rms(sums: &PerGroup<(f64, f64)>) -> (PerGroup<Option<f64>>, f64) {
     let groups = sums.map(|(sum, n)| (n > 0.0).then(|| (sum / n).sqrt()));
-    let there: Vec<f64> = groups.iter().flatten().copied().collect();
+    let counted = SignalGroup::ALL.into_iter().filter(|group| group.in_totals());
+    let there: Vec<f64> = counted.filter_map(|group| groups[group as usize]).collect();
     let total = (there.iter().map(|x| x * x).sum::<f64>() / there.len().max(1) as f64).sqrt();
     (groups, total)
 }
 
 impl Measured {
-    fn sums(&self, pick: impl Iterator<Item = usize>) -> [(f64, f64); 3] {
-        let mut sums = [(0.0, 0.0); 3];
+    fn sums(&self, pick: impl Iterator<Item = usize>) -> PerGroup<(f64, f64)> {
+        let mut sums = [(0.0, 0.0); SignalGroup::COUNT];
         for k in pick {
             for (sum, part) in sums.iter_mut().zip(self.windows[k]) {
                 *sum = (sum.0 + part.0, sum.1 + part.1);
@@ -41,11 +39,11 @@ impl Measured {
     }
 
     /// RMS error of each group [σ]; `None` where it was not measured.
-    pub fn groups(&self) -> [Option<f64>; 3] {
+    pub fn groups(&self) -> PerGroup<Option<f64>> {
         rms(&self.sums(0..self.windows.len())).0
     }
 
-    /// RMS over the groups [σ].
+    /// RMS over the groups that count in totals [σ].
     pub fn total(&self) -> f64 {
         rms(&self.sums(0..self.windows.len())).1
     }
@@ -58,18 +56,19 @@ impl Measured {
 
 /// Measures a model on runs: free runs restarted every `horizon` [s].
 pub fn measure<const N: usize>(plant: &Plant<N, f64>, runs: &[&AlignedRun<N>], horizon: f64) -> Measured {
-    let per_run: Vec<Vec<[(f64, f64); 3]>> = runs
+    let channels = AlignedRun::<N>::channels();
+    let per_run: Vec<Vec<PerGroup<(f64, f64)>>> = runs
         .par_iter()
         .map(|run| {
             let prediction = predict(plant, run, horizon);
-            let mut windows = vec![[(0.0, 0.0); 3]; prediction.restarts.len()];
+            let mut windows = vec![[(0.0, 0.0); SignalGroup::COUNT]; prediction.restarts.len()];
             let mut window = 0;
             for (row, predicted) in prediction.rows.iter().enumerate() {
                 while prediction.restarts.get(window + 1).is_some_and(|next| *next <= row) {
                     window += 1;
                 }
-                for c in (0..MAX_CHANNELS.min(2 * N + 3)).filter(|c| run.saw(row, *c)) {
-                    let group = &mut windows[window][(c / N).min(2)];
+                for c in (0..channels.count()).filter(|c| run.saw(row, *c)) {
+                    let group = &mut windows[window][channels.group(c) as usize];
                     *group = (group.0 + run.error(row, c, predicted[c]).powi(2), group.1 + 1.0);
                 }
             }
@@ -98,7 +97,13 @@ pub(super) fn replayed<const N: usize>(
 
 /// A run of the same input and the same holes, simulated from the model with white noise of the sensors' sigma.
 fn replay<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, seed: u64) -> AlignedRun<N> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    // a stream for each channel: one more of them changes nothing of the others
+    let stream = |channel: usize| {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(channel as u64);
+        random
+    };
+    let mut random: Vec<ChaCha8Rng> = (0..AlignedRun::<N>::channels().count()).map(stream).collect();
     let mut replayed = run.clone();
     free_run(
         plant,
@@ -106,15 +111,12 @@ fn replay<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, seed: u64)
         &[0],
         |row| run.input(row),
         |row, passed| {
-            let mut says = run.row_of(&passed.reading);
-            for (c, x) in says.iter_mut().enumerate() {
-                let noise: f64 = StandardNormal.sample(&mut random);
-                *x += run.sigma[c] * noise;
+            let mut says = run.row_of(passed);
+            for ((x, sigma), random) in says.iter_mut().zip(run.sigma).zip(&mut random) {
+                let noise: f64 = StandardNormal.sample(random);
+                *x += sigma * noise;
             }
             replayed.measured[row] = says;
-            if let Some(gyro) = &mut replayed.gyro[row] {
-                *gyro = passed.reading.gyro;
-            }
         },
     );
     replayed

@@ -9,8 +9,8 @@
 use model_core::plant::{Input, Plant};
 use rayon::prelude::*;
 
-use super::gap::{FLOOR_SEED, GROUPS, replayed};
-use crate::simulate::{AlignedRun, Row, free_run, restart_rows};
+use super::gap::{FLOOR_SEED, replayed};
+use crate::simulate::{AlignedRun, Row, SignalGroup, free_run, restart_rows};
 
 /// A link between two measured signals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +28,9 @@ impl Link {
     pub const ALL: [Link; 3] = [Link::Electrical, Link::Motion, Link::Contact];
 }
 
+/// The signals at the links' ends.
+const ENDS: [SignalGroup; 3] = [SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose];
+
 /// The share of each link that could be told apart; shares sum to one.
 #[derive(Clone, Debug)]
 pub struct Links {
@@ -43,7 +46,7 @@ pub fn links<const N: usize>(
     runs: &[&AlignedRun<N>],
     horizon: f64,
 ) -> Links {
-    let seen = GROUPS.map(|group| runs.iter().any(|run| run.has_group(group)));
+    let seen = ENDS.map(|group| runs.iter().any(|run| run.has_group(group)));
     let players: Vec<usize> = (0..3).filter(|k| seen[*k]).collect();
     // mean square error per group of each subset of substituted links
     let quiet = replayed(right, runs, FLOOR_SEED);
@@ -100,29 +103,35 @@ struct Paths {
 fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horizon: f64) -> Subsets {
     let paths = Paths {
         plain: rows(plant, run, horizon, |row| run.input(row)),
-        by_current: rows(plant, run, horizon, |row| measured(run, row, 0).map_or(run.input(row), Input::Current)),
-        by_speed: rows(plant, run, horizon, |row| measured(run, row, N).map_or(run.input(row), Input::Speed)),
+        by_current: rows(plant, run, horizon, |row| {
+            measured(run, row, SignalGroup::Current).map_or(run.input(row), Input::Current)
+        }),
+        by_speed: rows(plant, run, horizon, |row| {
+            measured(run, row, SignalGroup::WheelSpeed).map_or(run.input(row), Input::Speed)
+        }),
     };
-    let motor = &plant.robot().motor;
+    let (motor, channels) = (&plant.robot().motor, AlignedRun::<N>::channels());
+    let ends = 0..channels.of(SignalGroup::Pose).end;
     let mut sums = [[(0.0, 0.0); 3]; 8];
     for row in 0..run.rows() {
         let volts = match run.input::<f64>(row) {
             Input::Voltage(u) => Some(u),
             _ => None,
         };
-        let speeds = measured(run, row, N);
-        for c in (0..2 * N + 3).filter(|c| run.saw(row, *c)) {
+        let speeds = measured(run, row, SignalGroup::WheelSpeed);
+        for c in ends.clone().filter(|c| run.saw(row, *c)) {
+            let group = channels.group(c);
             let error = |path: &[Row]| run.error(row, c, path[row][c]);
             let by_speed = error(&paths.by_speed);
             for (subset, sums) in sums.iter_mut().enumerate() {
                 let (electrical, motion, contact) = (subset & 1 != 0, subset & 2 != 0, subset & 4 != 0);
-                let e = if c < N {
+                let e = if group == SignalGroup::Current {
                     match (electrical, motion, volts.zip(speeds)) {
                         (true, ..) => 0.0,
                         (false, true, Some((u, w))) => run.error(row, c, motor.current(u[c], w[c])),
                         _ => error(&paths.plain),
                     }
-                } else if c < 2 * N {
+                } else if group == SignalGroup::WheelSpeed {
                     match (electrical, motion) {
                         (_, true) => 0.0,
                         (true, false) => error(&paths.by_current),
@@ -136,18 +145,20 @@ fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horizon: 
                     };
                     if contact { before - by_speed } else { before }
                 };
-                let group = &mut sums[(c / N).min(2)];
-                *group = (group.0 + e * e, group.1 + 1.0);
+                let sum = &mut sums[group as usize];
+                *sum = (sum.0 + e * e, sum.1 + 1.0);
             }
         }
     }
     sums
 }
 
-/// The measured currents (first channel 0) or wheel speeds (first channel N) of a row, if all are there.
-fn measured<const N: usize>(run: &AlignedRun<N>, row: usize, first: usize) -> Option<[f64; N]> {
-    let whole = (first..first + N).all(|c| run.saw(row, c)) && !(first == 0 && run.unsigned_current);
-    whole.then(|| std::array::from_fn(|j| run.measured[row][first + j]))
+/// The measured currents or wheel speeds of a row, if all are there.
+fn measured<const N: usize>(run: &AlignedRun<N>, row: usize, group: SignalGroup) -> Option<[f64; N]> {
+    let channels = AlignedRun::<N>::channels().of(group);
+    let magnitudes = group == SignalGroup::Current && run.unsigned_current;
+    let whole = channels.clone().all(|c| run.saw(row, c)) && !magnitudes;
+    whole.then(|| std::array::from_fn(|j| run.measured[row][channels.start + j]))
 }
 
 /// The rows that a free run predicts from any input.
@@ -158,6 +169,6 @@ fn rows<const N: usize>(
     input: impl Fn(usize) -> Input<N, f64>,
 ) -> Vec<Row> {
     let mut rows = Vec::with_capacity(run.rows());
-    free_run(plant, run, &restart_rows(&run.t, horizon), input, |_, passed| rows.push(run.row_of(&passed.reading)));
+    free_run(plant, run, &restart_rows(&run.t, horizon), input, |_, passed| rows.push(run.row_of(passed)));
     rows
 }

@@ -9,6 +9,6 @@ mod links;
 mod regime;
 pub mod validation;
 
-pub use gap::{GROUPS, HORIZONS_S, Measured, floor, measure};
+pub use gap::{HORIZONS_S, Measured, floor, measure};
 pub use links::{Link, Links, links};
 pub use regime::{Hotspot, RegimeSettings, regimes};

@@ -57,24 +57,27 @@ const FEATURES: [Feature; 5] = [
 /// strongest first.
 pub fn regimes<const N: usize>(runs: &[(&AlignedRun<N>, &Prediction)], settings: &RegimeSettings) -> Vec<Hotspot> {
     let mut samples: Vec<([f64; FEATURES.len()], f64)> = Vec::new();
+    let channels = AlignedRun::<N>::channels();
+    let [x, y, theta] = channels.pose();
     for (run, prediction) in runs {
         for row in 1..run.rows() {
             let p = &prediction.rows[row];
             let span = (run.t[row] - run.t[row - 1]).max(1e-6);
             let restarted = prediction.restarts.contains(&row);
             for j in 0..N {
-                let own: Vec<usize> = [j, N + j].into_iter().filter(|c| run.saw(row, *c)).collect();
+                let (i, w) = (channels.current(j), channels.wheel_speed(j));
+                let own: Vec<usize> = [i, w].into_iter().filter(|c| run.saw(row, *c)).collect();
                 if own.is_empty() {
                     continue;
                 }
                 let error: f64 = own.iter().map(|c| run.error(row, *c, p[*c]).powi(2)).sum();
                 let before = &prediction.rows[row - 1];
-                let rate = if restarted { 0.0 } else { (p[N + j] - before[N + j]) / span };
-                let speed = ((p[2 * N] - before[2 * N]).hypot(p[2 * N + 1] - before[2 * N + 1])) / span;
-                let yaw = (p[2 * N + 2] - before[2 * N + 2]) / span;
+                let rate = if restarted { 0.0 } else { (p[w] - before[w]) / span };
+                let speed = (p[x] - before[x]).hypot(p[y] - before[y]) / span;
+                let yaw = (p[theta] - before[theta]) / span;
                 let turning = if restarted { 0.0 } else { (speed * yaw).abs() };
-                let heading = p[2 * N + 2].rem_euclid(std::f64::consts::TAU);
-                samples.push(([p[N + j].abs(), p[j].abs(), rate.abs(), turning, heading], error));
+                let heading = p[theta].rem_euclid(std::f64::consts::TAU);
+                samples.push(([p[w].abs(), p[i].abs(), rate.abs(), turning, heading], error));
             }
         }
     }

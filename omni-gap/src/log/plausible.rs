@@ -26,7 +26,7 @@ const fn of(key: &'static str, within: (f64, f64), unit: &'static str, often: &'
 
 const LENGTH: &[Unit] = &[("mm", |x| x / 1000.0), ("cm", |x| x / 100.0)];
 
-const NUMBERS: [Bounds; 21] = [
+const NUMBERS: [Bounds; 23] = [
     of("drive_angle_deg", (-1080.0, 1080.0), "degrees", &[]),
     of("distance_m", (0.005, 3.0), "m", LENGTH),
     of("radius_m", (0.002, 0.6), "m", LENGTH),
@@ -56,6 +56,8 @@ const NUMBERS: [Bounds; 21] = [
     of("wheel_speed_noise_rad_s", (1e-9, 1000.0), "rad/s", &[("rpm", |x| x * PI / 30.0)]),
     of("position_noise_m", (1e-9, 1.0), "m", LENGTH),
     of("heading_noise_rad", (1e-9, 3.2), "rad", &[("degrees", f64::to_radians)]),
+    of("gyro_noise_rad_s", (1e-9, 100.0), "rad/s", &[("degrees/s", f64::to_radians)]),
+    of("battery_noise_V", (1e-9, 100.0), "V", &[("mV", |x| x / 1000.0)]),
     of("voltage_V", (0.5, 1000.0), "V", &[("mV", |x| x / 1000.0)]),
     of("the relative uncertainty", (0.0, 3.0), "of the number (0.1 is 10 %)", &[("per cent", |x| x / 100.0)]),
 ];

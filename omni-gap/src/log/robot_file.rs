@@ -88,6 +88,24 @@ pub struct SensorsFile {
     pub position_noise_m: f64,
     /// In rad.
     pub heading_noise_rad: f64,
+    /// Of the yaw rate (rad/s); where absent, what a log shows of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gyro_noise_rad_s: Option<f64>,
+    /// Of the battery's voltage (V); where absent, what a log shows of it.
+    #[serde(rename = "battery_noise_V", skip_serializing_if = "Option::is_none")]
+    pub battery_noise_v: Option<f64>,
+}
+
+impl SensorsFile {
+    /// Sensors without noise.
+    pub const SILENT: SensorsFile = SensorsFile {
+        current_noise_a: 0.0,
+        wheel_speed_noise_rad_s: 0.0,
+        position_noise_m: 0.0,
+        heading_noise_rad: 0.0,
+        gyro_noise_rad_s: Some(0.0),
+        battery_noise_v: Some(0.0),
+    };
 }
 
 impl Default for SensorsFile {
@@ -98,6 +116,8 @@ impl Default for SensorsFile {
             wheel_speed_noise_rad_s: 0.15,
             position_noise_m: 0.003,
             heading_noise_rad: 0.01,
+            gyro_noise_rad_s: None,
+            battery_noise_v: None,
         }
     }
 }

@@ -171,18 +171,28 @@ fn friction(s: &Section) -> Result<FrictionFile> {
 }
 
 fn sensors(s: &Section) -> Result<SensorsFile> {
-    s.only_keys(&["current_noise_A", "wheel_speed_noise_rad_s", "position_noise_m", "heading_noise_rad"])?;
+    s.only_keys(&[
+        "current_noise_A",
+        "wheel_speed_noise_rad_s",
+        "position_noise_m",
+        "heading_noise_rad",
+        "gyro_noise_rad_s",
+        "battery_noise_V",
+    ])?;
     let default = SensorsFile::default();
-    let noise = |key, default| {
-        let sigma = s.number(key)?.unwrap_or(default);
+    let checked = |key, sigma| {
         s.checked(key, sigma, sigma > 0.0, "a noise above zero (gaps are measured in units of it)")?;
         plausible::bounded(s, key, key, sigma)
     };
+    let noise = |key, default| checked(key, s.number(key)?.unwrap_or(default));
+    let stated = |key| s.number(key)?.map(|sigma| checked(key, sigma)).transpose();
     Ok(SensorsFile {
         current_noise_a: noise("current_noise_A", default.current_noise_a)?,
         wheel_speed_noise_rad_s: noise("wheel_speed_noise_rad_s", default.wheel_speed_noise_rad_s)?,
         position_noise_m: noise("position_noise_m", default.position_noise_m)?,
         heading_noise_rad: noise("heading_noise_rad", default.heading_noise_rad)?,
+        gyro_noise_rad_s: stated("gyro_noise_rad_s")?,
+        battery_noise_v: stated("battery_noise_V")?,
     })
 }
 

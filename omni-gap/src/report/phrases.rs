@@ -82,6 +82,8 @@ pub fn group(key: &str) -> &str {
         "i" => "motor current",
         "w" => "wheel speed",
         "pose" => "pose",
+        "gyro" => "yaw rate",
+        "vbat" => "battery voltage",
         other => other,
     }
 }

@@ -76,6 +76,8 @@ fn title(signal: Signal) -> String {
         Signal::Current(j) => format!("current {j}"),
         Signal::WheelSpeed(j) => format!("wheel speed {j}"),
         Signal::Heading => "heading".to_owned(),
+        Signal::Gyro => "yaw rate".to_owned(),
+        Signal::Battery => "drop of the battery under load".to_owned(),
         Signal::X => "x".to_owned(),
         Signal::Y => "y".to_owned(),
         other => String::from(other),

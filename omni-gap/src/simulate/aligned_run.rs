@@ -1,18 +1,23 @@
 //! A recording, laid out row by row for the plant: what drives the model, and what it is compared with.
 
 use model_core::number::scalar::Real;
-use model_core::plant::{Input, Reading};
+use model_core::plant::Input;
 
-use crate::log::{Group, RobotFile, Run, Sampled};
-
-/// The most channels that are compared: four currents, four wheel speeds, and the pose.
-pub const MAX_CHANNELS: usize = 11;
+use super::channels::{Channels, MAX_CHANNELS, Row, SignalGroup};
+use super::open_circuit::open_circuit_voltage;
+use super::row_passed::RowPassed;
+use super::white_noise::white_sigma;
+use crate::log::{Channel, Group, RobotFile, Run, Sampled};
 
 /// The longest step that the plant takes [s]; longer rows are cut into equal ones.
 pub(super) const LONGEST_STEP_S: f64 = 0.0026;
 
 /// The most steps through one row: beyond half a minute without a row there is nothing to be told, and work must end.
 const MOST_STEPS: usize = 10_000;
+
+/// No gyro and no battery reading is believed to be better than this, whatever their log looks like [rad/s] [V]
+const LEAST_GYRO_RAD_S: f64 = 1e-3;
+const LEAST_BATTERY_V: f64 = 5e-3;
 
 /// A quantum above this share of a signal's RMS is too coarse to drive a model with.
 const COARSE: f64 = 0.05;
@@ -29,34 +34,6 @@ pub enum Chain {
     /// Commanded wheel speeds.
     SetSpeed,
 }
-
-/// Where the channels of each group stand in a row: currents, wheel speeds, x, y, heading.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Channels {
-    /// Wheels.
-    pub wheels: usize,
-}
-
-impl Channels {
-    /// How many channels a row has.
-    pub const fn count(self) -> usize {
-        2 * self.wheels + 3
-    }
-
-    /// The group of a channel: `i`, `w` or `pose`.
-    pub const fn group(self, channel: usize) -> &'static str {
-        if channel < self.wheels {
-            "i"
-        } else if channel < 2 * self.wheels {
-            "w"
-        } else {
-            "pose"
-        }
-    }
-}
-
-/// One row of numbers, one a channel.
-pub type Row = [f64; MAX_CHANNELS];
 
 /// A recording of a robot with `N` wheels, ready to be compared with a model.
 #[derive(Clone, Debug)]
@@ -83,8 +60,6 @@ pub struct AlignedRun<const N: usize> {
     pub correlation_time: Row,
     /// True if the currents are magnitudes.
     pub unsigned_current: bool,
-    /// Measured yaw rate [rad/s], where there is one
-    pub gyro: Vec<Option<f64>>,
     /// Largest voltage seen [V]; zero where none is logged
     pub largest_voltage: f64,
 }
@@ -104,6 +79,10 @@ fn good_enough(group: &Group) -> bool {
     n > 0.0 && quantum <= COARSE * f64::sqrt(sum / n)
 }
 
+fn signals_of(group: &Option<Group>) -> &[Channel] {
+    group.as_ref().map_or(&[], |group| &group.channels)
+}
+
 /// The bus voltage to take where the robot file states none: the largest that these runs show, one where they show none
 /// [V]
 pub fn supply_seen<'a, const N: usize>(runs: impl IntoIterator<Item = &'a AlignedRun<N>>) -> f64 {
@@ -114,9 +93,12 @@ pub fn supply_seen<'a, const N: usize>(runs: impl IntoIterator<Item = &'a Aligne
 impl<const N: usize> AlignedRun<N> {
     /// Lays a run out; `None` where nothing in it can drive a model.
     pub fn new(run: &Run, robot: &RobotFile) -> Option<Self> {
+        // what a simulator gets is the command; a measurement drives only where there is none
         let good = |group: &Option<Group>| group.as_ref().is_some_and(good_enough);
         let (chain, driving) = if good(&run.u) {
             (Chain::Voltage, run.u.as_ref()?)
+        } else if good(&run.wset) {
+            (Chain::SetSpeed, run.wset.as_ref()?)
         } else if good(&run.i) {
             (Chain::Current, run.i.as_ref()?)
         } else if good(&run.w) {
@@ -125,6 +107,10 @@ impl<const N: usize> AlignedRun<N> {
             (Chain::SetSpeed, run.wset.as_ref()?)
         };
         let rows = run.rows();
+        let battery = run.vbat.as_ref().map(|vbat| {
+            let unloaded = open_circuit_voltage(run, vbat);
+            vbat.map(|_, volts| volts - unloaded)
+        });
         let step = run.median_step_s();
         let start = *run.t_s.first()?;
         let t: Vec<f64> = run.t_s.iter().map(|t| t - start).collect();
@@ -145,37 +131,47 @@ impl<const N: usize> AlignedRun<N> {
             }
         }
 
+        let channels = Self::channels();
         let mut measured = vec![[0.0; MAX_CHANNELS]; rows];
         let mut has = vec![0_u16; rows];
-        let mut put = |group: &Option<Group>, first: usize, count: usize, shift: usize| {
-            for (c, channel) in group.iter().flat_map(|g| &g.channels).enumerate().take(count) {
+        let mut put = |of: SignalGroup, signals: &[Channel], shift: usize| {
+            for (c, channel) in channels.of(of).zip(signals) {
                 for (row, value) in channel.present().filter(|(row, _)| *row >= shift) {
-                    measured[row - shift][first + c] = value;
-                    has[row - shift] |= 1 << (first + c);
+                    measured[row - shift][c] = value;
+                    has[row - shift] |= 1 << c;
                 }
             }
         };
         // a current sampled before its row's voltage answers to the voltage of the row above
         let shift = usize::from(run.currents_sampled == Sampled::Before);
-        // a model driven by speeds says nothing of the currents
+        // a model driven by speeds says nothing of the currents, one driven by currents nothing of the battery
         if chain == Chain::Voltage {
-            put(&run.i, 0, N, shift);
+            put(SignalGroup::Current, signals_of(&run.i), shift);
+            put(SignalGroup::Battery, battery.as_slice(), shift);
         }
         if chain != Chain::WheelSpeed {
-            put(&run.w, N, N, 0);
+            put(SignalGroup::WheelSpeed, signals_of(&run.w), 0);
         }
-        put(&run.pose, 2 * N, 3, 0);
+        put(SignalGroup::Pose, signals_of(&run.pose), 0);
+        put(SignalGroup::Gyro, run.gyro.as_slice(), 0);
 
         // quantisation adds its own variance, q²/12
         let noisy = |sigma: f64, group: &Option<Group>| {
             let quantum = group.as_ref().and_then(|g| g.quantum).unwrap_or(0.0);
             (sigma * sigma + quantum * quantum / 12.0).sqrt()
         };
+        let sensors = &robot.sensors;
         let mut sigma = [1.0; MAX_CHANNELS];
-        sigma[..N].fill(noisy(robot.sensors.current_noise_a, &run.i));
-        sigma[N..2 * N].fill(noisy(robot.sensors.wheel_speed_noise_rad_s, &run.w));
-        sigma[2 * N..2 * N + 2].fill(robot.sensors.position_noise_m);
-        sigma[2 * N + 2] = robot.sensors.heading_noise_rad;
+        sigma[channels.of(SignalGroup::Current)].fill(noisy(sensors.current_noise_a, &run.i));
+        sigma[channels.of(SignalGroup::WheelSpeed)].fill(noisy(sensors.wheel_speed_noise_rad_s, &run.w));
+        let [x, y, heading] = channels.pose();
+        (sigma[x], sigma[y], sigma[heading]) =
+            (sensors.position_noise_m, sensors.position_noise_m, sensors.heading_noise_rad);
+        let stated_or_seen = |stated: Option<f64>, channel: &Option<Channel>, least: f64| {
+            stated.or(channel.as_ref().and_then(white_sigma)).unwrap_or(1.0).max(least)
+        };
+        sigma[channels.gyro()] = stated_or_seen(sensors.gyro_noise_rad_s, &run.gyro, LEAST_GYRO_RAD_S);
+        sigma[channels.battery()] = stated_or_seen(sensors.battery_noise_v, &run.vbat, LEAST_BATTERY_V);
 
         let largest_voltage = run
             .u
@@ -196,7 +192,6 @@ impl<const N: usize> AlignedRun<N> {
             sigma,
             correlation_time: [0.0; MAX_CHANNELS],
             unsigned_current: run.i.as_ref().is_some_and(|g| g.unsigned),
-            gyro: (0..rows).map(|row| run.gyro.as_ref().and_then(|c| c.get(row).ok())).collect(),
             largest_voltage,
         })
     }
@@ -215,7 +210,6 @@ impl<const N: usize> AlignedRun<N> {
                 open: self.open[first..end].to_vec(),
                 measured: self.measured[first..end].to_vec(),
                 has: self.has[first..end].to_vec(),
-                gyro: self.gyro[first..end].to_vec(),
                 ..self.without_rows()
             })
             .collect()
@@ -230,7 +224,6 @@ impl<const N: usize> AlignedRun<N> {
             open: Vec::new(),
             measured: Vec::new(),
             has: Vec::new(),
-            gyro: Vec::new(),
             ..*self
         }
     }
@@ -251,10 +244,9 @@ impl<const N: usize> AlignedRun<N> {
         self.has[row] & (1 << channel) != 0
     }
 
-    /// True if any row has a channel of the group (`i`, `w` or `pose`).
-    pub fn has_group(&self, group: &str) -> bool {
-        let channels = Self::channels();
-        let mask = (0..channels.count()).filter(|c| channels.group(*c) == group).fold(0_u16, |m, c| m | 1 << c);
+    /// True if any row has a channel of the group.
+    pub fn has_group(&self, group: SignalGroup) -> bool {
+        let mask = Self::channels().of(group).fold(0_u16, |mask, channel| mask | 1 << channel);
         self.has.iter().any(|has| has & mask != 0)
     }
 
@@ -276,17 +268,21 @@ impl<const N: usize> AlignedRun<N> {
         ((self.dt[row] / LONGEST_STEP_S).ceil() as usize).clamp(1, MOST_STEPS)
     }
 
-    /// A reading as a row of channels, currents as magnitudes where the log keeps only those.
+    /// What a plant says on a row as a row of channels, currents as magnitudes where the log keeps only those.
     #[inline]
-    pub fn row_of<T: Real>(&self, reading: &Reading<N, T>) -> [T; MAX_CHANNELS] {
+    pub fn row_of<T: Real>(&self, passed: &RowPassed<N, T>) -> [T; MAX_CHANNELS] {
+        let channels = const { Channels { wheels: N } };
+        let reading = &passed.reading;
         let mut row = [T::zero(); MAX_CHANNELS];
         for j in 0..N {
-            row[j] = if self.unsigned_current { reading.current[j].abs() } else { reading.current[j] };
-            row[N + j] = reading.wheel_speed[j];
+            row[channels.current(j)] =
+                if self.unsigned_current { reading.current[j].abs() } else { reading.current[j] };
+            row[channels.wheel_speed(j)] = reading.wheel_speed[j];
         }
-        row[2 * N] = reading.pose.x;
-        row[2 * N + 1] = reading.pose.y;
-        row[2 * N + 2] = reading.pose.theta;
+        let [x, y, heading] = channels.pose();
+        (row[x], row[y], row[heading]) = (reading.pose.x, reading.pose.y, reading.pose.theta);
+        row[channels.gyro()] = reading.gyro;
+        row[channels.battery()] = passed.load_drop;
         row
     }
 
@@ -294,7 +290,7 @@ impl<const N: usize> AlignedRun<N> {
     #[inline]
     pub fn error(&self, row: usize, channel: usize, predicted: f64) -> f64 {
         let mut error = self.measured[row][channel] - predicted;
-        if channel == 2 * N + 2 {
+        if channel == Self::channels().heading() {
             error -= std::f64::consts::TAU * (error / std::f64::consts::TAU).round();
         }
         error / self.sigma[channel]

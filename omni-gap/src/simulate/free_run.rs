@@ -5,10 +5,11 @@
 use model_core::effects::EffectState;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
-use model_core::plant::{Input, Plant, Reading, State};
+use model_core::plant::{Input, Plant, State};
 
 use super::aligned_run::AlignedRun;
 use super::effort;
+use super::row_passed::RowPassed;
 use super::start::start_at;
 
 /// A plant on its way along a recording.
@@ -19,15 +20,6 @@ pub struct FreeRun<'a, const N: usize, T: Real> {
     state: State<N, T>,
     memory: Vec<EffectState<T>>,
     steps_taken: u64,
-}
-
-/// What the plant says on a row.
-#[derive(Clone, Copy, Debug)]
-pub struct RowPassed<const N: usize, T: Real> {
-    /// What sensors read at the row's beginning.
-    pub reading: Reading<N, T>,
-    /// Bus voltage in its first step [V]
-    pub bus: T,
 }
 
 impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
@@ -76,12 +68,13 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
         let steps = self.run.steps(row);
         self.steps_taken += steps as u64;
         let dt = T::lit(self.run.dt[row] / steps as f64);
+        let unloaded = self.plant.open_circuit_voltage(&self.state, &self.memory);
         let reading = self.plant.step(&mut self.state, &mut self.memory, input, dt);
         let bus = self.state.bus;
         for _ in 1..steps {
             self.plant.step(&mut self.state, &mut self.memory, input, dt);
         }
-        RowPassed { reading, bus }
+        RowPassed { reading, bus, load_drop: bus - unloaded }
     }
 }
 

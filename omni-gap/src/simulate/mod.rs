@@ -7,6 +7,7 @@
 //! on.
 
 mod aligned_run;
+mod channels;
 mod drivable;
 mod effort;
 mod excite;
@@ -16,25 +17,30 @@ mod halls;
 mod keys;
 mod limits;
 mod model;
+mod open_circuit;
 mod predict;
 mod record;
+mod row_passed;
 mod script;
 mod sensing;
 mod sensitivity;
 mod start;
 mod terms;
+mod white_noise;
 
-pub use aligned_run::{AlignedRun, Chain, Channels, MAX_CHANNELS, Row, supply_seen};
+pub use aligned_run::{AlignedRun, Chain, supply_seen};
+pub use channels::{Channels, MAX_CHANNELS, PerGroup, Row, SignalGroup};
 pub use drivable::drivable;
 pub use effort::steps_taken;
 pub use excite::{Excitation, excite};
 pub use floor::{Floor, floor_of};
-pub use free_run::{FreeRun, RowPassed, free_run};
+pub use free_run::{FreeRun, free_run};
 pub use keys::{NOMINAL_KEYS, NominalKey};
 pub use limits::{Allowed, Lowered, USUAL_FIELD, allowed, usual_voltage};
 pub use model::{EffectInstance, Model, ROOM_FOR_CAUSES, Slot, robot_of};
 pub use predict::{HORIZON_S, Prediction, predict, restart_rows};
 pub use record::{SensorSetup, SpeedSensor, record};
+pub use row_passed::RowPassed;
 pub use script::{AXES, Experiment, Plan, Script, along, scripts};
 pub use sensing::Sensing;
 pub use sensitivity::{AxisSensitivity, CurvePoint, Influence, PAPER_VOLTAGE, Sensitivity, StepPlan, sensitivity};

@@ -4,7 +4,8 @@
 
 use model_core::plant::Plant;
 
-use super::aligned_run::{AlignedRun, MAX_CHANNELS, Row};
+use super::aligned_run::AlignedRun;
+use super::channels::{PerGroup, Row, SignalGroup};
 use super::free_run::free_run;
 
 /// Time between restarts of the free runs by which a gap is measured [s]
@@ -15,8 +16,6 @@ pub const HORIZON_S: f64 = 0.5;
 pub struct Prediction {
     /// One row of channels a row of the run.
     pub rows: Vec<Row>,
-    /// Yaw rate of every row [rad/s]
-    pub gyro: Vec<f64>,
     /// Bus voltage of every row [V]
     pub bus: Vec<f64>,
     /// The rows at which the free run restarted.
@@ -40,33 +39,30 @@ pub fn restart_rows(t: &[f64], horizon: f64) -> Vec<usize> {
 pub fn predict<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horizon: f64) -> Prediction {
     let restarts = restart_rows(&run.t, horizon);
     let mut rows = Vec::with_capacity(run.rows());
-    let (mut gyro, mut bus) = (Vec::with_capacity(run.rows()), Vec::with_capacity(run.rows()));
+    let mut bus = Vec::with_capacity(run.rows());
     free_run(
         plant,
         run,
         &restarts,
         |row| run.input(row),
         |_, passed| {
-            rows.push(run.row_of(&passed.reading));
-            gyro.push(passed.reading.gyro);
+            rows.push(run.row_of(passed));
             bus.push(passed.bus);
         },
     );
-    Prediction { rows, gyro, bus, restarts }
+    Prediction { rows, bus, restarts }
 }
 
 impl Prediction {
-    /// Sum of squared errors [σ²] and their number, per group `i`, `w`, `pose`.
-    pub fn squares<const N: usize>(&self, run: &AlignedRun<N>) -> [(f64, f64); 3] {
-        let mut sums = [(0.0, 0.0); 3];
+    /// Sum of squared errors [σ²] and their number, of each group.
+    pub fn squares<const N: usize>(&self, run: &AlignedRun<N>) -> PerGroup<(f64, f64)> {
+        let channels = AlignedRun::<N>::channels();
+        let mut sums = [(0.0, 0.0); SignalGroup::COUNT];
         for (row, predicted) in self.rows.iter().enumerate() {
-            for c in 0..MAX_CHANNELS.min(2 * N + 3) {
-                if run.saw(row, c) {
-                    let e = run.error(row, c, predicted[c]);
-                    let group = &mut sums[(c / N).min(2)];
-                    group.0 += e * e;
-                    group.1 += 1.0;
-                }
+            for c in (0..channels.count()).filter(|c| run.saw(row, *c)) {
+                let e = run.error(row, c, predicted[c]);
+                let group = &mut sums[channels.group(c) as usize];
+                *group = (group.0 + e * e, group.1 + 1.0);
             }
         }
         sums

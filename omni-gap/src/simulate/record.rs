@@ -24,6 +24,10 @@ pub struct SensorSetup {
     pub camera_correlation: f64,
     /// Where wheel speeds come from.
     pub speed: SpeedSensor,
+    /// Whether the yaw rate is logged too, as a gyro tells it
+    pub gyro: bool,
+    /// Whether the bus voltage is logged too
+    pub battery: bool,
 }
 
 /// Where wheel speeds come from.
@@ -50,9 +54,15 @@ impl Default for SensorSetup {
             sensors: SensorsFile::default(),
             camera_correlation: 0.0,
             speed: SpeedSensor::Encoder,
+            gyro: false,
+            battery: false,
         }
     }
 }
+
+/// Noise of a gyro and of a battery reading whose robot file states none [rad/s] [V]
+const GYRO_NOISE_RAD_S: f64 = 0.01;
+const BATTERY_NOISE_V: f64 = 0.05;
 
 /// Drives the plant with one input a row, `dt` [s] long, and records what its sensors say.
 ///
@@ -66,15 +76,17 @@ pub fn record<const N: usize>(
     how: &SensorSetup,
     seed: u64,
 ) -> Run {
+    let rows = t.len();
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut noise = |sigma: f64| {
         let x: f64 = StandardNormal.sample(&mut random);
         sigma * x
     };
     let mut gaps = ChaCha8Rng::seed_from_u64(seed ^ 0x9e37_79b9_7f4a_7c15);
+    let mut beside = ChaCha8Rng::seed_from_u64(seed ^ 0x6a09_e667_f3bc_c908);
+    let (mut gyro, mut vbat) = (Channel::with_capacity(rows), Channel::with_capacity(rows));
     let mut memory = plant.memory().collect::<Vec<_>>();
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
-    let rows = t.len();
     let step = if rows > 1 { (t[rows - 1] - t[0]) / (rows - 1) as f64 } else { 0.0 };
     let mut i = vec![Channel::with_capacity(rows); N];
     let mut w = vec![Channel::with_capacity(rows); N];
@@ -86,6 +98,9 @@ pub fn record<const N: usize>(
         let steps = if step > 0.0 { (length / step * how.steps_a_row as f64).round().max(1.0) as usize } else { 1 };
         let dt = length / steps as f64;
         let reading: Reading<N, f64> = plant.step(&mut state, &mut memory, held, dt);
+        let mut of = |sigma: f64| -> f64 { sigma * Distribution::<f64>::sample(&StandardNormal, &mut beside) };
+        gyro.push(reading.gyro + of(how.sensors.gyro_noise_rad_s.unwrap_or(GYRO_NOISE_RAD_S)));
+        vbat.push(state.bus + of(how.sensors.battery_noise_v.unwrap_or(BATTERY_NOISE_V)));
         for j in 0..N {
             i[j].push(reading.current[j] + noise(how.sensors.current_noise_a));
             let speed_noise = noise(how.sensors.wheel_speed_noise_rad_s);
@@ -148,6 +163,8 @@ pub fn record<const N: usize>(
         i: Some(Group::new(i)),
         w: (how.speed != SpeedSensor::None).then(|| Group::new(w)),
         pose: Some(Group::new(pose)),
+        gyro: how.gyro.then_some(gyro),
+        vbat: how.battery.then_some(vbat),
         ..Run::default()
     };
     if input.iter().any(opens) {

@@ -49,9 +49,10 @@ impl Sensing {
                 wheel_speed_noise_rad_s: 0.15,
                 position_noise_m: 0.002,
                 heading_noise_rad: 0.5_f64.to_radians(),
+                ..SensorsFile::SILENT
             },
-            camera_correlation: 0.0,
             speed: SpeedSensor::Encoder,
+            ..SensorSetup::default()
         };
         match self {
             Self::Paper => SensorSetup {

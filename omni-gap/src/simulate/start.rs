@@ -72,11 +72,11 @@ fn smooth(t: &[f64], row: usize, half: f64, sample: impl Fn(usize) -> Option<f64
 
 /// The smoothed measurement at a row.
 pub fn start_at<const N: usize>(run: &AlignedRun<N>, row: usize) -> Start<N> {
-    let t = &run.t;
+    let (t, channels) = (&run.t, AlignedRun::<N>::channels());
     let channel = |c: usize, half: f64| smooth(t, row, half, move |k| run.saw(k, c).then(|| run.measured[k][c]));
     let mut wheel_speed = Some([0.0; N]);
     for j in 0..N {
-        wheel_speed = wheel_speed.zip(channel(N + j, SPEED_HALF_S)).map(|(mut w, line)| {
+        wheel_speed = wheel_speed.zip(channel(channels.wheel_speed(j), SPEED_HALF_S)).map(|(mut w, line)| {
             w[j] = line.value;
             w
         });
@@ -84,11 +84,11 @@ pub fn start_at<const N: usize>(run: &AlignedRun<N>, row: usize) -> Start<N> {
     if wheel_speed.is_none() && matches!(run.chain, super::Chain::WheelSpeed | super::Chain::SetSpeed) {
         wheel_speed = Some(run.input[row]);
     }
-    let axis = |a: usize| channel(2 * N + a, POSE_HALF_S);
+    let axis = |a: usize| channel(channels.pose()[a], POSE_HALF_S);
     let lines = axis(0).zip(axis(1)).zip(axis(2)).map(|((x, y), theta)| [x, y, theta]);
     let pose = lines.map(|lines| (lines.map(|l| l.value), lines.map(|l| l.slope)));
     let pose_spread = lines.map(|lines| lines[0].spread);
-    let gyro = smooth(t, row, SPEED_HALF_S, |k| run.gyro[k]).map(|g| g.value);
+    let gyro = channel(channels.gyro(), SPEED_HALF_S).map(|g| g.value);
     Start { time: t[row], wheel_speed, pose, pose_spread, gyro }
 }
 

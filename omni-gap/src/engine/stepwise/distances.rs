@@ -6,8 +6,8 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::engine::findings::{Gap, HorizonError, Shrink, SignalGap};
 use crate::engine::knobs::MeasureKnobs;
-use crate::localise::{GROUPS, Measured, floor, measure};
-use crate::simulate::AlignedRun;
+use crate::localise::{Measured, floor, measure};
+use crate::simulate::{AlignedRun, SignalGroup};
 
 /// The plants that are measured against each other.
 #[derive(Debug)]
@@ -35,10 +35,10 @@ pub(super) fn shrink<const N: usize>(
     let least = floor(corrected, held, horizon);
     let curves = curves(plants, held, knobs);
     let mut gap = Gap { horizons_s: curves.iter().map(|c| c.horizon_s).collect(), curves, ..Gap::default() };
-    let of = |m: &Measured, g: usize| m.groups()[g].unwrap_or(0.0);
-    for (g, name) in GROUPS.iter().enumerate().filter(|(g, _)| before.groups()[*g].is_some()) {
-        let signal = SignalGap { before: of(&before, g), after: of(&after, g), noise_floor: of(&least, g) };
-        gap.signals.insert((*name).to_owned(), signal);
+    let of = |m: &Measured, group: SignalGroup| m.groups()[group as usize].unwrap_or(0.0);
+    for group in SignalGroup::ALL.into_iter().filter(|group| before.groups()[*group as usize].is_some()) {
+        let signal = SignalGap { before: of(&before, group), after: of(&after, group), noise_floor: of(&least, group) };
+        gap.signals.insert(group.name().to_owned(), signal);
     }
     let room = before.total() - least.total();
     let closed_by = |total: f64| (room >= too_small).then(|| (before.total() - total) / room);

@@ -4,24 +4,24 @@ use model_core::effects::EffectKind;
 
 use super::scored::Data;
 use super::search::Search;
-use crate::simulate::Chain;
+use crate::simulate::{Chain, SignalGroup};
 
 /// What this recording could not have shown.
 pub(super) fn not_seen<const N: usize>(search: &Search<N>, data: &Data<'_, N>) -> Vec<String> {
     let mut lines = Vec::new();
-    let missing = |group: &str| !data.fit.iter().any(|run| run.has_group(group));
+    let missing = |group: SignalGroup| !data.fit.iter().any(|run| run.has_group(group));
     let by_speed = matches!(data.fit[0].chain, Chain::WheelSpeed | Chain::SetSpeed);
     if by_speed {
         lines.push(
             "voltages, currents and forces: the model is driven by wheel speeds and says nothing of them".to_owned(),
         );
-    } else if missing("i") {
+    } else if missing(SignalGroup::Current) {
         lines.push("the electrical stage by itself: no current to compare is logged".to_owned());
     }
-    if missing("w") {
+    if missing(SignalGroup::WheelSpeed) {
         lines.push("slip and drivetrain apart from the body: no measured wheel speed to compare".to_owned());
     }
-    if missing("pose") {
+    if missing(SignalGroup::Pose) {
         lines.push("the contact and the camera: no pose is logged".to_owned());
     }
     let screened = &search.rounds[0].screened;

@@ -9,11 +9,21 @@ use super::settle::stage_of;
 use crate::engine::findings::{Regime, Where};
 use crate::engine::knobs::PlacesKnobs;
 use crate::localise::{Hotspot, Link, links, regimes};
-use crate::simulate::{AlignedRun, Model, Prediction, predict};
+use crate::simulate::{AlignedRun, Model, Prediction, SignalGroup, predict};
 use crate::vocabulary::{Axis, Stage};
 
 /// The places of the gap, the largest first.
 pub(super) fn places<const N: usize>(search: &Search<N>, nominal: &Model<N>, data: &Data<'_, N>) -> Vec<Where> {
+    if let Some(group) = search.beside {
+        let found = search.found.first().map(|found| stage_of(found.cause.id()));
+        return vec![Where {
+            stage: found.unwrap_or(at_the_end_of(group)),
+            axis: None,
+            wheel: None,
+            share: 1.0,
+            regime: None,
+        }];
+    }
     let (knobs, horizon) = (&data.knobs.places, data.knobs.measure.horizon_s);
     // what lies within stated uncertainty is not where an effect sits; a wrong parameter is all there is to see
     let effect = search.found.iter().any(|f| matches!(f.cause, Cause::Effect(..)));
@@ -49,6 +59,15 @@ pub(super) fn places<const N: usize>(search: &Search<N>, nominal: &Model<N>, dat
         first.regime = hot.map(regime);
     }
     places
+}
+
+/// The stage that a gap in one group alone belongs to where no cause says more.
+fn at_the_end_of(group: SignalGroup) -> Stage {
+    match group {
+        SignalGroup::Current | SignalGroup::Battery => Stage::Electrical,
+        SignalGroup::WheelSpeed => Stage::Drivetrain,
+        SignalGroup::Pose | SignalGroup::Gyro => Stage::Sensing,
+    }
 }
 
 fn regime(spot: Hotspot) -> Regime {
@@ -97,19 +116,21 @@ fn standing_out<const N: usize>(
     let mut by_wheel = vec![0.0; N];
     let mut by_axis = [0.0; 3];
     let wheels = &model.robot().wheels;
+    let channels = AlignedRun::<N>::channels();
     let lever: f64 = wheels.rows().iter().map(|r| r[2] * r[2]).sum::<f64>() / N as f64;
     for (run, prediction) in runs {
         for (row, p) in prediction.rows.iter().enumerate() {
             let mut speed = [0.0; N];
             let mut whole = true;
             for j in 0..N {
-                for c in [j, N + j] {
+                let w = channels.wheel_speed(j);
+                for c in [channels.current(j), w] {
                     if run.saw(row, c) {
                         by_wheel[j] += run.error(row, c, p[c]).powi(2);
                     }
                 }
-                whole &= run.saw(row, N + j);
-                speed[j] = run.error(row, N + j, p[N + j]);
+                whole &= run.saw(row, w);
+                speed[j] = run.error(row, w, p[w]);
             }
             if whole {
                 let BodyTwist { v, vn, w } = wheels.twist_of_wheel_speeds(speed);

@@ -5,8 +5,8 @@ use super::candidate::Cause;
 use super::round::{Ranking, explain};
 use super::scored::{Data, Scored};
 use crate::engine::knobs::OutcomeKnobs;
-use crate::localise::{floor, measure};
-use crate::simulate::{Model, ROOM_FOR_CAUSES};
+use crate::localise::{Measured, floor, measure};
+use crate::simulate::{Model, ROOM_FOR_CAUSES, SignalGroup};
 use crate::vocabulary::Progress;
 
 /// A cause of the corrected model.
@@ -36,6 +36,8 @@ pub enum Outcome {
 pub struct Search<const N: usize> {
     /// What the data say.
     pub outcome: Outcome,
+    /// The group beside the totals that they were judged by, where the totals show no gap and it does.
+    pub beside: Option<SignalGroup>,
     /// The causes, the one that explains most first.
     pub found: Vec<Found>,
     /// The model with these causes.
@@ -96,26 +98,37 @@ pub fn search<const N: usize>(data: &Data<'_, N>, nominal: &Model<N>, progress: 
         found.push(Found { cause: best.cause, not_told_apart_from, round: rounds.len() - 1 });
     }
     progress("measuring the gap");
-    let (outcome, closed) = outcome(data, nominal, &refitted, &current, &found);
-    Search { outcome, found, corrected: current, refitted, rounds, closed }
+    let Judged { outcome, beside, closed } = judged(data, nominal, &refitted, &current, &found);
+    Search { outcome, beside, found, corrected: current, refitted, rounds, closed }
+}
+
+/// What the causes found come to.
+struct Judged {
+    outcome: Outcome,
+    beside: Option<SignalGroup>,
+    closed: f64,
 }
 
 /// Whether the causes found explain the gap, and which share of it they close.
-fn outcome<const N: usize>(
+fn judged<const N: usize>(
     data: &Data<'_, N>,
     nominal: &Model<N>,
     refitted: &Scored<N>,
     corrected: &Scored<N>,
     found: &[Found],
-) -> (Outcome, f64) {
+) -> Judged {
     let OutcomeKnobs { least_closed, inadequate, inadequate_parameters } = data.knobs.outcome;
     let horizon = data.knobs.measure.horizon_s;
-    let total = |model: &Model<N>| measure(&model.plant(), &data.held, horizon).total();
-    let (before, after) = (total(&refitted.fit.model), total(&corrected.fit.model));
-    let least = floor(&corrected.fit.model.plant(), &data.held, horizon).total();
+    let error = |model: &Model<N>| measure(&model.plant(), &data.held, horizon);
+    let (before, after) = (error(&refitted.fit.model), error(&corrected.fit.model));
+    let least = floor(&corrected.fit.model.plant(), &data.held, horizon);
+    let beside = beside_the_totals(&before, &least, inadequate);
+    let of =
+        |error: &Measured| beside.map_or_else(|| error.total(), |group| error.groups()[group as usize].unwrap_or(0.0));
+    let (after, least) = (of(&after), of(&least));
     let parameters_only = !found.is_empty() && found.iter().all(|f| matches!(f.cause, Cause::Parameter(_)));
     // a re-fit within what was stated already leans towards a wrong parameter's true value
-    let from = if parameters_only { total(nominal) } else { before };
+    let from = if parameters_only { of(&error(nominal)) } else { of(&before) };
     let closed = if from > least { ((from - after) / (from - least)).clamp(0.0, 1.0) } else { 1.0 };
     let outcome = if found.is_empty() {
         if after > inadequate * least { Outcome::Unknown } else { Outcome::NoGap }
@@ -126,5 +139,16 @@ fn outcome<const N: usize>(
     } else {
         Outcome::Explained
     };
-    (outcome, closed)
+    Judged { outcome, beside, closed }
+}
+
+/// Where the plain model leaves no gap in the totals, the group beside them in which it leaves the largest, if any.
+fn beside_the_totals(before: &Measured, least: &Measured, inadequate: f64) -> Option<SignalGroup> {
+    if before.total() > inadequate * least.total() {
+        return None;
+    }
+    let over_floor = |group: SignalGroup| Some(before.groups()[group as usize]? / least.groups()[group as usize]?);
+    let beside = SignalGroup::ALL.into_iter().filter(|group| !group.in_totals());
+    let gaps = beside.filter_map(|group| Some((group, over_floor(group).filter(|over| *over > inadequate)?)));
+    gaps.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(group, _)| group)
 }

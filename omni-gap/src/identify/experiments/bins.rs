@@ -6,7 +6,7 @@
 use model_core::geometry::frames::{BodyTwist, Pose, WorldTwist};
 use model_core::geometry::kinematics::Wheels;
 
-use crate::simulate::AlignedRun;
+use crate::simulate::{AlignedRun, SignalGroup};
 
 /// A stretch of a run.
 #[derive(Clone, Copy, Debug)]
@@ -25,8 +25,9 @@ pub(super) struct Bin<const N: usize> {
 
 /// The run in stretches of `length` [s] or the next longer that ends with a camera frame.
 pub(super) fn bins<const N: usize>(run: &AlignedRun<N>, wheels: &Wheels<N, f64>, length: f64) -> Vec<Bin<N>> {
-    let by_wheels = run.has_group("w");
-    let seen = |row: usize| by_wheels || (0..3).all(|c| run.saw(row, 2 * N + c));
+    let channels = AlignedRun::<N>::channels();
+    let by_wheels = run.has_group(SignalGroup::WheelSpeed);
+    let seen = |row: usize| by_wheels || channels.pose().into_iter().all(|c| run.saw(row, c));
     let mut bins = Vec::new();
     let mut from = match (0..run.rows()).find(|row| seen(*row)) {
         Some(row) => row,
@@ -64,9 +65,10 @@ fn bin<const N: usize>(run: &AlignedRun<N>, rows: (usize, usize), twist: [f64; 3
 
 /// Way over time between two frames, in the axes of the heading in between.
 fn of_frames<const N: usize>(run: &AlignedRun<N>, from: usize, to: usize) -> [f64; 3] {
-    let pose = |row: usize| [0, 1, 2].map(|c| run.measured[row][2 * N + c]);
+    let channels = AlignedRun::<N>::channels();
+    let (pose, theta) = (|row: usize| channels.pose().map(|c| run.measured[row][c]), channels.heading());
     let (a, b, dt) = (pose(from), pose(to), run.t[to] - run.t[from]);
-    let mut headings = (from..=to).filter(|row| run.saw(*row, 2 * N + 2)).map(|row| run.measured[row][2 * N + 2]);
+    let mut headings = (from..=to).filter(|row| run.saw(*row, theta)).map(|row| run.measured[row][theta]);
     let first = headings.next().unwrap_or(a[2]);
     let (sum, count) = headings.fold((first, 1.0), |(sum, n), theta| (sum + theta, n + 1.0));
     let world = WorldTwist { x: (b[0] - a[0]) / dt, y: (b[1] - a[1]) / dt, w: (b[2] - a[2]) / dt };
@@ -80,16 +82,16 @@ const SILENCE: f64 = 0.1;
 fn of_wheels<const N: usize>(run: &AlignedRun<N>, wheels: &Wheels<N, f64>, from: usize, to: usize) -> Option<[f64; 3]> {
     let mut speed = [0.0; N];
     for (j, mean) in speed.iter_mut().enumerate() {
+        let w = AlignedRun::<N>::channels().wheel_speed(j);
         // a sample on the border belongs half to each side
         let share = |row: usize| if row == from || row == to { 0.5 } else { 1.0 };
-        let told = (from..=to).filter(|row| run.saw(*row, N + j));
-        let (sum, n) =
-            told.fold((0.0, 0.0), |(sum, n), row| (sum + share(row) * run.measured[row][N + j], n + share(row)));
+        let told = (from..=to).filter(|row| run.saw(*row, w));
+        let (sum, n) = told.fold((0.0, 0.0), |(sum, n), row| (sum + share(row) * run.measured[row][w], n + share(row)));
         *mean = match n {
             0.0 => {
                 let first = run.t.partition_point(|t| *t < run.t[from] - SILENCE);
                 let end = run.t.partition_point(|t| *t < run.t[to] + SILENCE);
-                if (first..end).any(|row| run.saw(row, N + j)) {
+                if (first..end).any(|row| run.saw(row, w)) {
                     return None;
                 }
                 0.0

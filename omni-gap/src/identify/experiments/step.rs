@@ -16,7 +16,7 @@
 
 use super::bins::{Bin, bins};
 use super::regress::{Estimate, Rows, jackknife};
-use crate::simulate::{AXES, AlignedRun, FreeRun, Model, Slot};
+use crate::simulate::{AXES, AlignedRun, FreeRun, Model, SignalGroup, Slot};
 use model_core::plant::robot::{Nominal, Robot};
 
 /// Length of a stretch over which a velocity is taken [s]: by a camera, by wheel speeds
@@ -106,7 +106,7 @@ fn six_of<const N: usize>(model: &Model<N>) -> Six {
 }
 
 fn stretch<const N: usize>(run: &AlignedRun<N>) -> f64 {
-    if run.has_group("w") { STRETCH.1 } else { STRETCH.0 }
+    if run.has_group(SignalGroup::WheelSpeed) { STRETCH.1 } else { STRETCH.0 }
 }
 
 /// The axis that a run is about: `step-vn-50-1` is about vn.

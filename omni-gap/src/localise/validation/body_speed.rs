@@ -6,7 +6,7 @@ use model_core::geometry::frames::{Pose, WorldTwist};
 use model_core::geometry::kinematics::Wheels;
 
 use super::model::SpeedsFrom;
-use crate::simulate::{AlignedRun, start_at};
+use crate::simulate::{AlignedRun, SignalGroup, start_at};
 
 /// The speeds of one row.
 #[derive(Clone, Copy, Debug)]
@@ -19,10 +19,17 @@ pub(super) struct BodySpeed {
 
 /// What the speeds of a run are to be taken from: the wheel speeds where they are compared, else the pose.
 pub(super) fn source<const N: usize>(run: &AlignedRun<N>) -> Option<SpeedsFrom> {
-    let all_on_a_row = |first: usize, count: usize| {
-        (0..run.rows()).any(|row| (first..first + count).all(|channel| run.saw(row, channel)))
-    };
-    if all_on_a_row(N, N) { Some(SpeedsFrom::WheelSpeeds) } else { all_on_a_row(2 * N, 3).then_some(SpeedsFrom::Pose) }
+    let all_on_a_row = |group| (0..run.rows()).any(|row| saw_all(run, row, group));
+    if all_on_a_row(SignalGroup::WheelSpeed) {
+        Some(SpeedsFrom::WheelSpeeds)
+    } else {
+        all_on_a_row(SignalGroup::Pose).then_some(SpeedsFrom::Pose)
+    }
+}
+
+/// True if every channel of a group was measured on a row.
+fn saw_all<const N: usize>(run: &AlignedRun<N>, row: usize, group: SignalGroup) -> bool {
+    AlignedRun::<N>::channels().of(group).all(|channel| run.saw(row, channel))
 }
 
 /// The speeds of every row on which their sensors spoke.
@@ -33,12 +40,12 @@ pub(super) fn body_speeds<const N: usize>(
 ) -> Vec<Option<BodySpeed>> {
     match from {
         SpeedsFrom::WheelSpeeds => {
-            let sigma = sigma_of_wheels(run, wheels);
+            let (sigma, channels) = (sigma_of_wheels(run, wheels), AlignedRun::<N>::channels());
             (0..run.rows())
                 .map(|row| {
-                    let saw = (N..2 * N).all(|channel| run.saw(row, channel));
-                    let speeds = std::array::from_fn(|j| run.measured[row][N + j]);
-                    saw.then(|| BodySpeed { speed: wheels.twist_of_wheel_speeds(speeds).to_array(), sigma })
+                    let speeds = std::array::from_fn(|j| run.measured[row][channels.wheel_speed(j)]);
+                    saw_all(run, row, SignalGroup::WheelSpeed)
+                        .then(|| BodySpeed { speed: wheels.twist_of_wheel_speeds(speeds).to_array(), sigma })
                 })
                 .collect()
         }
@@ -51,7 +58,8 @@ fn sigma_of_wheels<const N: usize>(run: &AlignedRun<N>, wheels: &Wheels<N, f64>)
     // the twist is linear in the wheel speeds: σ² = Σ_j (∂twist/∂w_j)²·σ_j²
     let mut variance = [0.0; 3];
     for j in 0..N {
-        let one = std::array::from_fn(|k| if k == j { run.sigma[N + j] } else { 0.0 });
+        let one =
+            std::array::from_fn(|k| if k == j { run.sigma[AlignedRun::<N>::channels().wheel_speed(j)] } else { 0.0 });
         let share = wheels.twist_of_wheel_speeds(one).to_array();
         variance.iter_mut().zip(share).for_each(|(v, s)| *v += s * s);
     }
@@ -59,7 +67,7 @@ fn sigma_of_wheels<const N: usize>(run: &AlignedRun<N>, wheels: &Wheels<N, f64>)
 }
 
 fn from_pose<const N: usize>(run: &AlignedRun<N>, row: usize) -> Option<BodySpeed> {
-    if !(2 * N..2 * N + 3).all(|channel| run.saw(row, channel)) {
+    if !saw_all(run, row, SignalGroup::Pose) {
         return None;
     }
     let start = start_at(run, row);
@@ -67,6 +75,6 @@ fn from_pose<const N: usize>(run: &AlignedRun<N>, row: usize) -> Option<BodySpee
     let spread = start.pose_spread.filter(|s| *s > 0.0)?.sqrt();
     let pose = Pose { x: at[0], y: at[1], theta: at[2] };
     let speed = pose.to_body(WorldTwist { x: rate[0], y: rate[1], w: rate[2] }).to_array();
-    let (position, heading) = (run.sigma[2 * N] / spread, run.sigma[2 * N + 2] / spread);
-    Some(BodySpeed { speed, sigma: [position, position, heading] })
+    let [x, _, theta] = AlignedRun::<N>::channels().pose().map(|channel| run.sigma[channel] / spread);
+    Some(BodySpeed { speed, sigma: [x, x, theta] })
 }

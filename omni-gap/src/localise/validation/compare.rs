@@ -6,7 +6,7 @@ use super::body_speed::{body_speeds, source};
 use super::figures::{Pair, Sums};
 use super::model::{RunFigures, SpeedsFrom};
 use super::signal::Signal;
-use crate::simulate::{AlignedRun, Chain, MAX_CHANNELS, predict, start_at};
+use crate::simulate::{AlignedRun, Chain, SignalGroup, predict, start_at};
 
 /// One signal over the rows of a run, in its SI unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,10 +51,10 @@ impl Compared {
             }));
         }
         let begins_somewhere = start_at(run, 0).pose.is_some();
-        if !begins_somewhere && run.has_group("pose") {
+        if !begins_somewhere && run.has_group(SignalGroup::Pose) {
             not_compared.push("x_m, y_m, theta_rad: no pose was measured where the run begins".to_owned());
         }
-        for c in 0..MAX_CHANNELS.min(2 * N + 3) {
+        for c in 0..AlignedRun::<N>::channels().count() {
             let signal = Signal::of_channel(c, N);
             let seen = (0..run.rows()).any(|row| run.saw(row, c));
             if seen && (begins_somewhere || !signal.is_pose()) {

@@ -3,8 +3,8 @@
 use model_core::plant::Plant;
 
 use super::model::{GroupError, HorizonFigures};
-use crate::localise::{GROUPS, floor, measure};
-use crate::simulate::AlignedRun;
+use crate::localise::{floor, measure};
+use crate::simulate::{AlignedRun, SignalGroup};
 
 pub(super) fn curves<const N: usize>(
     plant: &Plant<N, f64>,
@@ -18,9 +18,8 @@ pub(super) fn curves<const N: usize>(
     let at = |horizon_s: f64| {
         let (error, least) = (measure(plant, runs, horizon_s), floor(plant, runs, horizon_s));
         let both = error.groups().into_iter().zip(least.groups());
-        let groups = GROUPS.iter().zip(both).filter_map(|(name, (error, least))| {
-            let group = GroupError { rms_sigma: error?, noise_floor_sigma: least? };
-            Some(((*name).to_owned(), group))
+        let groups = SignalGroup::ALL.into_iter().zip(both).filter_map(|(group, (error, least))| {
+            Some((group.name().to_owned(), GroupError { rms_sigma: error?, noise_floor_sigma: least? }))
         });
         HorizonFigures {
             horizon_s,

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::simulate::{Channels, SignalGroup};
+
 /// A signal; its name in files carries its unit, as in the logs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
@@ -22,15 +24,21 @@ pub enum Signal {
     Y,
     /// Heading in the world [rad]
     Heading,
+    /// Yaw rate by the gyro [rad/s]
+    Gyro,
+    /// What the load takes off the bus voltage [V]
+    Battery,
 }
 
-const PLAIN: [(Signal, &str); 6] = [
+const PLAIN: [(Signal, &str); 8] = [
     (Signal::V, "v_m_s"),
     (Signal::Vn, "vn_m_s"),
     (Signal::Omega, "omega_rad_s"),
     (Signal::X, "x_m"),
     (Signal::Y, "y_m"),
     (Signal::Heading, "theta_rad"),
+    (Signal::Gyro, "gyro_rad_s"),
+    (Signal::Battery, "vbat_V"),
 ];
 
 impl Signal {
@@ -41,10 +49,11 @@ impl Signal {
     pub fn unit(self) -> &'static str {
         match self {
             Signal::V | Signal::Vn => "m/s",
-            Signal::Omega | Signal::WheelSpeed(_) => "rad/s",
+            Signal::Omega | Signal::WheelSpeed(_) | Signal::Gyro => "rad/s",
             Signal::Current(_) => "A",
             Signal::X | Signal::Y => "m",
             Signal::Heading => "rad",
+            Signal::Battery => "V",
         }
     }
 
@@ -55,10 +64,14 @@ impl Signal {
 
     /// The signal of a channel of a recording with this many wheels.
     pub fn of_channel(channel: usize, wheels: usize) -> Signal {
-        match channel {
-            c if c < wheels => Signal::Current(c),
-            c if c < 2 * wheels => Signal::WheelSpeed(c - wheels),
-            c => [Signal::X, Signal::Y, Signal::Heading][(c - 2 * wheels).min(2)],
+        let channels = Channels { wheels };
+        let (group, at) = (channels.group(channel), channel - channels.of(channels.group(channel)).start);
+        match group {
+            SignalGroup::Current => Signal::Current(at),
+            SignalGroup::WheelSpeed => Signal::WheelSpeed(at),
+            SignalGroup::Pose => [Signal::X, Signal::Y, Signal::Heading][at.min(2)],
+            SignalGroup::Gyro => Signal::Gyro,
+            SignalGroup::Battery => Signal::Battery,
         }
     }
 }
@@ -92,7 +105,7 @@ mod tests {
 
     #[test]
     fn every_signal_comes_back_from_its_name() {
-        for channel in 0..11 {
+        for channel in 0..(Channels { wheels: 4 }).count() {
             let signal = Signal::of_channel(channel, 4);
             assert_eq!(Signal::try_from(String::from(signal)), Ok(signal));
         }

@@ -12,9 +12,6 @@ const THREE: &str = include_str!("../../../../examples/feup-3w/robot.toml");
 
 /// Rows a second: each is one step of the plant, in a recording as in a simulation.
 const RATE: f64 = 500.0;
-const SILENT: SensorsFile =
-    SensorsFile { current_noise_a: 0.0, wheel_speed_noise_rad_s: 0.0, position_noise_m: 0.0, heading_noise_rad: 0.0 };
-
 fn robot(text: &str) -> RobotFile {
     RobotFile::parse(text, std::path::Path::new("robot.toml"), &Catalogue::default()).unwrap()
 }
@@ -23,8 +20,13 @@ fn robot(text: &str) -> RobotFile {
 fn recorded<const N: usize>(file: &RobotFile, volts: &[[f64; N]], name: &str) -> Run {
     let t: Vec<f64> = (0..volts.len()).map(|row| row as f64 / RATE).collect();
     let input: Vec<Input<N, f64>> = volts.iter().map(|u| Input::Voltage(*u)).collect();
-    let how =
-        SensorSetup { steps_a_row: 1, camera_rate: 1e8, dropouts: 0.0, sensors: SILENT, ..SensorSetup::default() };
+    let how = SensorSetup {
+        steps_a_row: 1,
+        camera_rate: 1e8,
+        dropouts: 0.0,
+        sensors: SensorsFile::SILENT,
+        ..SensorSetup::default()
+    };
     record(&Model::<N>::nominal(file, 8.0).plant(), name, &t, &input, &how, 1)
 }
 

@@ -7,13 +7,10 @@ use crate::report::markup::Markup;
 use crate::report::model::Report;
 use crate::report::number::{num, percent};
 use crate::report::phrases;
-use crate::simulate::HORIZON_S;
+use crate::simulate::{HORIZON_S, SignalGroup};
 
 /// The longest bar, so that its number still fits beside it (% of the row).
 const LONGEST: f64 = 84.0;
-
-/// Signal groups in signal order.
-const GROUPS: [&str; 3] = ["i", "w", "pose"];
 
 pub(super) fn how_large(m: &mut Markup, report: &Report) {
     let s = &report.shrink;
@@ -21,9 +18,10 @@ pub(super) fn how_large(m: &mut Markup, report: &Report) {
     if let (Some(before), Some(after), Some(noise_floor)) = (s.before, s.after, s.noise_floor) {
         rows.push(("total", SignalGap { before, after, noise_floor }));
     }
-    let known = GROUPS.iter().filter_map(|key| report.gap.signals.get_key_value(*key));
-    let others = report.gap.signals.iter().filter(|(key, _)| !GROUPS.contains(&key.as_str()));
-    rows.extend(known.chain(others).map(|(key, gap)| (phrases::group(key), *gap)));
+    let known = SignalGroup::ALL.map(SignalGroup::name);
+    let there = known.into_iter().filter_map(|key| report.gap.signals.get_key_value(key));
+    let others = report.gap.signals.iter().filter(|(key, _)| !known.contains(&key.as_str()));
+    rows.extend(there.chain(others).map(|(key, gap)| (phrases::group(key), *gap)));
     if rows.is_empty() {
         return;
     }

@@ -80,6 +80,8 @@ pub(super) fn short(signal: Signal) -> String {
         Signal::X => "x".into(),
         Signal::Y => "y".into(),
         Signal::Heading => "θ".into(),
+        Signal::Gyro => "ω (gyro)".into(),
+        Signal::Battery => "battery".into(),
     }
 }
 
