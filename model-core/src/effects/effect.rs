@@ -50,6 +50,9 @@ pub trait Hooks<T: Real>: Copy + Debug {
     /// What it remembers.
     type State: State<T>;
 
+    /// True if [`Hooks::contact`] needs the parameters alone: the plant then asks it once, and not in every step.
+    const SETTLES_CONTACT: bool = false;
+
     /// Battery: bus current → bus voltage.
     #[inline]
     fn supply(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Supply<T>) {}
@@ -126,6 +129,10 @@ pub trait EffectSet<T: Real>: Copy + Debug {
     fn card(&self) -> &'static Card;
     /// What it remembers before anything has happened; `None` if it never remembers anything.
     fn start(&self) -> Option<Self::State>;
+    /// [`Hooks::SETTLES_CONTACT`]
+    fn settles_contact(&self) -> bool {
+        false
+    }
     /// [`Hooks::supply`]
     fn supply(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Supply<T>);
     /// [`Hooks::bridge`]

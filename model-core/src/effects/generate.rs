@@ -41,6 +41,10 @@ macro_rules! effect_set {
                 }
             }
 
+            fn settles_contact(&self) -> bool {
+                match self { $($Set::$Variant(_) => <$Type as $crate::effects::Hooks<$n>>::SETTLES_CONTACT),* }
+            }
+
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], supply, Supply);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], bridge, Bridge);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], winding, Winding);

@@ -207,13 +207,18 @@ impl<const K: usize> DivAssign for Dual<K> {
 }
 
 impl<const K: usize> Real for Dual<K> {
+    type Plain = f64;
     #[inline]
     fn lit(x: f64) -> Self {
         Self::constant(x)
     }
     #[inline]
-    fn value(self) -> Self {
-        Self::constant(self.re)
+    fn plain(self) -> f64 {
+        self.re
+    }
+    #[inline]
+    fn from_plain(x: f64) -> Self {
+        Self::constant(x)
     }
     #[inline]
     fn index(self) -> usize {

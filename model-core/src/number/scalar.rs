@@ -33,8 +33,17 @@ pub trait Real:
 {
     /// A literal of an equation, rounded to this precision.
     fn lit(x: f64) -> Self;
+    /// The number that an iteration is done in: this one without derivatives.
+    type Plain: Real<Plain = Self::Plain>;
+    /// The value alone.
+    fn plain(self) -> Self::Plain;
+    /// A number without derivatives.
+    fn from_plain(x: Self::Plain) -> Self;
     /// The value without its derivatives; the number itself for `f32` and `f64`.
-    fn value(self) -> Self;
+    #[inline]
+    fn value(self) -> Self {
+        Self::from_plain(self.plain())
+    }
     /// The whole part of a number that is not negative, to index fixed memory with; 0 where it is negative or NaN.
     fn index(self) -> usize;
     /// True if neither infinite nor NaN.
@@ -116,6 +125,8 @@ pub trait Real:
 }
 
 impl Real for f32 {
+    type Plain = f32;
+
     #[inline]
     fn lit(x: f64) -> Self {
         x as f32
@@ -130,8 +141,12 @@ impl Real for f32 {
         f32::abs(self)
     }
     #[inline]
-    fn value(self) -> Self {
+    fn plain(self) -> f32 {
         self
+    }
+    #[inline]
+    fn from_plain(x: f32) -> Self {
+        x
     }
     #[inline]
     fn index(self) -> usize {
@@ -180,13 +195,19 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
+    type Plain = f64;
+
     #[inline]
     fn lit(x: f64) -> Self {
         x
     }
     #[inline]
-    fn value(self) -> Self {
+    fn plain(self) -> f64 {
         self
+    }
+    #[inline]
+    fn from_plain(x: f64) -> Self {
+        x
     }
     #[inline]
     fn index(self) -> usize {

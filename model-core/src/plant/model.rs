@@ -25,10 +25,29 @@ pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     pub(super) per_resistance: T,
     /// The contacts as the robot's parameters describe them.
     pub(super) contact: [Contact<T>; N],
+    /// The contacts with what the effects make of them, where that is the same in every step
+    pub(super) settled: Option<[Contact<T>; N]>,
     /// Each wheel's share of the body's Coulomb friction, as a torque at its shaft [N·m]
     pub(super) coulomb_share: [T; N],
     /// Damping of the plain model in body axes: back-EMF and viscous friction
     pub(super) plain_rate: [[T; 3]; 3],
+}
+
+/// The contacts as effects change them that look at nothing but their parameters; `None` where one looks at more.
+fn settled<const N: usize, T: Real, E: EffectSet<T>>(
+    effects: &Effects<N, T, E>,
+    mut contact: [Contact<T>; N],
+) -> Option<[Contact<T>; N]> {
+    if !effects.at(Seam::Contact).all(|active| active.effect.settles_contact()) {
+        return None;
+    }
+    for active in effects.at(Seam::Contact) {
+        for (j, contact) in contact.iter_mut().enumerate().filter(|(j, _)| active.on(*j)) {
+            active.effect.contact(&[], &EffectContext { wheel: j, ..EffectContext::default() }, contact);
+            contact.per_radius = T::one() / contact.radius;
+        }
+    }
+    Some(contact)
 }
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
@@ -63,7 +82,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         }
         let chain = [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Contact];
         let plain = chain.into_iter().all(|seam| effects.none_at(seam));
-        Self { robot, effects, plain, emf, kt, per_resistance, contact, coulomb_share, plain_rate }
+        let settled = settled(&effects, contact);
+        Self { robot, effects, plain, emf, kt, per_resistance, contact, settled, coulomb_share, plain_rate }
     }
 
     /// The robot.

@@ -6,7 +6,7 @@
 use super::model::Plant;
 use super::state::{Reading, State};
 use super::step::{Push, Source};
-use super::traction::floor_force;
+use super::traction::Floor;
 use crate::effects::EffectSet;
 use crate::geometry::frames::BodyTwist;
 use crate::number::linalg::{accumulate_outer, dot};
@@ -33,7 +33,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             let x = state.twist.to_array();
             let mut push = Push { force: [zero; 3], rate: [[zero; 3]; 3], mass: [[zero; 3]; 3], holds: false };
             for (c, speed) in contact.iter().zip(speed) {
-                let (force, slope) = floor_force(c, *speed * c.radius - dot(c.row, x));
+                let (force, slope) = Floor::of(c).force(*speed * c.radius - dot(c.row, x));
                 for axis in 0..3 {
                     push.force[axis] += c.row[axis] * force;
                 }

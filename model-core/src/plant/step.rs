@@ -68,11 +68,13 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let x = state.twist.to_array();
         let mut at = self.at(state, dt);
         let hooked;
-        let contact = if PLAIN || self.effects.none_at(Seam::Contact) {
-            &self.contact
-        } else {
-            hooked = self.contacts(&at, state, memory);
-            &hooked
+        let contact = match &self.settled {
+            Some(settled) if !PLAIN => settled,
+            None if !PLAIN => {
+                hooked = self.contacts(&at, state, memory);
+                &hooked
+            }
+            _ => &self.contact,
         };
         let rim: [T; N] = core::array::from_fn(|j| dot(contact[j].row, x));
         let bus = if PLAIN { self.robot.supply } else { self.bus(&at, state, memory, &source, contact, &rim) };

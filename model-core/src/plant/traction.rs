@@ -31,17 +31,43 @@ pub(super) struct Grip<T> {
     pub wheel_speed: T,
 }
 
-/// The force that the floor takes at a slip speed, and its slope [N, N/(m/s)].
-#[inline]
-pub(super) fn floor_force<T: Real>(c: &Contact<T>, slip: T) -> (T, T) {
-    let limit = c.grip * c.load;
-    if limit <= T::zero() {
-        // creep alone: s = c·f
-        return (slip / c.creep, T::one() / c.creep);
+/// What the floor takes of a wheel that gives way.
+#[derive(Clone, Copy)]
+pub(super) struct Floor<T> {
+    /// μ·N, the most that it takes; zero: any force [N]
+    limit: T,
+    /// Slip speed per force of the creep [(m/s)/N]
+    creep: T,
+    /// Stiffness of creep and slip in series [1/(m/s)]
+    stiffness: T,
+    /// Shape of the slip curve
+    shape: T,
+}
+
+impl<T: Real> Floor<T> {
+    /// Of a contact that does not roll rigidly.
+    #[inline]
+    pub fn of(c: &Contact<T>) -> Self {
+        let limit = c.grip * c.load;
+        // creep in series with the slip curve: 1/k = 1/k₀ + c,  k₀ = μN·B·C
+        let stiffness = c.stiffness / (T::one() + c.creep * limit * c.stiffness * c.shape);
+        Self { limit, creep: c.creep, stiffness, shape: c.shape }
     }
-    // creep in series with the slip curve: 1/k = 1/k₀ + c,  k₀ = μN·B·C
-    let stiffness = c.stiffness / (T::one() + c.creep * limit * c.stiffness * c.shape);
-    traction(limit, stiffness, c.shape, slip)
+
+    /// The force at a slip speed, and its slope [N, N/(m/s)].
+    #[inline]
+    pub fn force(&self, slip: T) -> (T, T) {
+        if self.limit <= T::zero() {
+            // creep alone: s = c·f
+            return (slip / self.creep, T::one() / self.creep);
+        }
+        traction(self.limit, self.stiffness, self.shape, slip)
+    }
+
+    fn plain(&self) -> Floor<T::Plain> {
+        let Self { limit, creep, stiffness, shape } = *self;
+        Floor { limit: limit.plain(), creep: creep.plain(), stiffness: stiffness.plain(), shape: shape.plain() }
+    }
 }
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
@@ -57,6 +83,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     ) -> Grip<T> {
         let j = at.wheel;
         let before = state.wheel_speed[j];
+        let floor = Floor::of(c);
         let rounds = if self.effects.needs_current() { 3 } else { 1 };
         let mut solved = Grip { force: T::zero(), rate: T::zero(), wheel_speed: before };
         for _ in 0..rounds {
@@ -68,8 +95,10 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 fall: electric.slope + gear.damping,
                 inertia,
                 before,
+                radius: c.radius,
+                rim_speed: at.rim_speed,
             };
-            solved = cross(&line, c, at.rim_speed);
+            solved = cross(&line, &floor);
             at.wheel_speed = solved.wheel_speed;
             *electric = self.electric::<false>(at, state, memory, source, j, gain);
             *gear = self.gear(at, memory, electric.torque);
@@ -82,56 +111,98 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     }
 }
 
+/// A motor and its shaft at a wheel that gives way: a straight line over the wheel's speed.
+#[derive(Clone, Copy)]
 struct Line<T> {
+    /// Torque at the last look [N·m], and the wheel speed there [rad/s]
     torque: T,
     speed: T,
+    /// By how much it falls with the speed [N·m·s]
     fall: T,
+    /// J/Δt [N·m·s], and the wheel speed before the step [rad/s]
     inertia: T,
     before: T,
+    /// r [m]
+    radius: T,
+    /// v_j, how fast the floor passes by [m/s]
+    rim_speed: T,
 }
 
-/// Where the motor's line crosses the floor's curve.
-fn cross<T: Real>(line: &Line<T>, c: &Contact<T>, rim_speed: T) -> Grip<T> {
-    let zero = T::zero();
-    let r = c.radius;
-    // ω ← ω + G/(−G′),  G(ω) = τ₁ − a·(ω − ω₁) − (J/Δt)·(ω − ω₀) − r·f(r·ω − v)
-    let balance = |speed: T| {
-        let (force, slope) = floor_force(c, r * speed - rim_speed);
-        let g = line.torque - line.fall * (speed - line.speed) - line.inertia * (speed - line.before) - r * force;
-        (g, line.fall + line.inertia + r * r * slope, force, slope)
-    };
-    // a motor that pushes harder than the floor can take, with nothing to accelerate, has no speed to settle at
-    let held = |speed: T| speed.clamp(T::lit(-FASTEST), T::lit(FASTEST));
-    // between rolling, where the floor takes nothing, and the speed at which the motor gives nothing
-    let rolling = (rim_speed / r).value();
-    let fall = line.fall + line.inertia;
-    let drives = line.torque + line.fall * (line.speed - rolling) + line.inertia * (line.before - rolling);
-    let idle = if fall > zero { held(rolling + drives / fall) } else { held(drives * T::lit(FASTEST)) }.value();
-    let (mut lo, mut hi) = if rolling < idle { (rolling, idle) } else { (idle, rolling) };
-    // where the wheel was is close to where it will be
-    let mut speed = line.before.value().clamp(lo, hi);
-    for _ in 0..24 {
-        let (g, fall, ..) = balance(speed);
-        if g > zero {
-            lo = speed;
-        } else {
-            hi = speed;
+/// What is left of the torque at a wheel speed, by how much that falls, and what the floor takes.
+struct Balance<T> {
+    left: T,
+    fall: T,
+    force: T,
+    slope: T,
+}
+
+impl<T: Real> Line<T> {
+    fn plain(&self) -> Line<T::Plain> {
+        Line {
+            torque: self.torque.plain(),
+            speed: self.speed.plain(),
+            fall: self.fall.plain(),
+            inertia: self.inertia.plain(),
+            before: self.before.plain(),
+            radius: self.radius.plain(),
+            rim_speed: self.rim_speed.plain(),
         }
-        let mut next = (speed + g / fall).value();
-        // the last step below carries the derivative, and carries it right from as near as this
-        if (next - speed).abs() <= T::lit(1e-7) * (speed.abs() + T::one()) {
-            speed = next;
-            break;
-        }
-        if next <= lo || next >= hi {
-            next = T::lit(0.5) * (lo + hi);
-        }
-        speed = next.value();
     }
-    let (g, fall, ..) = balance(speed);
-    let speed = held(speed + g / fall.value());
-    let (force, slope) = floor_force(c, r * speed - rim_speed);
+
+    #[inline]
+    fn balance(&self, floor: &Floor<T>, speed: T) -> Balance<T> {
+        let r = self.radius;
+        let (force, slope) = floor.force(r * speed - self.rim_speed);
+        // G(ω) = τ₁ − a·(ω − ω₁) − (J/Δt)·(ω − ω₀) − r·f(r·ω − v)
+        let left = self.torque - self.fall * (speed - self.speed) - self.inertia * (speed - self.before) - r * force;
+        Balance { left, fall: self.fall + self.inertia + r * r * slope, force, slope }
+    }
+
+    /// Near the wheel speed at which nothing is left, by Newton's rule within a bracket.
+    fn crossing(&self, floor: &Floor<T>) -> T {
+        // between rolling, where the floor takes nothing, and the speed at which the motor gives nothing
+        let rolling = self.rim_speed / self.radius;
+        let fall = self.fall + self.inertia;
+        let drives = self.torque + self.fall * (self.speed - rolling) + self.inertia * (self.before - rolling);
+        let idle = if fall > T::zero() { held(rolling + drives / fall) } else { held(drives * T::lit(FASTEST)) };
+        let (mut lo, mut hi) = if rolling < idle { (rolling, idle) } else { (idle, rolling) };
+        // where the wheel was is close to where it will be
+        let mut speed = self.before.clamp(lo, hi);
+        for _ in 0..24 {
+            let Balance { left, fall, .. } = self.balance(floor, speed);
+            if left > T::zero() {
+                lo = speed;
+            } else {
+                hi = speed;
+            }
+            // ω ← ω + G/(−G′)
+            let mut next = speed + left / fall;
+            // the step that follows carries the derivative, and carries it right from as near as this
+            if (next - speed).abs() <= T::lit(1e-7) * (speed.abs() + T::one()) {
+                return next;
+            }
+            if next <= lo || next >= hi {
+                next = T::lit(0.5) * (lo + hi);
+            }
+            speed = next;
+        }
+        speed
+    }
+}
+
+/// A motor that pushes harder than the floor can take, with nothing to accelerate, has no speed to settle at.
+fn held<T: Real>(speed: T) -> T {
+    speed.clamp(T::lit(-FASTEST), T::lit(FASTEST))
+}
+
+/// Where the motor's line crosses the floor's curve: found without derivatives, then one step with them.
+fn cross<T: Real>(line: &Line<T>, floor: &Floor<T>) -> Grip<T> {
+    let speed = T::from_plain(line.plain().crossing(&floor.plain()));
+    let Balance { left, fall, .. } = line.balance(floor, speed);
+    let speed = held(speed + left / fall.value());
+    let Balance { force, slope, .. } = line.balance(floor, speed);
     // ∂f/∂v = −f′·a/(a + r²f′)
     let a = line.fall + line.inertia;
+    let r = line.radius;
     Grip { force, rate: slope * a / (a + r * r * slope), wheel_speed: speed }
 }

@@ -75,6 +75,7 @@ impl<T: Copy> Catalogued<T> for Creep<T> {
 
 impl<T: Real> Hooks<T> for Creep<T> {
     type State = ();
+    const SETTLES_CONTACT: bool = true;
 
     fn contact(&self, _: &(), _: &EffectContext<T>, x: &mut Contact<T>) {
         let Self { creep } = *self;

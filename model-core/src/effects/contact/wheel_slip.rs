@@ -113,6 +113,7 @@ impl<T: Copy> Catalogued<T> for WheelSlip<T> {
 
 impl<T: Real> Hooks<T> for WheelSlip<T> {
     type State = ();
+    const SETTLES_CONTACT: bool = true;
 
     fn contact(&self, _: &(), _: &EffectContext<T>, x: &mut Contact<T>) {
         let Self { friction_coefficient, curve_stiffness, curve_shape } = *self;
