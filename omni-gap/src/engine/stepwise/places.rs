@@ -9,7 +9,7 @@ use super::settle::stage_of;
 use crate::engine::findings::{Regime, Where};
 use crate::engine::knobs::PlacesKnobs;
 use crate::localise::{Hotspot, Link, links, regimes};
-use crate::simulate::{AlignedRun, Model, Prediction, SignalGroup, predict};
+use crate::simulate::{AlignedRun, Chain, Model, Prediction, SignalGroup, predict};
 use crate::vocabulary::{Axis, Stage};
 
 /// The places of the gap, the largest first.
@@ -33,7 +33,7 @@ pub(super) fn places<const N: usize>(search: &Search<N>, nominal: &Model<N>, dat
     let weights = stage_weights(search, data);
     let mut shares = [0.0; 5];
     for (link, share) in &split.shares {
-        let stages: Vec<usize> = (0..5).filter(|s| belongs(Stage::ALL[*s], *link)).collect();
+        let stages: Vec<usize> = (0..5).filter(|s| belongs(Stage::ALL[*s], *link, data.held[0].chain)).collect();
         let total: f64 = stages.iter().map(|s| weights[*s]).sum();
         for s in stages {
             shares[s] += share * weights[s] / total;
@@ -74,8 +74,12 @@ fn regime(spot: Hotspot) -> Regime {
     Regime { feature: spot.feature.to_owned(), low: spot.low, high: spot.high, share: spot.share, text: spot.text }
 }
 
-fn belongs(stage: Stage, link: Link) -> bool {
+fn belongs(stage: Stage, link: Link, chain: Chain) -> bool {
     match link {
+        // a speed that was commanded and not reached is the drive's: the floor and the body have no say in the model
+        Link::Motion if chain == Chain::SetSpeed => {
+            matches!(stage, Stage::Electrical | Stage::Drivetrain | Stage::Sensing)
+        }
         Link::Electrical => matches!(stage, Stage::Electrical | Stage::Sensing),
         Link::Motion => {
             matches!(stage, Stage::Electrical | Stage::Drivetrain | Stage::Contact | Stage::Body | Stage::Sensing)
