@@ -56,6 +56,8 @@ effect_set! {
         Limit(Limit, &const { Card { seams: &[Seam::Bridge], ..BLANK } }),
         LargeWheel(LargeWheel, &const { Card { seams: &[Seam::Contact], ..BLANK } }),
         Eccentric(Eccentric, &const { Card { seams: &[Seam::Sense], ..BLANK } }),
+        GyroScale(GyroScale, &const { Card { seams: &[Seam::Sense], scope: Scope::Robot, ..BLANK } }),
+        GyroOffset(GyroOffset, &const { Card { seams: &[Seam::Sense], scope: Scope::Robot, ..BLANK } }),
         WheelSpy(WheelSpy, &const { Card { seams: &[Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Contact, Seam::Sense], ..BLANK } }),
         RobotSpy(RobotSpy, &const { Card { seams: &[Seam::Supply, Seam::Body, Seam::Sense], scope: Scope::Robot, ..BLANK } }),
         SupplySag(SupplySag<f64>, &supply_sag::CARD),
@@ -195,6 +197,36 @@ thread_local! {
 
 fn record_hook(hook: &'static str, at: &EffectContext<f64>) {
     SEEN.with_borrow_mut(|seen| seen.push((hook, *at)));
+}
+
+/// A gyro that reads x times too much: ω ← x·ω.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GyroScale(pub f64);
+
+impl Hooks<f64> for GyroScale {
+    type State = ();
+
+    fn sense(&self, _: &(), _: &EffectContext<f64>, x: &mut Sense<f64>) {
+        x.gyro *= self.0;
+    }
+    fn invert_sensing(&self, _: &EffectContext<f64>, x: &mut Sense<f64>) {
+        x.gyro /= self.0;
+    }
+}
+
+/// A gyro that reads x [rad/s] more: ω ← ω + x.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GyroOffset(pub f64);
+
+impl Hooks<f64> for GyroOffset {
+    type State = ();
+
+    fn sense(&self, _: &(), _: &EffectContext<f64>, x: &mut Sense<f64>) {
+        x.gyro += self.0;
+    }
+    fn invert_sensing(&self, _: &EffectContext<f64>, x: &mut Sense<f64>) {
+        x.gyro -= self.0;
+    }
 }
 
 /// A spy on wheels: it changes nothing, and remembers what it is told.

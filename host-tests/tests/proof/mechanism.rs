@@ -9,8 +9,8 @@ use model_core::plant::{Input, Plant};
 
 use crate::fixture::{Run, effect, four, gap, larger, plain, three, with_effect, with_invented};
 use crate::invented::{
-    Carpet, Cogging, Eccentric, Emptying, Heating, Inductance, Invented, InventedState, Kept, LargeWheel, Limit,
-    RobotSpy, SEEN, WheelSpy, Wind,
+    Carpet, Cogging, Eccentric, Emptying, GyroOffset, GyroScale, Heating, Inductance, Invented, InventedState, Kept,
+    LargeWheel, Limit, RobotSpy, SEEN, WheelSpy, Wind,
 };
 
 /// The paper's four wheels with so much friction that nothing moves: currents can then be told in closed form.
@@ -333,5 +333,19 @@ fn an_effect_of_the_robot_is_told_where_the_robot_is() {
             let ahead = if hook == "body" { 0.5e-3 * run.state.twist.w } else { 0.0 };
             assert!((at.pose.theta - run.state.pose.theta - ahead).abs() < 1e-12, "{what}");
         }
+    }
+}
+
+#[test]
+fn what_several_sensors_errors_made_is_undone_last_first() {
+    let two = [Invented::GyroScale(GyroScale(1.25)), Invented::GyroOffset(GyroOffset(0.5))];
+    for (order, read) in [([0, 1], 1.25 * 2.0 + 0.5), ([1, 0], 1.25 * (2.0 + 0.5))] {
+        let mut effects = Effects::<4, f64, Invented>::none();
+        order.into_iter().for_each(|k| effects.put(two[k], None).expect("they sit on the robot"));
+        let mut run = Run::from(Plant::new(four::<f64>(), effects), [0.0; 3], [0.0, 0.0, 2.0]);
+        let twist = run.state.twist;
+        let reading = run.step(&Input::Current([0.0; 4]), 1e-3);
+        assert_eq!(reading.gyro, read);
+        assert_eq!(run.plant.invert_sensing(0.0, twist, reading).gyro, 2.0);
     }
 }

@@ -189,6 +189,22 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Effects<N, T, E> {
         self.pick(self.at_seam[seam as usize])
     }
 
+    /// Those at a seam, the last one first: the way back through it.
+    #[inline]
+    pub fn back_from(&self, seam: Seam) -> impl Iterator<Item = &ActiveEffect<E>> {
+        let mut mask = self.at_seam[seam as usize];
+        core::iter::from_fn(move || {
+            while mask != 0 {
+                let k = (u32::BITS - 1 - mask.leading_zeros()) as usize;
+                mask &= !(1 << k);
+                if let Some(Some(active)) = self.items.get(k) {
+                    return Some(active);
+                }
+            }
+            None
+        })
+    }
+
     /// Those at a seam that act on a wheel.
     #[inline]
     pub fn on(&self, seam: Seam, wheel: usize) -> impl Iterator<Item = &ActiveEffect<E>> {

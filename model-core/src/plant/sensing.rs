@@ -47,7 +47,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             nominal_supply: self.robot.supply,
             ..EffectContext::default()
         };
-        for active in self.effects.at(Seam::Sense) {
+        for active in self.effects.back_from(Seam::Sense) {
             if active.whole() {
                 let mut x = Sense { pose: reading.pose, gyro: reading.gyro, ..Sense::default() };
                 active.effect.invert_sensing(&at, &mut x);
