@@ -4,6 +4,7 @@ use host_tests::catalogue::sessions::truth;
 use model_core::effects::EffectKind;
 use model_core::plant::Input;
 use omni_gap::log::{Channel, Group, RobotFile, Run, Session};
+use omni_gap::report::terminal;
 use omni_gap::simulate::{EffectInstance, Excitation, Model, SensorSetup, excite, record};
 use omni_gap::synthesize::{Scenario, synthesize};
 use omni_gap::vocabulary::Stage;
@@ -68,6 +69,18 @@ fn a_gyro_with_an_offset_is_unknown_and_never_no_gap() {
         assert!(gyro.before > 1.15 * gyro.noise_floor, "{gyro:?}");
         assert_eq!(report.where_.iter().map(|place| place.stage).collect::<Vec<_>>(), [Stage::Sensing]);
     }
+}
+
+#[test]
+fn what_stays_in_the_gyro_beside_a_cause_that_is_named_is_said() {
+    let hidden = vec![EffectInstance::typical(EffectKind::DeadTime.card(), None)];
+    let alone = answer(&session(4, hidden.clone()));
+    answers(&alone, Verdict::Effect);
+    assert!(!terminal(&alone, None).contains("A gap stays"));
+    let both = answer(&each_run(session(4, hidden), |run| moved(&mut run.gyro, 0.1)));
+    answers(&both, Verdict::Effect);
+    assert_eq!(both.causes, ["dead_time"]);
+    assert!(terminal(&both, None).contains("A gap stays in the yaw rate: "), "{}", terminal(&both, None));
 }
 
 #[test]

@@ -55,7 +55,13 @@ fn head(m: &mut Markup, report: &Report) {
             let names = phrases::look_alikes(report, w)?;
             Some(format!("This log cannot tell {} from {names}.", phrases::title(report, &w.cause)))
         });
-        let lede = sure.into_iter().chain(phrases::change(report)).chain(alike).collect::<Vec<_>>().join(" ");
+        let lede = sure
+            .into_iter()
+            .chain(phrases::change(report))
+            .chain(phrases::left_beside(report))
+            .chain(alike)
+            .collect::<Vec<_>>()
+            .join(" ");
         if !lede.is_empty() {
             m.leaf("p", &[("class", &"lede")], &lede);
         }

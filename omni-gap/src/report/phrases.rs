@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use super::model::Report;
 use super::number::{num, percent};
-use crate::engine::findings::{Where, Which};
+use crate::engine::findings::{SignalGap, Where, Which};
+use crate::simulate::SignalGroup;
 use crate::vocabulary::{Axis, Kind, Stage, Verdict};
 
 /// The verdict as one sentence.
@@ -31,6 +32,20 @@ pub fn headline(report: &Report) -> String {
             n => format!("This log is not fit for a diagnosis: mend {n} faults first."),
         },
     }
+}
+
+/// Which signals beside the totals the answer leaves a gap in, as one sentence each.
+pub fn left_beside(report: &Report) -> Vec<String> {
+    let Some(engine) = &report.engine else { return Vec::new() };
+    let open = |gap: &SignalGap| gap.after > engine.knobs.outcome.inadequate * gap.noise_floor;
+    let beside = SignalGroup::ALL.into_iter().filter(|group| !group.in_totals());
+    let gaps = beside.filter_map(|group| Some((group.name(), report.gap.signals.get(group.name())?)));
+    gaps.filter(|(_, gap)| open(gap))
+        .map(|(name, gap)| {
+            let [before, after, floor] = [gap.before, gap.after, gap.noise_floor].map(num);
+            format!("A gap stays in the {}: {before} → {after} σ, noise floor {floor}.", group(name))
+        })
+        .collect()
 }
 
 /// How the error changed, as one sentence; none where nothing was measured.

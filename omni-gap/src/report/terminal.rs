@@ -114,6 +114,9 @@ fn how_far(page: &mut Page, report: &Report) {
         (None, reason) => reason.as_ref().map(|r| format!("; {r}")).unwrap_or_default(),
     };
     page.line("how far", &format!("error {}{after}{NBSP}σ{floor}{closed}", num(before)));
+    for sentence in phrases::left_beside(report) {
+        page.line("", &sentence);
+    }
     let rivals: Vec<_> = [
         ("refit of parameters alone", s.closed_by_refit_alone),
         ("runner-up", s.closed_by_runner_up),
