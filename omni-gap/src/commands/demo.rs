@@ -56,7 +56,7 @@ impl Demo {
         folder.keep();
 
         let runs = session.runs.len();
-        console.say(&format!("AlignedRun {runs} runs of {} into {}.\n\n", session.robot.name, at.display()))?;
+        console.say(&format!("Recorded {runs} runs of {} into {}.\n\n", session.robot.name, at.display()))?;
         console.say(&report::terminal(&report, Some(&written)))?;
         console.say(&format!("\n{}", unveiled(&report)))?;
         Ok(DONE)
