@@ -3,7 +3,9 @@
 //! Faults are injected one by one and stay until they are healed.
 
 use model_core::effects::card::{Card, Physics, Scope, Seam, Undone};
-use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
+use model_core::effects::seams::{
+    Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, StepOutcome, Supply, Winding,
+};
 use model_core::effects::{Effect, EffectSet, EffectState};
 
 /// Something that is wrong.
@@ -104,6 +106,7 @@ impl EffectSet<f64> for OnBoard {
         supply, Supply;
         bridge, Bridge;
         winding, Winding;
+        shaft, Shaft;
         contact, Contact;
         body, Body;
         sense, Sense;

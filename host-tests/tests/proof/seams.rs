@@ -2,7 +2,9 @@
 
 use host_tests::excitation::SeededRng;
 use model_core::effects::card::Seam;
-use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
+use model_core::effects::seams::{
+    Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, StepOutcome, Supply, Winding,
+};
 use model_core::effects::{Effect, EffectKind, EffectSet, EffectState};
 use model_core::geometry::frames::{BodyTwist, Pose};
 
@@ -26,9 +28,15 @@ fn at(rng: &mut SeededRng) -> EffectContext<f64> {
         wheel: rng.below(3) as usize,
         wheel_angle: rng.between(-50.0, 50.0),
         wheel_speed: rng.between(-60.0, 60.0),
+        rotor_angle: rng.between(-50.0, 50.0),
+        rotor_speed: rng.between(-60.0, 60.0),
         rim_speed: rng.between(-2.0, 2.0),
+        heat: rng.between(0.0, 500.0),
+        gear_ratio: rng.between(1.0, 20.0),
         pose: pose(rng),
         twist: BodyTwist { v: rng.between(-2.0, 2.0), vn: rng.between(-2.0, 2.0), w: rng.between(-9.0, 9.0) },
+        acceleration: [(); 3].map(|()| rng.between(-5.0, 5.0)),
+        bus: rng.between(9.0, 13.0),
         nominal_supply: 12.0,
     }
 }
@@ -45,10 +53,11 @@ impl Described for Supply<f64> {
 impl Described for Bridge<f64> {
     fn random(rng: &mut SeededRng) -> Self {
         let voltage = rng.between(-12.0, 12.0);
-        Self { command: voltage, bus: 12.0, current: rng.between(-4.0, 4.0), voltage, sampled: voltage }
+        let current = rng.between(-4.0, 4.0);
+        Self { command: voltage, bus: 12.0, current, voltage, sampled: voltage, drop: 0.1, drop_current: 0.02 }
     }
     fn numbers(&self) -> Vec<f64> {
-        vec![self.command, self.bus, self.current, self.voltage, self.sampled]
+        vec![self.command, self.bus, self.current, self.voltage, self.sampled, self.drop, self.drop_current]
     }
 }
 
@@ -65,6 +74,20 @@ impl Described for Winding<f64> {
     }
     fn numbers(&self) -> Vec<f64> {
         vec![self.current, self.speed, self.resistance, self.inductance, self.emf_constant, self.torque_constant]
+    }
+}
+
+impl Described for Shaft<f64> {
+    fn random(rng: &mut SeededRng) -> Self {
+        Self {
+            inertia: rng.between(0.0, 1e-4),
+            stiffness: rng.between(0.0, 50.0),
+            damping: rng.between(0.0, 1e-2),
+            play: rng.between(0.0, 0.05),
+        }
+    }
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.inertia, self.stiffness, self.damping, self.play]
     }
 }
 
@@ -95,14 +118,18 @@ impl Described for Contact<f64> {
             per_radius: 1.0 / radius,
             load: rng.between(3.0, 9.0),
             creep: rng.between(0.0, 0.02),
-            grip: 0.0,
-            stiffness: 0.0,
             shape: 1.0,
+            position: [0.089 * sin, -0.089 * cos],
+            roller_friction: rng.between(0.0, 0.5),
+            roller_damping: rng.between(0.0, 0.5),
+            ..Contact::default()
         }
     }
     fn numbers(&self) -> Vec<f64> {
         let [a, b, c] = self.row;
-        vec![a, b, c, self.radius, self.load, self.creep, self.grip, self.stiffness, self.shape]
+        let mut all = vec![a, b, c, self.radius, self.load, self.creep, self.grip, self.stiffness, self.shape];
+        all.extend([self.position[0], self.position[1], self.roller_friction, self.roller_damping]);
+        all
     }
 }
 
@@ -110,10 +137,12 @@ impl Described for Body<f64> {
     fn random(rng: &mut SeededRng) -> Self {
         let mut three = |most: f64| [(); 3].map(|()| rng.between(-most, most));
         let (force, rate, budget) = (three(5.0), [three(1.0), three(1.0), three(1.0)], three(2.0).map(f64::abs));
-        Self { mass: rng.between(1.0, 4.0), inertia: rng.between(0.01, 0.03), force, rate, budget }
+        let mass = rng.between(1.0, 4.0);
+        let mass = [[mass, 0.0, 0.0], [0.0, mass, 0.0], [0.0, 0.0, rng.between(0.01, 0.03)]];
+        Self { mass, force, rate, budget }
     }
     fn numbers(&self) -> Vec<f64> {
-        let mut all = vec![self.mass, self.inertia];
+        let mut all: Vec<f64> = self.mass.iter().flatten().copied().collect();
         all.extend(self.force.iter().chain(self.rate.iter().flatten()).chain(&self.budget));
         all
     }
@@ -155,6 +184,7 @@ fn remembered(effect: &Effect<f64>, rng: &mut SeededRng) -> Vec<EffectState<f64>
             command: rng.between(-9.0, 9.0),
             current: rng.between(-3.0, 3.0),
             wheel_speed: rng.between(-50.0, 50.0),
+            heat: rng.between(0.0, 0.1),
             bus_current: rng.between(-1.0, 9.0),
             bus: 12.0,
         };
@@ -178,6 +208,7 @@ fn hooks_that_a_card_does_not_list_change_nothing_and_those_it_lists_do() {
                 Seam::Supply => touches(seed, |at, x| effect.supply(&s, &now(at), x)),
                 Seam::Bridge => touches(seed, |at, x| effect.bridge(&s, &now(at), x)),
                 Seam::Winding => touches(seed, |at, x| effect.winding(&s, &now(at), x)),
+                Seam::Shaft => touches(seed, |at, x| effect.shaft(&s, &now(at), x)),
                 Seam::Gear => touches(seed, |at, x| effect.gear(&s, &now(at), x)),
                 Seam::Contact => touches(seed, |at, x| effect.contact(&s, &now(at), x)),
                 Seam::Body => touches(seed, |at, x| effect.body(&s, &now(at), x)),

@@ -10,11 +10,8 @@ use crate::effects::card::{Scope, Seam};
 use crate::effects::{Effect, EffectKind, EffectSet};
 use crate::number::scalar::Real;
 
-/// The most effects that a robot undoes, and that its parameter block names.
-pub const MOST_UNDONE: usize = 12;
-
-/// The most effects that one model may carry.
-pub const MAX_EFFECTS: usize = 24;
+/// The most effects that one model may carry, that a robot undoes, and that its parameter block names.
+pub const MAX_EFFECTS: usize = 28;
 
 /// An effect in a model.
 #[derive(Clone, Copy, Debug)]
@@ -192,17 +189,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Effects<N, T, E> {
     /// Those at a seam, the last one first: the way back through it.
     #[inline]
     pub fn back_from(&self, seam: Seam) -> impl Iterator<Item = &ActiveEffect<E>> {
-        let mut mask = self.at_seam[seam as usize];
-        core::iter::from_fn(move || {
-            while mask != 0 {
-                let k = (u32::BITS - 1 - mask.leading_zeros()) as usize;
-                mask &= !(1 << k);
-                if let Some(Some(active)) = self.items.get(k) {
-                    return Some(active);
-                }
-            }
-            None
-        })
+        self.take(self.at_seam[seam as usize], |mask| (u32::BITS - 1 - mask.leading_zeros()) as usize)
     }
 
     /// Those at a seam that act on a wheel.
@@ -224,11 +211,17 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Effects<N, T, E> {
     }
 
     #[inline]
-    fn pick(&self, mut mask: u32) -> impl Iterator<Item = &ActiveEffect<E>> {
+    fn pick(&self, mask: u32) -> impl Iterator<Item = &ActiveEffect<E>> {
+        self.take(mask, |mask| mask.trailing_zeros() as usize)
+    }
+
+    /// Those of a mask, in the order in which `next` finds its bits.
+    #[inline]
+    fn take(&self, mut mask: u32, next: impl Fn(u32) -> usize) -> impl Iterator<Item = &ActiveEffect<E>> {
         core::iter::from_fn(move || {
             while mask != 0 {
-                let k = mask.trailing_zeros() as usize;
-                mask &= mask - 1;
+                let k = next(mask);
+                mask &= !(1 << k);
                 if let Some(active) = self.items.get(k).and_then(Option::as_ref) {
                     return Some(active);
                 }

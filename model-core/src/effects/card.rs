@@ -5,7 +5,7 @@
 //! the ranking takes its bounds and look-alikes from it, and the tests hold every card to what it says.
 
 /// The most parameters that one effect may have.
-pub const MAX_PARAMS: usize = 4;
+pub const MAX_PARAMS: usize = 8;
 
 /// Where on the signal path an effect acts, in signal order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -16,6 +16,8 @@ pub enum Seam {
     Bridge,
     /// Winding: terminal voltage → current → shaft torque.
     Winding,
+    /// Shaft: from the rotor to the wheel, rigid or not.
+    Shaft,
     /// Gear: motor torque → wheel torque, with the friction and inertia that sit on the wheel shaft.
     Gear,
     /// Contact: wheel torque → force on the floor.
@@ -28,14 +30,14 @@ pub enum Seam {
 
 impl Seam {
     /// All seams in signal order.
-    pub const ALL: [Seam; 7] =
-        [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Contact, Seam::Body, Seam::Sense];
+    pub const ALL: [Seam; 8] =
+        [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Shaft, Seam::Gear, Seam::Contact, Seam::Body, Seam::Sense];
 
     /// The stage that a report names for this seam.
     pub const fn stage(self) -> Stage {
         match self {
             Seam::Supply | Seam::Bridge | Seam::Winding => Stage::Electrical,
-            Seam::Gear => Stage::Drivetrain,
+            Seam::Shaft | Seam::Gear => Stage::Drivetrain,
             Seam::Contact => Stage::Contact,
             Seam::Body => Stage::Body,
             Seam::Sense => Stage::Sensing,

@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use super::card::Card;
 use super::seams::{
-    Body, BodyMotion, Bridge, Contact, EffectContext, Gear, RimMotion, Sense, StepOutcome, Supply, Winding,
+    Body, BodyMotion, Bridge, Contact, EffectContext, Gear, RimMotion, Sense, Shaft, StepOutcome, Supply, Winding,
 };
 use crate::number::scalar::Real;
 
@@ -62,6 +62,9 @@ pub trait Hooks<T: Real>: Copy + Debug {
     /// Winding: terminal voltage → current → torque.
     #[inline]
     fn winding(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Winding<T>) {}
+    /// Shaft: from the rotor to the wheel.
+    #[inline]
+    fn shaft(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Shaft<T>) {}
     /// Gear: motor torque → wheel torque.
     #[inline]
     fn gear(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Gear<T>) {}
@@ -139,6 +142,8 @@ pub trait EffectSet<T: Real>: Copy + Debug {
     fn bridge(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Bridge<T>);
     /// [`Hooks::winding`]
     fn winding(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Winding<T>);
+    /// [`Hooks::shaft`]
+    fn shaft(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Shaft<T>);
     /// [`Hooks::gear`]
     fn gear(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Gear<T>);
     /// [`Hooks::contact`]

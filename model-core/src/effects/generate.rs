@@ -48,6 +48,7 @@ macro_rules! effect_set {
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], supply, Supply);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], bridge, Bridge);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], winding, Winding);
+            $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], shaft, Shaft);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], gear, Gear);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], contact, Contact);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], body, Body);

@@ -24,18 +24,45 @@ pub struct EffectContext<T> {
     pub wheel_angle: T,
     /// Speed of that wheel at the wheel shaft [rad/s]
     pub wheel_speed: T,
+    /// Angle of that wheel's rotor since the start of the run, counted at the wheel shaft as every shaft quantity here:
+    /// the wheel's own, but for what a shaft that yields is twisted by. Times [`EffectContext::gear_ratio`] and the
+    /// number of pole pairs it is the electrical angle [rad]
+    pub rotor_angle: T,
+    /// Speed of that wheel's rotor, counted at the wheel shaft [rad/s]
+    pub rotor_speed: T,
     /// Speed of that wheel's rim over the floor if it rolls [m/s]
     pub rim_speed: T,
+    /// Heat that the current has made in that wheel's winding since the start of the run [J]
+    pub heat: T,
+    /// l, motor speed over wheel speed [1]
+    pub gear_ratio: T,
     /// Pose in the world frame; at the body seam the heading is that of the middle of the step
     pub pose: Pose<T>,
     /// Velocity in the body frame
     pub twist: BodyTwist<T>,
+    /// Acceleration of the body's centre in the last step, along the body's axes, the turning of the axes counted in:
+    /// (dv/dt − ω·vn, dvn/dt + ω·v, dω/dt) [m/s², m/s², rad/s²]
+    pub acceleration: [T; 3],
+    /// Bus voltage of the last step [V]
+    pub bus: T,
     /// Bus voltage that the nominal model assumes [V]
     pub nominal_supply: T,
 }
 
+impl<T: Real> EffectContext<T> {
+    /// The same, of no wheel in particular.
+    #[inline]
+    pub(crate) fn leave_wheel(&mut self) {
+        let zero = T::zero();
+        self.wheel = 0;
+        (self.wheel_angle, self.wheel_speed) = (zero, zero);
+        (self.rotor_angle, self.rotor_speed) = (zero, zero);
+        (self.rim_speed, self.heat) = (zero, zero);
+    }
+}
+
 /// Battery: bus current in, bus voltage out.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Supply<T> {
     /// Current that all bridges together draw from the battery [A]
     pub current: T,
@@ -44,7 +71,7 @@ pub struct Supply<T> {
 }
 
 /// Bridge: commanded voltage in, terminal voltage out.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Bridge<T> {
     /// Mean voltage that the controller commands [V]
     pub command: T,
@@ -56,10 +83,14 @@ pub struct Bridge<T> {
     pub voltage: T,
     /// Voltage across the motor at the instant at which the current is sampled, just after the step's beginning [V]
     pub sampled: T,
+    /// Voltage that is lost against the current, whichever way it flows [V]
+    pub drop: T,
+    /// Current from which all of it is lost; below, in proportion [A]
+    pub drop_current: T,
 }
 
 /// Winding: terminal voltage in, shaft torque out. Constants are those of the wheel shaft, the gear ratio included.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Winding<T> {
     /// Motor current [A]
     pub current: T,
@@ -75,8 +106,30 @@ pub struct Winding<T> {
     pub torque_constant: T,
 }
 
+/// Shaft: what connects the rotor with the wheel, gear included. All at the wheel shaft.
+///
+/// It is rigid unless it has a stiffness. One that yields lets the rotor run ahead of the wheel by a twist φ, through the
+/// play first, and has the rotor move on its own:
+///
+/// ```text
+/// J·dω_r/dt = τ_motor − τ_s,  dφ/dt = ω_r − ω_w,  τ_s = k·(φ beyond ±½·play) + c·(ω_r − ω_w)
+/// ```
+///
+/// with the damping where the teeth touch.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shaft<T> {
+    /// J, inertia that turns with the rotor [kg·m²]
+    pub inertia: T,
+    /// k, torque over twist [N·m/rad]; zero: rigid
+    pub stiffness: T,
+    /// c, torque over the rate of twist [N·m·s]
+    pub damping: T,
+    /// Twist from one flank of the teeth to the other [rad]
+    pub play: T,
+}
+
 /// Gear: motor torque in, wheel torque out. All at the wheel shaft.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Gear<T> {
     /// Torque of the motor before any loss [N·m]
     pub motor_torque: T,
@@ -93,10 +146,12 @@ pub struct Gear<T> {
 }
 
 /// Contact: wheel torque in, force on the floor out.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Contact<T> {
     /// Rim speed over body twist: (cos α, sin α, d) [1, 1, m]
     pub row: [T; 3],
+    /// Where the wheel touches the floor, in the body's axes (v, vn) [m]
+    pub position: [T; 2],
     /// Wheel radius [m]
     pub radius: T,
     /// 1/radius [1/m]; the plant works it out again after the effects
@@ -111,6 +166,10 @@ pub struct Contact<T> {
     pub stiffness: T,
     /// Shape of the slip curve: 1 rises to the limit, above 1 falls after a peak
     pub shape: T,
+    /// Dry friction of the rollers, along the wheel's axle [N]: a budget, spent by the plant
+    pub roller_friction: T,
+    /// Viscous friction of the rollers, along the wheel's axle [N·s/m]
+    pub roller_damping: T,
 }
 
 impl<T: Real> Contact<T> {
@@ -119,21 +178,42 @@ impl<T: Real> Contact<T> {
     pub fn rolls(&self) -> bool {
         self.grip <= T::zero() && self.creep <= T::zero()
     }
+
+    /// How fast the contact moves along the wheel's axle, over body twist [1, 1, m]; there the rollers turn.
+    #[inline]
+    pub fn axle_row(&self) -> [T; 3] {
+        let [cos, sin, _] = self.row;
+        let [x, y] = self.position;
+        // the axle points along (sin α, −cos α), the contact moves with (v − ω·y, vn + ω·x)
+        [sin, -cos, -(sin * y + cos * x)]
+    }
+
+    /// True if the rollers have friction.
+    #[inline]
+    pub fn rollers_drag(&self) -> bool {
+        self.roller_friction > T::zero() || self.roller_damping > T::zero()
+    }
 }
 
 /// Body: forces in, acceleration out. Axes are those of the body: (v, vn, ω).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Body<T> {
-    /// Mass [kg]
-    pub mass: T,
-    /// Moment of inertia [kg·m²]
-    pub inertia: T,
+    /// Mass matrix about the centre that poses and rows refer to, symmetric [kg, kg·m, kg·m²]
+    pub mass: [[T; 3]; 3],
     /// Force that is not friction and not from the wheels [N, N, N·m]
     pub force: [T; 3],
     /// −∂force/∂twist: damping, and the rate of turning forces
     pub rate: [[T; 3]; 3],
     /// Dry friction that the floor can hold [N, N, N·m]: a budget, spent by the plant
     pub budget: [T; 3],
+}
+
+impl<T: Real> Body<T> {
+    /// How much it weighs [kg].
+    #[inline]
+    pub fn total_mass(&self) -> T {
+        self.mass[0][0]
+    }
 }
 
 /// Sensors: truth in, reading out. An effect of wheels gets its wheel's current and speed; one of the robot the rest.
@@ -159,6 +239,8 @@ pub struct StepOutcome<T> {
     pub current: T,
     /// Wheel speed at the wheel shaft [rad/s]
     pub wheel_speed: T,
+    /// Heat that the current made in this wheel's winding [J]
+    pub heat: T,
     /// Current drawn from the battery [A]
     pub bus_current: T,
     /// Bus voltage [V]

@@ -8,16 +8,18 @@
 //! The first line is the linearly implicit midpoint rule: second order in Δt where F is smooth, stable for any damping.
 //! The second says what dry friction is: each direction d_k (a body axis, or a wheel's rolling direction) can give an
 //! impulse up to its budget, and gives as much of it as it takes to hold still. Wheels and body are coupled through H,
-//! so the impulses are resolved together by a few sweeps of projected Gauss–Seidel; where the axes are uncoupled and no
-//! wheel has a budget, one sweep is the closed form −sign(F_stop)·min(|F_stop|, b), F_stop = H·x/Δt + F.
+//! so the impulses are resolved together: sweeps of projected Gauss–Seidel, in plain numbers, tell which directions stick
+//! and which slide; those that slide spend their whole budget, those that stick take the motion along them, which is a
+//! closed form in any number type. Where the axes are uncoupled and no wheel has a budget, all of it is the closed form
+//! −sign(F_stop)·min(|F_stop|, b), F_stop = H·x/Δt + F.
 //!
 //! Every single update brings the kinetic energy ½·xᵀHx down, so friction never creates any, however few the sweeps.
 
-use crate::number::linalg::{dot, inverse3, mul_mat_vec};
+use crate::number::linalg::{add_scaled, dot, inverse3, mul_mat_vec};
 use crate::number::scalar::Real;
 
 /// Sweeps at the most; sliding and single sticking directions need one.
-const SWEEPS: usize = 12;
+const SWEEPS: usize = 40;
 
 /// Sweeps end once nothing changes any acceleration by more than this [m/s², rad/s²].
 const RESOLUTION: f64 = 1e-3;
@@ -50,6 +52,14 @@ impl<T: Real> Mobility<T> {
         }
     }
 
+    /// The same without derivatives.
+    fn plain(&self) -> Mobility<T::Plain> {
+        match self {
+            Self::Diagonal(d) => Mobility::Diagonal(d.map(T::plain)),
+            Self::Full(m) => Mobility::Full(m.map(|row| row.map(T::plain))),
+        }
+    }
+
     /// H⁻¹·f.
     #[inline(always)]
     pub fn of(&self, f: [T; 3]) -> [T; 3] {
@@ -60,127 +70,206 @@ impl<T: Real> Mobility<T> {
     }
 }
 
-/// The twist after dry friction has spent what it takes of its budgets.
-///
-/// `free` is the twist that the step would end with if there were no dry friction [m/s, m/s, rad/s]; `budget` is in
-/// body axes [N, N, N·m]; `wheels` are (direction, budget [N]) of the wheels that have one.
-#[inline]
-pub fn apply_dry_friction<const N: usize, T: Real>(
-    free: [T; 3],
-    mobility: &Mobility<T>,
-    budget: &[T; 3],
-    wheels: Option<&[([T; 3], T); N]>,
-    dt: T,
-) -> [T; 3] {
-    match (mobility, wheels) {
-        (Mobility::Diagonal(d), None) => {
-            let mut x = free;
-            for axis in 0..3 {
-                // x⁺ = x − clamp(x, ±H⁻¹·b·Δt)
-                let most = d[axis] * budget[axis] * dt;
-                x[axis] -= x[axis].clamp(-most, most);
+/// A direction in which dry friction holds, and the most that it can hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Hold<T> {
+    /// Speed along it over body twist [1, 1, m]
+    pub direction: [T; 3],
+    /// The most that it holds [N]
+    pub budget: T,
+}
+
+impl<T: Real> Hold<T> {
+    /// Nothing is held.
+    pub fn none() -> Self {
+        Self { direction: [T::zero(); 3], budget: T::zero() }
+    }
+}
+
+/// Everything dry in a step.
+#[derive(Clone, Copy, Debug)]
+pub struct DryFriction<'a, const N: usize, T> {
+    /// Of the body along its axes [N, N, N·m]
+    pub axes: [T; 3],
+    /// Of the shafts, along the wheels' rolling directions
+    pub shafts: Option<&'a [Hold<T>; N]>,
+    /// Of the rollers, along the wheels' axles
+    pub rollers: Option<&'a [Hold<T>; N]>,
+}
+
+/// The body's axes, and of each wheel its shaft and its rollers.
+const MOST: usize = 3 + 2 * 4;
+
+/// A direction as the sweeps see it.
+#[derive(Clone, Copy)]
+struct Held<T> {
+    /// d
+    direction: [T; 3],
+    /// H⁻¹·d
+    pushed: [T; 3],
+    /// 1/(dᵀH⁻¹d)
+    stiffness: T,
+    /// The most impulse
+    most: T,
+}
+
+impl<const N: usize, T: Real> DryFriction<'_, N, T> {
+    /// The twist after friction has spent what it takes of its budgets.
+    ///
+    /// `free` is the twist that the step would end with if there were no dry friction [m/s, m/s, rad/s].
+    #[inline]
+    pub fn spend(&self, free: [T; 3], mobility: &Mobility<T>, dt: T) -> [T; 3] {
+        match mobility {
+            Mobility::Diagonal(d) if self.shafts.is_none() && self.rollers.is_none() => {
+                let mut x = free;
+                for axis in 0..3 {
+                    // x⁺ = x − clamp(x, ±H⁻¹·b·Δt)
+                    let most = d[axis] * self.axes[axis] * dt;
+                    x[axis] -= x[axis].clamp(-most, most);
+                }
+                x
             }
-            x
+            _ => self.slide(free, mobility, dt).unwrap_or_else(|| self.stick(free, mobility, dt)),
         }
-        _ => slide(free, mobility, budget, wheels, dt)
-            .unwrap_or_else(|| projected_gauss_seidel(free, mobility, budget, wheels, dt)),
+    }
+
+    /// What the wheels hold.
+    #[inline]
+    fn of_wheels(&self) -> impl Iterator<Item = &Hold<T>> {
+        self.shafts.into_iter().flatten().chain(self.rollers.into_iter().flatten())
+    }
+
+    /// The twist if every direction slides on as it did: the whole budget of each, against its motion. `None` if that
+    /// would stop one or turn it round.
+    #[inline]
+    fn slide(&self, free: [T; 3], mobility: &Mobility<T>, dt: T) -> Option<[T; 3]> {
+        let against = |along: T, most: T| if along > T::zero() { -most } else { most };
+        let mut force: [T; 3] = core::array::from_fn(|axis| against(free[axis], self.axes[axis]));
+        for Hold { direction, budget } in self.of_wheels() {
+            force = add_scaled(force, against(dot(*direction, free), *budget), *direction);
+        }
+        // x⁺ = x − H⁻¹·Σ d_k·sign(d_k·x)·b_k·Δt
+        let x = add_scaled(free, dt, mobility.of(force));
+        // the directions of motion are a matter of values alone
+        let (from, to) = (free.map(T::plain), x.map(T::plain));
+        let goes_on = |before: T::Plain, after: T::Plain, most: T| most <= T::zero() || before * after > Real::zero();
+        let axes = (0..3).all(|axis| goes_on(from[axis], to[axis], self.axes[axis]));
+        let along = |hold: &Hold<T>, x| dot(hold.direction.map(T::plain), x);
+        let wheels = self.of_wheels().all(|hold| goes_on(along(hold, from), along(hold, to), hold.budget));
+        (axes && wheels).then_some(x)
+    }
+
+    /// The twist where some directions stick: which ones is found in plain numbers; the twist then follows at once.
+    #[inline(never)]
+    fn stick(&self, free: [T; 3], mobility: &Mobility<T>, dt: T) -> [T; 3] {
+        let (zero, one) = (T::zero(), T::one());
+        let axes = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+        let of_body = axes.into_iter().zip(self.axes).map(|(direction, budget)| Hold { direction, budget });
+        let plain = mobility.plain();
+        let mut holds = [(Hold::<T>::none(), Held::<T::Plain>::none()); MOST];
+        let mut count = 0;
+        for hold in of_body.chain(self.of_wheels().copied()).filter(|hold| hold.budget > zero) {
+            holds[count] = (hold, Held::new(&hold, &plain, dt.plain()));
+            count += 1;
+        }
+        let holds = &holds[..count];
+        let (resting, impulse) = projected_gauss_seidel(free.map(T::plain), holds, dt.plain());
+        let slips = |held: &Held<T::Plain>, impulse: T::Plain| impulse.abs() >= held.most;
+
+        // what slides spends all it has
+        let mut x = free;
+        for ((hold, _), impulse) in holds.iter().zip(impulse).filter(|((_, held), impulse)| slips(held, *impulse)) {
+            let spent = if impulse > Real::zero() { hold.budget * dt } else { -(hold.budget * dt) };
+            x = add_scaled(x, spent, mobility.of(hold.direction));
+        }
+        // what sticks takes the motion along it: x ← x − p·(d·x)/(d·p), p = H⁻¹d made orthogonal to those before
+        let mut taken = [([zero; 3], [zero; 3], zero); 3];
+        let mut rank = 0;
+        for ((hold, held), impulse) in holds.iter().zip(impulse) {
+            if slips(held, impulse) || rank == 3 {
+                continue;
+            }
+            let mut p = mobility.of(hold.direction);
+            for (direction, pushed, per) in &taken[..rank] {
+                p = add_scaled(p, -(dot(*direction, p) * *per), *pushed);
+            }
+            let gives = dot(hold.direction, p);
+            // a direction that the others hold already
+            if gives.plain() * held.stiffness < T::Plain::lit(1e-9) {
+                continue;
+            }
+            let per = one / gives;
+            x = add_scaled(x, -(dot(hold.direction, x) * per), p);
+            taken[rank] = (hold.direction, p, per);
+            rank += 1;
+        }
+        if rank == 3 {
+            x = [zero; 3];
+        }
+        // sweeps that ended early may have missed the set by one: then their twist stands, with these derivatives
+        let near = T::Plain::lit(10.0 * RESOLUTION) * dt.plain();
+        let agrees = (0..3).all(|axis| !(x[axis].plain() - resting[axis]).exceeds(near));
+        if agrees { x } else { core::array::from_fn(|k| T::from_plain(resting[k]) + (x[k] - x[k].value())) }
     }
 }
 
-/// The twist if every direction slides on as it did: the whole budget of each, against its motion. `None` if that would
-/// stop one or turn it round.
-#[inline]
-fn slide<const N: usize, T: Real>(
-    free: [T; 3],
-    mobility: &Mobility<T>,
-    budget: &[T; 3],
-    wheels: Option<&[([T; 3], T); N]>,
-    dt: T,
-) -> Option<[T; 3]> {
-    let zero = T::zero();
-    let against = |along: T, most: T| if along > zero { -most } else { most };
-    let mut force: [T; 3] = core::array::from_fn(|axis| against(free[axis], budget[axis]));
-    for (row, most) in wheels.into_iter().flatten() {
-        let f = against(dot(*row, free), *most);
-        for axis in 0..3 {
-            force[axis] += row[axis] * f;
-        }
+impl<P: Real> Held<P> {
+    fn none() -> Self {
+        let zero = P::zero();
+        Self { direction: [zero; 3], pushed: [zero; 3], stiffness: zero, most: zero }
     }
-    // x⁺ = x − H⁻¹·Σ d_k·sign(d_k·x)·b_k·Δt
-    let change = mobility.of([force[0] * dt, force[1] * dt, force[2] * dt]);
-    let x = [free[0] + change[0], free[1] + change[1], free[2] + change[2]];
-    let goes_on = |before: T, after: T, most: T| most <= zero || before * after > zero;
-    let body = (0..3).all(|axis| goes_on(free[axis], x[axis], budget[axis]));
-    let shafts = wheels.into_iter().flatten().all(|(row, most)| goes_on(dot(*row, free), dot(*row, x), *most));
-    (body && shafts).then_some(x)
-}
 
-/// Projected Gauss–Seidel.
-#[inline(never)]
-fn projected_gauss_seidel<const N: usize, T: Real>(
-    free: [T; 3],
-    mobility: &Mobility<T>,
-    budget: &[T; 3],
-    wheels: Option<&[([T; 3], T); N]>,
-    dt: T,
-) -> [T; 3] {
-    /// The body's axes and the wheels.
-    const MOST: usize = 3 + 4;
-    let (zero, one) = (T::zero(), T::one());
-    let axes = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
-    let bodies = axes.into_iter().zip(*budget);
-    // (direction d, H⁻¹·d, 1/(dᵀH⁻¹d), most impulse)
-    let mut holds = [([zero; 3], [zero; 3], zero, zero); MOST];
-    let mut count = 0;
-    for (direction, most) in bodies.chain(wheels.into_iter().flatten().copied()).filter(|(_, most)| *most > zero) {
+    fn new<T: Real<Plain = P>>(hold: &Hold<T>, mobility: &Mobility<P>, dt: P) -> Self {
+        let direction = hold.direction.map(T::plain);
         let pushed = mobility.of(direction);
-        holds[count] = (direction, pushed, one / dot(direction, pushed), most * dt);
-        count += 1;
+        Self { direction, pushed, stiffness: P::one() / dot(direction, pushed), most: hold.budget.plain() * dt }
     }
+}
+
+/// Projected Gauss–Seidel: the twist, and the impulse along every direction.
+fn projected_gauss_seidel<T, P: Real>(free: [P; 3], holds: &[(T, Held<P>)], dt: P) -> ([P; 3], [P; MOST]) {
     let mut x = free;
-    let mut impulse = [zero; MOST];
+    let mut impulse = [P::zero(); MOST];
     for _ in 0..SWEEPS {
-        let mut moved = zero;
-        for ((direction, pushed, stiffness, most), impulse) in holds[..count].iter().zip(&mut impulse) {
+        let mut moved = P::zero();
+        for ((_, held), impulse) in holds.iter().zip(&mut impulse) {
             // λ ← clamp(λ − d·x / (dᵀH⁻¹d), ±b·Δt)
-            let given = (*impulse - dot(*direction, x) * *stiffness).clamp(-*most, *most);
+            let given = (*impulse - dot(held.direction, x) * held.stiffness).clamp(-held.most, held.most);
             let change = given - *impulse;
             *impulse = given;
-            for axis in 0..3 {
-                x[axis] += pushed[axis] * change;
-            }
-            moved = moved.max((change / *stiffness).abs().value());
+            x = add_scaled(x, change, held.pushed);
+            moved = moved.max((change / held.stiffness).abs());
         }
-        if moved < T::lit(RESOLUTION) * dt {
+        if moved < P::lit(RESOLUTION) * dt {
             break;
         }
     }
-    // what is at rest up to the resolution, and held, is at rest
-    let still = x.iter().all(|x| x.abs() < T::lit(RESOLUTION) * dt);
-    let held = holds[..count].iter().zip(&impulse).any(|((.., most), impulse)| impulse.abs() < *most);
-    if still && held { [zero; 3] } else { x }
+    (x, impulse)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn mobility(h: [[f64; 3]; 3]) -> Mobility<f64> {
-        Mobility::new(&h)
+    /// The twist that friction on the body's axes, and on wheels (direction, budget), leaves in 1 ms.
+    fn spent(free: [f64; 3], h: [[f64; 3]; 3], axes: [f64; 3], wheels: Option<[([f64; 3], f64); 4]>) -> [f64; 3] {
+        let shafts = wheels.map(|all| all.map(|(direction, budget)| Hold { direction, budget }));
+        let dry = DryFriction { axes, shafts: shafts.as_ref(), rollers: None };
+        dry.spend(free, &Mobility::new(&h), 1e-3)
     }
 
     #[test]
     fn a_force_below_the_budget_moves_nothing() {
         let h = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.02]];
         let free = [0.9 * 1e-3 / 2.0, 0.0, 0.0];
-        assert_eq!(apply_dry_friction::<4, _>(free, &mobility(h), &[1.0, 1.0, 0.1], None, 1e-3), [0.0; 3]);
+        assert_eq!(spent(free, h, [1.0, 1.0, 0.1], None), [0.0; 3]);
     }
 
     #[test]
     fn above_the_budget_the_rest_accelerates() {
         let h = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.02]];
         let free = [3.0 * 1e-3 / 2.0, 0.0, 0.0];
-        let x = apply_dry_friction::<4, _>(free, &mobility(h), &[1.0, 1.0, 0.1], None, 1e-3);
+        let x = spent(free, h, [1.0, 1.0, 0.1], None);
         assert!((x[0] - 2.0 * 1e-3 / 2.0).abs() < 1e-15, "{x:?}");
     }
 
@@ -193,7 +282,7 @@ mod tests {
         for k in 0..200 {
             let a = f64::from(k) * 0.1;
             let free = [0.01 * libm::sin(a), 0.02 * libm::cos(1.3 * a), 0.1 * libm::sin(2.1 * a)];
-            let x = apply_dry_friction(free, &mobility(h), &[1.0, 0.5, 0.01], Some(&wheels), 1e-3);
+            let x = spent(free, h, [1.0, 0.5, 0.01], Some(wheels));
             assert!(energy(x) <= energy(free) * (1.0 + 1e-12), "{free:?} to {x:?}");
         }
     }
@@ -204,7 +293,7 @@ mod tests {
         let h = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.02]];
         let wheels =
             [([0.0, 1.0, 0.09], 0.0), ([-1.0, 0.0, 0.09], 0.0), ([0.0, -1.0, 0.09], 0.0), ([1.0, 0.0, 0.09], 1e3)];
-        let x = apply_dry_friction([0.3, 0.2, 0.0], &mobility(h), &[0.0; 3], Some(&wheels), 1e-3);
+        let x = spent([0.3, 0.2, 0.0], h, [0.0; 3], Some(wheels));
         assert!((x[0] + 0.09 * x[2]).abs() < 1e-9, "wheel 3 turns: {x:?}");
         assert!(x[0] > 0.1 && (x[1] - 0.2).abs() < 1e-12, "{x:?}");
     }

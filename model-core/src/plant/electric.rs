@@ -5,7 +5,7 @@
 //! U = U(Σ duty_j·i_j(U))                        one more for the bus, if the battery sags
 //! ```
 //!
-//! A law that depends on the current is looked at for two neighbouring currents. If they give the same answer, the law
+//! What a bridge loses against the current is solved in closed form. A law that depends on the current is looked at for two neighbouring currents. If they give the same answer, the law
 //! does not depend on the current here and the answer stands, bit for bit. Otherwise Newton's rule goes on from there;
 //! its last step is taken in the full number type, so that a dual number carries the derivative of the solution.
 
@@ -23,85 +23,126 @@ use crate::plant::winding::Motor;
 pub(super) struct Electric<T> {
     /// Torque at the wheel shaft, its mean over the step [N·m]
     pub torque: T,
-    /// −∂torque/∂(wheel speed) [N·m·s]
+    /// −∂torque/∂(rotor speed) [N·m·s]
     pub slope: T,
-    /// −∂current/∂(wheel speed) [A·s]
+    /// −∂current/∂(rotor speed) [A·s]
     pub current_slope: T,
     /// Current at the sampling instant, just after the step's beginning [A]
     pub sampled: T,
+    /// Current, its mean over the step [A]
+    pub mean: T,
     /// Current at the end of the step [A]
     pub after: T,
+    /// Resistance of the winding [Ω]
+    pub resistance: T,
 }
 
 /// What bridge and winding say at a current.
 #[derive(Clone, Copy)]
 struct Look<T> {
-    voltage: T,
-    sampled: T,
+    bridge: Bridge<T>,
     winding: Winding<T>,
     per_resistance: T,
 }
 
-impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
-    /// The motor of wheel `j` at the wheel speed `at.wheel_speed`; `gain` is bus voltage over nominal.
+impl<T: Real> Look<T> {
+    /// l·K_v·ω [V]
     #[inline]
-    pub(super) fn electric<const PLAIN: bool>(
+    fn emf(&self) -> T {
+        self.winding.emf_constant * self.winding.speed
+    }
+
+    /// The current that a voltage drives, and −∂i/∂(back-EMF) [A] [1/Ω].
+    #[inline]
+    fn current(&self, voltage: T) -> (T, T) {
+        let (driving, drop, ripple) = (voltage - self.emf(), self.bridge.drop, self.bridge.drop_current);
+        // i = (u − l·K_v·ω)/R
+        let current = driving * self.per_resistance;
+        if ripple <= T::zero() {
+            return (current, self.per_resistance);
+        }
+        // u − l·K_v·ω = R·i + u_drop·sat(i/i₀): three straight pieces, which rise
+        let steeper = T::one() + drop / ripple * self.per_resistance;
+        let small = current / steeper;
+        if small.abs() <= ripple {
+            return (small, self.per_resistance / steeper);
+        }
+        let against = if driving > T::zero() { drop } else { -drop };
+        ((driving - against) * self.per_resistance, self.per_resistance)
+    }
+
+    /// The voltage that is left of the bridge's at a current [V].
+    #[inline]
+    fn voltage_at(&self, current: T) -> T {
+        let Bridge { voltage, drop, drop_current: ripple, .. } = self.bridge;
+        if ripple <= T::zero() {
+            return voltage;
+        }
+        voltage - drop * (current / ripple).clamp(-T::one(), T::one())
+    }
+}
+
+impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
+    /// The motor of the wheel that `at` has entered, at its rotor's speed; `gain` is bus voltage over nominal.
+    #[inline]
+    pub(super) fn electric(
         &self,
         at: &EffectContext<T>,
         state: &State<N, T>,
         memory: &[E::State],
         source: &Source<'_, N, T>,
-        j: usize,
         gain: T,
     ) -> Electric<T> {
         let zero = T::zero();
-        let (emf, kt) = (self.emf, self.kt);
-        if PLAIN && let Source::Voltage(command) = source {
-            return self.plain_motor(command[j], at.wheel_speed);
-        }
+        let j = at.wheel;
         let bare = Winding {
             current: zero,
-            speed: at.wheel_speed,
+            speed: at.rotor_speed,
             resistance: self.robot.motor.resistance,
             inductance: zero,
-            emf_constant: emf,
-            torque_constant: kt,
+            emf_constant: self.emf,
+            torque_constant: self.kt,
         };
         match source {
-            Source::Speed => Electric { torque: zero, slope: zero, current_slope: zero, sampled: zero, after: zero },
+            Source::Speed => Electric {
+                torque: zero,
+                slope: zero,
+                current_slope: zero,
+                sampled: zero,
+                mean: zero,
+                after: zero,
+                resistance: zero,
+            },
             Source::Current(current) => {
-                let winding = self.winding(at, memory, Winding { current: current[j], ..bare });
+                let current = current[j];
+                let winding = self.winding(at, memory, Winding { current, ..bare });
                 Electric {
-                    torque: winding.torque_constant * current[j],
+                    torque: winding.torque_constant * current,
                     slope: zero,
                     current_slope: zero,
-                    sampled: current[j],
-                    after: current[j],
+                    sampled: current,
+                    mean: current,
+                    after: current,
+                    resistance: winding.resistance,
                 }
             }
             Source::Voltage(command) => {
                 let u = command[j] * gain;
                 if self.effects.none_on(&[Seam::Bridge, Seam::Winding], j) {
-                    return self.plain_motor(u, at.wheel_speed);
+                    return self.plain_motor(u, at.rotor_speed);
                 }
                 let turned = !self.effects.none_on(&[Seam::Winding], j);
-                let drive = Bridge {
-                    command: command[j],
-                    bus: self.robot.supply * gain,
-                    current: zero,
-                    voltage: u,
-                    sampled: u,
-                };
+                let bus = self.robot.supply * gain;
+                let drive = Bridge { command: command[j], bus, voltage: u, sampled: u, ..Bridge::default() };
                 let look = |current: T| {
-                    let mut drive = Bridge { current, ..drive };
+                    let mut bridge = Bridge { current, ..drive };
                     for active in self.effects.on(Seam::Bridge, j) {
-                        active.effect.bridge(&memory[active.memory(j)], at, &mut drive);
+                        active.effect.bridge(&memory[active.memory(j)], at, &mut bridge);
                     }
                     let winding = if turned { self.winding(at, memory, Winding { current, ..bare }) } else { bare };
                     let per_resistance = if turned { T::one() / winding.resistance } else { self.per_resistance };
-                    // i = (u_eff − l·K_v·ω)/R
-                    let steady = (drive.voltage - winding.emf_constant * winding.speed) * per_resistance;
-                    (steady, Look { voltage: drive.voltage, sampled: drive.sampled, winding, per_resistance })
+                    let look = Look { bridge, winding, per_resistance };
+                    (look.current(bridge.voltage).0, look)
                 };
                 self.solve_winding(state.current[j], at.dt, look)
             }
@@ -110,15 +151,17 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
 
     /// The motor of the plain model.
     #[inline(always)]
-    fn plain_motor(&self, voltage: T, wheel_speed: T) -> Electric<T> {
+    pub(super) fn plain_motor(&self, voltage: T, rotor_speed: T) -> Electric<T> {
         // i = (u − l·K_v·ω)/R,  τ = l·K_t·i
-        let current = (voltage - self.emf * wheel_speed) * self.per_resistance;
+        let current = (voltage - self.emf * rotor_speed) * self.per_resistance;
         Electric {
             torque: self.kt * current,
             slope: self.kt * self.emf * self.per_resistance,
             current_slope: self.emf * self.per_resistance,
             sampled: current,
+            mean: current,
             after: current,
+            resistance: self.robot.motor.resistance,
         }
     }
 
@@ -138,14 +181,15 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             Solved { x, stretch: T::one(), look }
         };
         let w = look.winding;
+        let (steady, conductance) = look.current(look.bridge.voltage);
         // −∂i/∂ω = (l·K_v/R)/(1 − ∂(steady)/∂i)
-        let current_slope = w.emf_constant * look.per_resistance / stretch;
+        let current_slope = w.emf_constant * conductance / stretch;
         let inductive = w.inductance > T::zero();
         let sampled = if inductive {
             last
         } else {
-            // i − (u − u_sampled)/R, which keeps every bit of the current where the two voltages are one
-            current - (look.voltage - look.sampled) * look.per_resistance
+            // i − (i(u) − i(u_sampled)), which keeps every bit of the current where the two voltages are one
+            current - (steady - look.current(look.bridge.sampled).0)
         };
         let (mean, after) = if inductive {
             // the winding at the wheel's shaft, with the constants and the voltage found above
@@ -155,19 +199,22 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 emf_constant: w.emf_constant,
                 torque_constant: w.torque_constant,
             };
+            let voltage = look.voltage_at(current);
             (
-                motor.mean_current(last, look.voltage, w.speed, w.inductance, dt),
-                motor.current_after(last, look.voltage, w.speed, w.inductance, dt),
+                motor.mean_current(last, voltage, w.speed, w.inductance, dt),
+                motor.current_after(last, voltage, w.speed, w.inductance, dt),
             )
         } else {
             (current, current)
         };
         Electric {
             torque: w.torque_constant * mean,
-            slope: w.torque_constant * w.emf_constant * look.per_resistance / stretch,
+            slope: w.torque_constant * current_slope,
             current_slope,
             sampled,
+            mean,
             after,
+            resistance: w.resistance,
         }
     }
 
@@ -175,12 +222,11 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     #[inline]
     pub(super) fn bus(
         &self,
-        at: &EffectContext<T>,
+        at: &mut EffectContext<T>,
         state: &State<N, T>,
         memory: &[E::State],
         source: &Source<'_, N, T>,
-        contact: &[Contact<T>; N],
-        rim: &[T; N],
+        (contact, rim): (&[Contact<T>; N], &[T; N]),
     ) -> T {
         let nominal = self.robot.supply;
         let Source::Voltage(command) = source else { return nominal };
@@ -192,10 +238,11 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             let mut drawn = T::zero();
             for j in 0..N {
                 let speed = if contact[j].rolls() { rim[j] * contact[j].per_radius } else { state.wheel_speed[j] };
-                let at = EffectContext { rim_speed: rim[j], ..self.at_wheel(at, state, j, speed) };
+                self.enter_wheel(at, state, j, (speed, rim[j]));
                 // I_bus = Σ duty_j·i_j,  duty_j = u_j/U_nominal
-                drawn += command[j] / nominal * self.electric::<false>(&at, state, memory, source, j, gain).sampled;
+                drawn += command[j] / nominal * self.electric(at, state, memory, source, gain).sampled;
             }
+            at.leave_wheel();
             let mut supply = Supply { current: drawn, voltage: nominal };
             for active in self.effects.at(Seam::Supply) {
                 active.effect.supply(&memory[active.memory(0)], at, &mut supply);
@@ -233,7 +280,7 @@ struct Solved<T, L> {
 /// Newton with a bracket; on a g of straight pieces exact once it is on the right piece. The last step is taken in the
 /// full number type, and a law that says the same for two neighbouring x is returned as it is.
 #[inline]
-fn solve<T: Real, L>(guess: T, g: impl Fn(T) -> (T, L)) -> Solved<T, L> {
+fn solve<T: Real, L>(guess: T, mut g: impl FnMut(T) -> (T, L)) -> Solved<T, L> {
     let h = T::lit(1e-3);
     let mut x = guess.value();
     let (mut lo, mut hi): (Option<T>, Option<T>) = (None, None);

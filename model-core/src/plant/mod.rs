@@ -15,7 +15,8 @@
 //!
 //! 1. contact: rows, radii and loads, and whether a wheel rolls rigidly;
 //! 2. battery and bridge: voltages, solved together with the currents that they depend on (`electric.rs`);
-//! 3. winding and gear: current, torque, and the dry friction that each shaft can hold;
+//! 3. winding, shaft and gear: current, torque, and the dry friction that each shaft can hold; a rotor whose shaft yields
+//!    moves on its own (`shaft.rs`);
 //! 4. traction: a wheel that creeps or slips turns faster than the floor passes by (`traction.rs`);
 //! 5. body: all forces, one linearly implicit step, dry friction spent once ([`body`]);
 //! 6. pose (eq. 1), reading, and the memory of effects.
@@ -43,6 +44,10 @@ pub use model::Plant;
 mod step;
 
 mod electric;
+
+mod shaft;
+
+mod wheel;
 
 mod traction;
 

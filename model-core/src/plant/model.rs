@@ -4,7 +4,7 @@ use super::robot::Robot;
 use super::state::State;
 use crate::effects::active::Effects;
 use crate::effects::card::Seam;
-use crate::effects::seams::{Contact, EffectContext, STANDARD_GRAVITY};
+use crate::effects::seams::{Contact, EffectContext, STANDARD_GRAVITY, Shaft};
 use crate::effects::{Effect, EffectSet};
 use crate::geometry::frames::{BodyTwist, Pose};
 use crate::number::linalg::{accumulate_outer, dot};
@@ -17,6 +17,8 @@ pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     pub(super) effects: Effects<N, T, E>,
     /// True if no effect stands between the command and the wheels' forces
     pub(super) plain: bool,
+    /// True if an effect may make something turn with the wheels that has inertia
+    pub(super) turns: bool,
     /// l·K_v [V·s]
     pub(super) emf: T,
     /// l·K_t [N·m/A]
@@ -25,12 +27,24 @@ pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     pub(super) per_resistance: T,
     /// The contacts as the robot's parameters describe them.
     pub(super) contact: [Contact<T>; N],
+    /// The shafts with what the effects make of them
+    pub(super) shafts: [Shaft<T>; N],
     /// The contacts with what the effects make of them, where that is the same in every step
     pub(super) settled: Option<[Contact<T>; N]>,
     /// Each wheel's share of the body's Coulomb friction, as a torque at its shaft [N·m]
     pub(super) coulomb_share: [T; N],
     /// Damping of the plain model in body axes: back-EMF and viscous friction
     pub(super) plain_rate: [[T; 3]; 3],
+}
+
+/// The shafts as effects describe them, which depends on nothing but their parameters.
+fn shafts<const N: usize, T: Real, E: EffectSet<T>>(effects: &Effects<N, T, E>) -> [Shaft<T>; N] {
+    core::array::from_fn(|j| {
+        let at = EffectContext { wheel: j, ..EffectContext::default() };
+        let mut shaft = Shaft::default();
+        effects.on(Seam::Shaft, j).for_each(|active| active.effect.shaft(&[], &at, &mut shaft));
+        shaft
+    })
 }
 
 /// The contacts as effects change them that look at nothing but their parameters; `None` where one looks at more.
@@ -54,36 +68,43 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// A model of this robot with these effects.
     pub fn new(robot: Robot<N, T>, effects: Effects<N, T, E>) -> Self {
         let rows = robot.wheels.rows();
-        let zero = T::zero();
         let load = robot.mass * T::lit(STANDARD_GRAVITY) / T::lit(N as f64);
-        let mut contact = [Contact {
-            row: [zero; 3],
-            radius: zero,
-            per_radius: zero,
-            load,
-            creep: zero,
-            grip: zero,
-            stiffness: zero,
-            shape: T::one(),
-        }; N];
+        let mut contact = [Contact { load, shape: T::one(), ..Contact::default() }; N];
         let coulomb_share = robot.coulomb_shares();
-        let mut plain_rate = [[zero; 3]; 3];
+        let mut plain_rate = [[T::zero(); 3]; 3];
         let (emf, kt) = (robot.motor.wheel_emf_constant(), robot.motor.wheel_torque_constant());
         let per_resistance = T::one() / robot.motor.resistance;
         let electric = kt * emf * per_resistance;
         for j in 0..N {
             contact[j].row = rows[j];
-            let radius = robot.wheels.wheels()[j].radius;
+            let wheel = robot.wheels.wheels()[j];
+            contact[j].position = wheel.contact_point().into();
+            let radius = wheel.radius;
             contact[j].radius = radius;
             contact[j].per_radius = T::one() / radius;
             // k = (l²·K_t·K_v/R)/r²
             let per_radius = contact[j].per_radius;
             accumulate_outer(&mut plain_rate, electric * (per_radius * per_radius), rows[j]);
         }
-        let chain = [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Contact];
+        let chain = [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Shaft, Seam::Gear, Seam::Contact];
         let plain = chain.into_iter().all(|seam| effects.none_at(seam));
+        let turns = !effects.none_at(Seam::Shaft) || !effects.none_at(Seam::Gear);
         let settled = settled(&effects, contact);
-        Self { robot, effects, plain, emf, kt, per_resistance, contact, settled, coulomb_share, plain_rate }
+        let shafts = shafts(&effects);
+        Self {
+            robot,
+            effects,
+            plain,
+            turns,
+            emf,
+            kt,
+            per_resistance,
+            contact,
+            shafts,
+            settled,
+            coulomb_share,
+            plain_rate,
+        }
     }
 
     /// The robot.
@@ -108,54 +129,93 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
 
     /// A state with this pose and velocity, the wheels rolling without slip and the motors without current.
     pub fn start(&self, time: T, pose: Pose<T>, twist: BodyTwist<T>) -> State<N, T> {
+        let wheel_speed = self.robot.wheels.wheel_speeds(twist);
         State {
             time,
             pose,
             twist,
-            wheel_speed: self.robot.wheels.wheel_speeds(twist),
+            wheel_speed,
+            acceleration: [T::zero(); 3],
             wheel_angle: [T::zero(); N],
+            rotor_speed: wheel_speed,
+            shaft_twist: [T::zero(); N],
+            heat: [T::zero(); N],
             current: [T::zero(); N],
             bus: self.robot.supply,
         }
     }
 
+    /// The same, where what cannot be seen goes on from another state: angles, twists, heat, currents, the bus; a rotor
+    /// stays as much faster than its wheel as it was.
+    pub fn start_from(&self, hidden: &State<N, T>, time: T, pose: Pose<T>, twist: BodyTwist<T>) -> State<N, T> {
+        let start = self.start(time, pose, twist);
+        let ahead = |j: usize| {
+            let yields = self.shafts[j].stiffness > T::zero();
+            if yields { hidden.rotor_speed[j] - hidden.wheel_speed[j] } else { T::zero() }
+        };
+        State {
+            rotor_speed: core::array::from_fn(|j| start.wheel_speed[j] + ahead(j)),
+            time,
+            pose,
+            twist,
+            wheel_speed: start.wheel_speed,
+            ..*hidden
+        }
+    }
+
     /// Tells the effects with memory that the motion goes on from this state.
     pub fn restart(&self, state: &State<N, T>, memory: &mut [E::State]) {
-        let at = self.at(state, T::zero());
+        let mut at = self.at(state, T::zero());
         for active in self.effects.with_memory() {
             if active.whole() {
+                at.leave_wheel();
                 active.effect.restart(&mut memory[active.memory(0)], &at);
                 continue;
             }
             for j in (0..N).filter(|j| active.on(*j)) {
-                let at = self.at_wheel(&at, state, j, state.wheel_speed[j]);
+                self.enter_wheel(&mut at, state, j, (state.wheel_speed[j], self.rim_speed(state, j)));
                 active.effect.restart(&mut memory[active.memory(j)], &at);
             }
         }
     }
 
+    /// What an effect is told in a step from this state.
     #[inline]
     pub(super) fn at(&self, state: &State<N, T>, dt: T) -> EffectContext<T> {
         EffectContext {
             time: state.time,
             dt,
+            gear_ratio: self.robot.motor.gear_ratio,
             pose: state.pose,
             twist: state.twist,
+            acceleration: state.acceleration,
+            bus: state.bus,
             nominal_supply: self.robot.supply,
             ..EffectContext::default()
         }
     }
 
-    /// The same, for a hook of wheel `j`.
+    /// How fast the rim of wheel `j` passes the floor if it rolls, by the robot's own geometry [m/s].
     #[inline]
-    pub(super) fn at_wheel(
+    pub(super) fn rim_speed(&self, state: &State<N, T>, j: usize) -> T {
+        dot(self.contact[j].row, state.twist.to_array())
+    }
+
+    /// Goes on to wheel `j`, which turns at this speed [rad/s] and whose rim would pass the floor at this one [m/s].
+    #[inline]
+    pub(super) fn enter_wheel(
         &self,
-        at: &EffectContext<T>,
+        at: &mut EffectContext<T>,
         state: &State<N, T>,
         j: usize,
-        wheel_speed: T,
-    ) -> EffectContext<T> {
-        let rim_speed = dot(self.contact[j].row, state.twist.to_array());
-        EffectContext { wheel: j, wheel_angle: state.wheel_angle[j], wheel_speed, rim_speed, ..*at }
+        (wheel_speed, rim_speed): (T, T),
+    ) {
+        at.wheel = j;
+        at.wheel_angle = state.wheel_angle[j];
+        at.wheel_speed = wheel_speed;
+        at.rotor_angle = state.wheel_angle[j] + state.shaft_twist[j];
+        at.rotor_speed = if self.shafts[j].stiffness > T::zero() { state.rotor_speed[j] } else { wheel_speed };
+        at.rim_speed = rim_speed;
+        at.heat = state.heat[j];
     }
 }

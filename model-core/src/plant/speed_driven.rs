@@ -5,11 +5,11 @@
 
 use super::model::Plant;
 use super::state::{Reading, State};
-use super::step::{Push, Source};
+use super::step::{Done, Push, Source, Turned};
 use super::traction::Floor;
 use crate::effects::EffectSet;
 use crate::geometry::frames::BodyTwist;
-use crate::number::linalg::{accumulate_outer, dot};
+use crate::number::linalg::dot;
 use crate::number::scalar::Real;
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
@@ -20,34 +20,37 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         speed: &[T; N],
         dt: T,
     ) -> Reading<N, T> {
-        let at = self.at(state, dt);
-        let contact = self.contacts(&at, state, memory);
+        let mut at = self.at(state, dt);
+        let contact = self.contacts(&mut at, state, memory);
         let zero = T::zero();
         let rolling = self.robot.wheels.twist(core::array::from_fn(|j| contact[j].radius * speed[j]));
         let yields = contact.iter().all(|c| !c.rolls());
         if !yields {
             state.twist = rolling;
+            at.twist = rolling;
         }
         let truth = Reading { current: [zero; N], wheel_speed: *speed, pose: state.pose, gyro: state.twist.w };
         let next = if yields {
             let x = state.twist.to_array();
-            let mut push = Push { force: [zero; 3], rate: [[zero; 3]; 3], mass: [[zero; 3]; 3], holds: false };
-            for (c, speed) in contact.iter().zip(speed) {
+            let mut push = Push::none();
+            for (j, (c, speed)) in contact.iter().zip(speed).enumerate() {
                 let (force, slope) = Floor::of(c).force(*speed * c.radius - dot(c.row, x));
-                for axis in 0..3 {
-                    push.force[axis] += c.row[axis] * force;
-                }
                 // twice the slope: the floor's force is stiff, and this makes the step implicit in it
-                accumulate_outer(&mut push.rate, T::lit(2.0) * slope, c.row);
+                push.add(c.row, force, T::lit(2.0) * slope);
+                if c.rollers_drag() {
+                    push.add_rollers(j, c, x);
+                }
             }
-            self.move_body(&at, state, memory, &push, &[([zero; 3], zero); N], dt)
+            BodyTwist::from_array(self.move_body(&mut at, state, memory, &push, dt))
         } else {
-            rolling.to_array()
+            rolling
         };
         state.wheel_speed = *speed;
-        let reading = self.finish(state, memory, (truth, next), &contact, (&Source::Speed, self.robot.supply), dt);
+        let (source, turned) = (Source::Speed, Turned::default());
+        let done = Done { truth, next, contact: &contact, source: &source, bus: self.robot.supply, turned: &turned };
+        let reading = self.finish(&mut at, state, memory, &done, dt);
         if !yields {
-            state.twist = BodyTwist::from_array(next);
+            state.twist = next;
         }
         reading
     }

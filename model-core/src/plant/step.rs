@@ -1,24 +1,52 @@
 //! One step along the signal path, in which forces move the body.
 
 use super::model::Plant;
+use super::shaft::Rotor;
 use super::state::{Input, Reading, State};
+use super::wheel::Drive;
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
-use crate::effects::seams::{Contact, EffectContext, Gear};
+use crate::effects::seams::{Contact, EffectContext};
 use crate::geometry::frames::BodyTwist;
-use crate::number::linalg::{accumulate_outer, dot};
+use crate::number::linalg::{accumulate_outer, add_scaled, dot};
 use crate::number::scalar::Real;
+use crate::plant::body::Hold;
 
 /// What the wheels do to the body in a step.
-pub(super) struct Push<T> {
+pub(super) struct Push<const N: usize, T> {
     /// Force in body axes [N, N, N·m]
-    pub(super) force: [T; 3],
+    pub force: [T; 3],
     /// −∂force/∂twist
-    pub(super) rate: [[T; 3]; 3],
+    pub rate: [[T; 3]; 3],
     /// Mass matrix of what turns with the wheels, in body axes
-    pub(super) mass: [[T; 3]; 3],
-    /// True if any shaft has a dry-friction budget
-    pub(super) holds: bool,
+    pub mass: [[T; 3]; 3],
+    /// Dry friction that each shaft can hold, along the wheel's rolling direction; none where no shaft has any
+    pub shafts: Option<[Hold<T>; N]>,
+    /// Dry friction that each wheel's rollers can hold, along its axle; none where no roller has any
+    pub rollers: Option<[Hold<T>; N]>,
+}
+
+impl<const N: usize, T: Real> Push<N, T> {
+    pub fn none() -> Self {
+        let zero = T::zero();
+        Self { force: [zero; 3], rate: [[zero; 3]; 3], mass: [[zero; 3]; 3], shafts: None, rollers: None }
+    }
+
+    /// Adds a force along a direction of the body's axes, and by how much it falls with the speed along it.
+    #[inline]
+    pub fn add(&mut self, row: [T; 3], force: T, rate: T) {
+        self.force = add_scaled(self.force, force, row);
+        accumulate_outer(&mut self.rate, rate, row);
+    }
+
+    /// Adds the friction of a wheel's rollers.
+    pub fn add_rollers(&mut self, j: usize, c: &Contact<T>, x: [T; 3]) {
+        let row = c.axle_row();
+        self.add(row, -(c.roller_damping * dot(row, x)), c.roller_damping);
+        if c.roller_friction > T::zero() {
+            self.rollers.get_or_insert([Hold::none(); N])[j] = Hold { direction: row, budget: c.roller_friction };
+        }
+    }
 }
 
 /// The input of a step in which forces move the body.
@@ -71,106 +99,123 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let contact = match &self.settled {
             Some(settled) if !PLAIN => settled,
             None if !PLAIN => {
-                hooked = self.contacts(&at, state, memory);
+                hooked = self.contacts(&mut at, state, memory);
                 &hooked
             }
             _ => &self.contact,
         };
         let rim: [T; N] = core::array::from_fn(|j| dot(contact[j].row, x));
-        let bus = if PLAIN { self.robot.supply } else { self.bus(&at, state, memory, &source, contact, &rim) };
+        let bus = if PLAIN { self.robot.supply } else { self.bus(&mut at, state, memory, &source, (contact, &rim)) };
         let gain = if PLAIN { T::one() } else { bus / self.robot.supply };
 
         let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
-        let mut push = Push { force: [zero; 3], rate: [[zero; 3]; 3], mass: [[zero; 3]; 3], holds: false };
-        let mut held = [([zero; 3], zero); N];
+        let mut push = Push::none();
+        let mut turned = Turned::default();
         for j in 0..N {
             let c = &contact[j];
-            at.wheel = j;
-            at.rim_speed = rim[j];
-            at.wheel_angle = state.wheel_angle[j];
-            at.wheel_speed = rim[j] * c.per_radius;
-            let mut electric = self.electric::<PLAIN>(&at, state, memory, &source, j, gain);
-            let (mut speed, mut starts) = (at.wheel_speed, at.wheel_speed);
-            let force = if PLAIN {
+            let rolling = rim[j] * c.per_radius;
+            if PLAIN {
+                let motor = self.plain_motor(source.command(j), rolling);
                 // f = τ/r
-                electric.torque * c.per_radius
-            } else {
-                let mut gear = self.gear(&at, memory, electric.torque);
-                let (force, rate) = if c.rolls() {
-                    // f = τ/r,  k = −∂f/∂v_j = (−∂τ/∂ω)/r²
-                    if !self.effects.none_at(Seam::Gear) {
-                        accumulate_outer(&mut push.mass, gear.inertia * (c.per_radius * c.per_radius), c.row);
-                    }
-                    let force = (gear.torque - gear.damping * speed) * c.per_radius;
-                    (force, (electric.slope + gear.damping) * (c.per_radius * c.per_radius))
-                } else {
-                    let grip = self.grip(&mut at, state, memory, (&source, gain), c, (&mut electric, &mut gear));
-                    speed = grip.wheel_speed;
-                    // with inertia the wheel has not moved yet when the reading is taken
-                    starts = if gear.inertia > zero { state.wheel_speed[j] } else { speed };
-                    (grip.force, grip.rate)
-                };
-                accumulate_outer(&mut push.rate, rate, c.row);
-                if gear.budget > zero {
-                    push.holds = true;
-                    held[j] = (c.row, gear.budget * c.per_radius);
-                }
-                force
-            };
-            truth.current[j] = electric.sampled;
-            truth.wheel_speed[j] = starts;
-            state.wheel_speed[j] = speed;
-            state.current[j] = electric.after;
-            for axis in 0..3 {
-                push.force[axis] += c.row[axis] * force;
+                let force = motor.torque * c.per_radius;
+                (truth.current[j], truth.wheel_speed[j]) = (motor.sampled, rolling);
+                (state.current[j], state.wheel_speed[j]) = (motor.after, rolling);
+                push.force = add_scaled(push.force, force, c.row);
+                continue;
+            }
+            self.enter_wheel(&mut at, state, j, (rolling, rim[j]));
+            let drive = Drive { source: &source, gain, contact: c, before: state.wheel_speed[j] };
+            let wheel = self.wheel(&mut at, state, memory, &drive);
+            truth.current[j] = wheel.motor.sampled;
+            truth.wheel_speed[j] = wheel.starts;
+            state.wheel_speed[j] = wheel.speed;
+            state.current[j] = wheel.motor.after;
+            // R·i²·Δt
+            turned.heat[j] = wheel.motor.resistance * wheel.motor.mean * wheel.motor.mean * dt;
+            turned.rotor[j] = wheel.rotor;
+            push.add(c.row, wheel.force, wheel.rate);
+            if self.turns {
+                accumulate_outer(&mut push.mass, wheel.inertia * (c.per_radius * c.per_radius), c.row);
+            }
+            if wheel.budget > zero {
+                push.shafts.get_or_insert([Hold::none(); N])[j] =
+                    Hold { direction: c.row, budget: wheel.budget * c.per_radius };
+            }
+            if c.rollers_drag() {
+                push.add_rollers(j, c, x);
             }
         }
         if PLAIN {
             push.rate = self.plain_rate;
         }
-        let next = self.move_body(&at, state, memory, &push, &held, dt);
-        self.finish(state, memory, (truth, next), contact, (&source, bus), dt)
+        let next = self.move_body(&mut at, state, memory, &push, dt);
+        let done = Done { truth, next: BodyTwist::from_array(next), contact, source: &source, bus, turned: &turned };
+        self.finish(&mut at, state, memory, &done, dt)
     }
 
     /// Moves the pose, takes the reading and lets the effects remember.
     #[inline]
     pub(super) fn finish(
         &self,
+        at: &mut EffectContext<T>,
         state: &mut State<N, T>,
         memory: &mut [E::State],
-        (truth, next): (Reading<N, T>, [T; 3]),
-        contact: &[Contact<T>; N],
-        (source, bus): (&Source<'_, N, T>, T),
+        done: &Done<'_, N, T>,
         dt: T,
     ) -> Reading<N, T> {
-        let sensed = !self.effects.none_at(Seam::Sense);
-        let reading = if sensed { self.read(&self.at(state, dt), state, memory, truth) } else { truth };
-        let next = BodyTwist::from_array(next);
-        let mean = state.twist.mean(next);
+        let mean = state.twist.mean(done.next);
+        let mut reading = done.truth;
         if !self.effects.is_empty() {
-            self.remember(state, memory, &truth, source, bus, dt);
-            for (j, c) in contact.iter().enumerate() {
-                state.wheel_angle[j] += if c.rolls() {
-                    dt * dot(c.row, mean.to_array()) * c.per_radius
-                } else {
-                    dt * T::lit(0.5) * (truth.wheel_speed[j] + state.wheel_speed[j])
-                };
+            at.pose = state.pose;
+            if !self.effects.none_at(Seam::Sense) {
+                self.read(at, state, memory, &mut reading);
             }
+            self.remember(at, state, memory, done);
+            self.turn_wheels(state, mean, done, dt);
+            // a = dv/dt + ω × v
+            let rate = |before: T, after: T| (after - before) / dt;
+            let (from, to) = (state.twist, done.next);
+            state.acceleration =
+                [rate(from.v, to.v) - mean.w * mean.vn, rate(from.vn, to.vn) + mean.w * mean.v, rate(from.w, to.w)];
         }
         state.pose = state.pose.moved(mean, dt);
-        state.twist = next;
+        state.twist = done.next;
         state.time += dt;
-        state.bus = bus;
+        state.bus = done.bus;
         reading
     }
 
+    /// What turns with the wheels, over a step.
     #[inline]
-    pub(super) fn contacts(&self, at: &EffectContext<T>, state: &State<N, T>, memory: &[E::State]) -> [Contact<T>; N] {
+    fn turn_wheels(&self, state: &mut State<N, T>, mean: BodyTwist<T>, done: &Done<'_, N, T>, dt: T) {
+        for (j, c) in done.contact.iter().enumerate() {
+            let mean_speed = if c.rolls() {
+                dot(c.row, mean.to_array()) * c.per_radius
+            } else {
+                T::lit(0.5) * (done.truth.wheel_speed[j] + state.wheel_speed[j])
+            };
+            state.wheel_angle[j] += dt * mean_speed;
+            state.heat[j] += done.turned.heat[j];
+            if let Some(rotor) = &done.turned.rotor[j] {
+                let (speed, twisted) = rotor.end(mean_speed, dt);
+                state.rotor_speed[j] = speed;
+                state.shaft_twist[j] += twisted;
+            }
+        }
+    }
+
+    #[inline]
+    pub(super) fn contacts(
+        &self,
+        at: &mut EffectContext<T>,
+        state: &State<N, T>,
+        memory: &[E::State],
+    ) -> [Contact<T>; N] {
         let mut contact = self.contact;
         for active in self.effects.at(Seam::Contact) {
             for j in (0..N).filter(|j| active.on(*j)) {
-                let at = self.at_wheel(at, state, j, state.wheel_speed[j]);
-                active.effect.contact(&memory[active.memory(j)], &at, &mut contact[j]);
+                self.enter_wheel(at, state, j, (state.wheel_speed[j], self.rim_speed(state, j)));
+                active.effect.contact(&memory[active.memory(j)], at, &mut contact[j]);
             }
         }
         for c in &mut contact {
@@ -178,21 +223,30 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         }
         contact
     }
+}
 
-    #[inline]
-    pub(super) fn gear(&self, at: &EffectContext<T>, memory: &[E::State], torque: T) -> Gear<T> {
-        let zero = T::zero();
-        let mut gear = Gear {
-            motor_torque: torque,
-            coulomb_share: self.coulomb_share[at.wheel],
-            torque,
-            budget: zero,
-            damping: zero,
-            inertia: zero,
-        };
-        for active in self.effects.on(Seam::Gear, at.wheel) {
-            active.effect.gear(&memory[active.memory(at.wheel)], at, &mut gear);
-        }
-        gear
+/// What a step did to the wheels, for what is remembered.
+pub(super) struct Turned<const N: usize, T> {
+    /// Heat in each winding [J]
+    pub heat: [T; N],
+    /// Each rotor that moves on its own
+    pub rotor: [Option<Rotor<T>>; N],
+}
+
+impl<const N: usize, T: Real> Default for Turned<N, T> {
+    fn default() -> Self {
+        Self { heat: [T::zero(); N], rotor: [None; N] }
     }
+}
+
+/// A step that is solved and not yet taken.
+pub(super) struct Done<'a, const N: usize, T: Real> {
+    /// The truth at its beginning
+    pub truth: Reading<N, T>,
+    /// Velocity at its end
+    pub next: BodyTwist<T>,
+    pub contact: &'a [Contact<T>; N],
+    pub source: &'a Source<'a, N, T>,
+    pub bus: T,
+    pub turned: &'a Turned<N, T>,
 }

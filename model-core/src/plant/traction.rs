@@ -9,13 +9,8 @@
 //! model) the wheel is always at that crossing; with it, the crossing is the end of an implicit step.
 //! The shaft's own dry friction is spent with the body's, as if it passed through a rigid contact.
 
-use super::electric::Electric;
-use super::model::Plant;
-use super::state::State;
-use super::step::Source;
-use crate::effects::EffectSet;
 use crate::effects::contact::wheel_slip::traction;
-use crate::effects::seams::{Contact, EffectContext, Gear};
+use crate::effects::seams::Contact;
 use crate::number::scalar::Real;
 
 /// No wheel turns faster [rad/s].
@@ -70,62 +65,21 @@ impl<T: Real> Floor<T> {
     }
 }
 
-impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
-    /// Solves a wheel whose contact gives way; leaves the motor and gear as they are at the solution.
-    pub(super) fn grip(
-        &self,
-        at: &mut EffectContext<T>,
-        state: &State<N, T>,
-        memory: &[E::State],
-        (source, gain): (&Source<'_, N, T>, T),
-        c: &Contact<T>,
-        (electric, gear): (&mut Electric<T>, &mut Gear<T>),
-    ) -> Grip<T> {
-        let j = at.wheel;
-        let before = state.wheel_speed[j];
-        let floor = Floor::of(c);
-        let rounds = if self.effects.needs_current() { 3 } else { 1 };
-        let mut solved = Grip { force: T::zero(), rate: T::zero(), wheel_speed: before };
-        for _ in 0..rounds {
-            // the motor as a straight line through the last look: τ(ω) = τ₁ − a·(ω − ω₁)
-            let inertia = gear.inertia / at.dt;
-            let line = Line {
-                torque: gear.torque - gear.damping * at.wheel_speed,
-                speed: at.wheel_speed,
-                fall: electric.slope + gear.damping,
-                inertia,
-                before,
-                radius: c.radius,
-                rim_speed: at.rim_speed,
-            };
-            solved = cross(&line, &floor);
-            at.wheel_speed = solved.wheel_speed;
-            *electric = self.electric::<false>(at, state, memory, source, j, gain);
-            *gear = self.gear(at, memory, electric.torque);
-        }
-        if gear.inertia > T::zero() {
-            // with inertia the wheel has not moved yet when the reading is taken
-            electric.sampled += electric.current_slope * (solved.wheel_speed - before);
-        }
-        solved
-    }
-}
-
 /// A motor and its shaft at a wheel that gives way: a straight line over the wheel's speed.
 #[derive(Clone, Copy)]
-struct Line<T> {
+pub(super) struct Line<T> {
     /// Torque at the last look [N·m], and the wheel speed there [rad/s]
-    torque: T,
-    speed: T,
+    pub torque: T,
+    pub speed: T,
     /// By how much it falls with the speed [N·m·s]
-    fall: T,
+    pub fall: T,
     /// J/Δt [N·m·s], and the wheel speed before the step [rad/s]
-    inertia: T,
-    before: T,
+    pub inertia: T,
+    pub before: T,
     /// r [m]
-    radius: T,
+    pub radius: T,
     /// v_j, how fast the floor passes by [m/s]
-    rim_speed: T,
+    pub rim_speed: T,
 }
 
 /// What is left of the torque at a wheel speed, by how much that falls, and what the floor takes.
@@ -196,7 +150,7 @@ fn held<T: Real>(speed: T) -> T {
 }
 
 /// Where the motor's line crosses the floor's curve: found without derivatives, then one step with them.
-fn cross<T: Real>(line: &Line<T>, floor: &Floor<T>) -> Grip<T> {
+pub(super) fn cross<T: Real>(line: &Line<T>, floor: &Floor<T>) -> Grip<T> {
     let speed = T::from_plain(line.plain().crossing(&floor.plain()));
     let Balance { left, fall, .. } = line.balance(floor, speed);
     let speed = held(speed + left / fall.value());

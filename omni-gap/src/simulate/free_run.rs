@@ -56,8 +56,7 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
         twist: BodyTwist<T>,
         enter: impl Fn(&mut [EffectState<T>]),
     ) {
-        let mut state = self.plant.start(T::lit(self.run.t[row]), pose, twist);
-        (state.wheel_angle, state.current, state.bus) = (self.state.wheel_angle, self.state.current, self.state.bus);
+        let state = self.plant.start_from(&self.state, T::lit(self.run.t[row]), pose, twist);
         enter(&mut self.memory);
         self.restart(state);
     }

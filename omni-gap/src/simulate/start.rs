@@ -117,14 +117,8 @@ impl<const N: usize> Start<N> {
             twist.w = truth.gyro;
         }
         let truth = plant.invert_sensing(self.time, twist, reading);
-        let mut state = plant.start(self.time, truth.pose, twist);
-        if self.pose.is_none() {
-            state.pose = before.pose;
-        }
-        state.wheel_angle = before.wheel_angle;
-        state.current = before.current;
-        state.bus = before.bus;
-        state
+        let pose = if self.pose.is_some() { truth.pose } else { before.pose };
+        plant.start_from(before, self.time, pose, twist)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::control::compensation::Compensation;
 use crate::control::reference::AccelerationLimiter;
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
-use crate::effects::seams::{EffectContext, Gear, Winding};
+use crate::effects::seams::{EffectContext, Shaft, Winding};
 use crate::geometry::kinematics::{Wheel, Wheels};
 use crate::number::linalg::accumulate_outer;
 use crate::number::scalar::Real;
@@ -147,14 +147,13 @@ fn undone_wheel<const N: usize, T: Real>(settings: &Settings<N, T>, j: usize) ->
         emf_constant: motor.wheel_emf_constant(),
         torque_constant: motor.wheel_torque_constant(),
     };
-    let mut gear =
-        Gear { motor_torque: zero, coulomb_share: zero, torque: zero, budget: zero, damping: zero, inertia: zero };
+    let mut shaft = Shaft::default();
     let at = EffectContext { wheel: j, ..EffectContext::default() };
     for undo in settings.compensation.on(j) {
         undo.effect.winding(&[], &at, &mut winding);
-        undo.effect.gear(&[], &at, &mut gear);
+        undo.effect.shaft(&[], &at, &mut shaft);
     }
-    (winding, gear.inertia)
+    (winding, shaft.inertia)
 }
 
 /// The most that the bridge of a wheel is asked for besides [V].

@@ -84,13 +84,13 @@ impl<T: Real> Hooks<T> for Coriolis<T> {
 
     fn body(&self, _: &(), at: &EffectContext<T>, x: &mut Body<T>) {
         let Self { factor } = *self;
-        let [v, vn] = force(factor, x.mass, at.twist);
+        let [v, vn] = force(factor, x.total_mass(), at.twist);
         // 0 − a, taken away: a term that is absent then keeps even the sign of a zero
         let add = |sum: &mut T, a: T| *sum -= T::zero() - a;
         add(&mut x.force[0], v);
         add(&mut x.force[1], vn);
         // −∂F/∂(v, vn, ω)
-        let moment = factor * x.mass;
+        let moment = factor * x.total_mass();
         add(&mut x.rate[0][1], -(moment * at.twist.w));
         add(&mut x.rate[0][2], -(moment * at.twist.vn));
         add(&mut x.rate[1][0], moment * at.twist.w);
@@ -115,8 +115,7 @@ mod tests {
     fn moved(factor: f64, twist: BodyTwist<f64>) -> Body<f64> {
         let at = EffectContext { twist, ..EffectContext::default() };
         let mut x = Body {
-            mass: 2.34,
-            inertia: 0.0228,
+            mass: [[2.34, 0.0, 0.0], [0.0, 2.34, 0.0], [0.0, 0.0, 0.0228]],
             force: [0.3, -0.0, 0.0],
             rate: [[0.5, 0.0, -0.0], [-0.0, 0.7, 0.0], [0.0, 0.0, 0.014]],
             budget: [1.9, 2.2, 0.14],

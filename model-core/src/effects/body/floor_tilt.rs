@@ -117,8 +117,8 @@ impl<T: Real> Hooks<T> for FloorTilt<T> {
         let Self { tilt, direction } = *self;
         let [v, vn] = pull(tilt, direction - at.pose.theta);
         // 0 − a, taken away: a force that is absent then keeps even the sign of a zero
-        x.force[0] -= T::zero() - x.mass * v;
-        x.force[1] -= T::zero() - x.mass * vn;
+        x.force[0] -= T::zero() - x.total_mass() * v;
+        x.force[1] -= T::zero() - x.total_mass() * vn;
     }
 
     fn undo_body(&self, motion: &BodyMotion<T>, needed: &mut [T; 3]) {
@@ -136,7 +136,7 @@ mod tests {
 
     fn pulled(p: [f64; 2], theta: f64, force: [f64; 3]) -> [f64; 3] {
         let at = EffectContext { pose: Pose { x: 0.4, y: -0.2, theta }, ..EffectContext::default() };
-        let mut x = Body { mass: 2.34, inertia: 0.0228, force, rate: [[0.0; 3]; 3], budget: [0.0; 3] };
+        let mut x = Body { mass: [[2.34, 0.0, 0.0], [0.0, 2.34, 0.0], [0.0, 0.0, 0.0228]], force, ..Body::default() };
         FloorTilt::of(&p).expect("as many as on the card").body(&(), &at, &mut x);
         x.force
     }

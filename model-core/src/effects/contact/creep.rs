@@ -99,9 +99,8 @@ mod tests {
             per_radius: 1.0 / 0.0325,
             load: 5.7,
             creep: already,
-            grip: 0.0,
-            stiffness: 0.0,
             shape: 1.0,
+            ..Contact::default()
         };
         Creep { creep }.contact(&(), &EffectContext::default(), &mut x);
         x.creep

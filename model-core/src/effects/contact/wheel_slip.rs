@@ -136,9 +136,8 @@ mod tests {
             per_radius: 1.0 / 0.0325,
             load: 5.7,
             creep: 0.01,
-            grip: 0.0,
-            stiffness: 0.0,
             shape: 1.0,
+            ..Contact::default()
         };
         WheelSlip::of(&p).expect("as many as on the card").contact(&(), &EffectContext::default(), &mut x);
         x

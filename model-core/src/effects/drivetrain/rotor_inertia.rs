@@ -16,13 +16,15 @@
 //! J_wheel  `wheel`             kg·m²   inertia of the wheel
 //! l        `gear_ratio`        1       motor speed over wheel speed
 //!
-//! Fails when: the gear is elastic or has play: then rotor and wheel move apart.
+//! On a shaft that yields it is the rotor's alone, which then moves on its own.
+//!
+//! Fails when: the gear is elastic or has play, and the model says that it is rigid.
 //! How to measure it: lift the robot, step the voltage and time the run-up of the wheels.
 //! Source: Kinetic energy of the turning parts; sizes: rotors of small brushless motors times the gear ratio squared,
 //! 3e-5 to 2e-4 kg·m².
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{EffectContext, Gear};
+use crate::effects::seams::{EffectContext, Shaft};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -33,7 +35,7 @@ pub const CARD: Card = Card {
     summary: "Rotors and wheels have to be accelerated along with the body.",
     equation: "J_w = l²·J_rotor + J_wheel",
     source: "kinetic energy of the turning parts; sizes: rotors of small brushless motors times the gear ratio squared, 3e-5 to 2e-4 kg·m²",
-    seams: &[Seam::Gear],
+    seams: &[Seam::Shaft],
     scope: Scope::Wheels,
     params: &[Param {
         key: "inertia_at_wheel_kg_m2",
@@ -85,7 +87,7 @@ impl<T: Copy> Catalogued<T> for RotorInertia<T> {
 impl<T: Real> Hooks<T> for RotorInertia<T> {
     type State = ();
 
-    fn gear(&self, _: &(), _: &EffectContext<T>, x: &mut Gear<T>) {
+    fn shaft(&self, _: &(), _: &EffectContext<T>, x: &mut Shaft<T>) {
         let Self { inertia_at_wheel } = *self;
         x.inertia += inertia_at_wheel;
     }
@@ -95,16 +97,15 @@ impl<T: Real> Hooks<T> for RotorInertia<T> {
 mod tests {
     use super::*;
 
-    fn geared(inertia: f64) -> Gear<f64> {
-        let mut x =
-            Gear { motor_torque: 0.1, coulomb_share: 0.02, torque: 0.1, budget: 0.02, damping: 1e-4, inertia: 2e-5 };
-        RotorInertia { inertia_at_wheel: inertia }.gear(&(), &EffectContext::default(), &mut x);
+    fn turning(inertia: f64) -> Shaft<f64> {
+        let mut x = Shaft { inertia: 2e-5, ..Shaft::default() };
+        RotorInertia { inertia_at_wheel: inertia }.shaft(&(), &EffectContext::default(), &mut x);
         x
     }
 
     #[test]
-    fn without_inertia_the_gear_is_left_bit_for_bit() {
-        assert_eq!(geared(0.0).inertia.to_bits(), 2e-5_f64.to_bits());
+    fn without_inertia_the_shaft_is_left_bit_for_bit() {
+        assert_eq!(turning(0.0).inertia.to_bits(), 2e-5_f64.to_bits());
     }
 
     #[test]
@@ -118,8 +119,8 @@ mod tests {
     fn it_takes_the_energy_of_the_added_inertia_at_every_speed() {
         for k in -10..=10 {
             let speed = f64::from(k);
-            let energy = |x: &Gear<f64>| 0.5 * x.inertia * speed * speed;
-            let added = energy(&geared(7.5e-5)) - energy(&geared(0.0));
+            let energy = |x: &Shaft<f64>| 0.5 * x.inertia * speed * speed;
+            let added = energy(&turning(7.5e-5)) - energy(&turning(0.0));
             assert!(added >= 0.0 && (added - 0.5 * 7.5e-5 * speed * speed).abs() < 1e-15);
         }
     }

@@ -166,7 +166,7 @@ mod tests {
     /// The drive as the plant describes it, after the hook.
     fn driven(s: &Changes<f64>, delay: f64, at: &EffectContext<f64>, command: f64, bus: f64) -> Bridge<f64> {
         let voltage = command * (bus / NOMINAL);
-        let mut x = Bridge { command, bus, current: 0.3, voltage, sampled: voltage };
+        let mut x = Bridge { command, bus, current: 0.3, voltage, sampled: voltage, ..Bridge::default() };
         ActuationDelay { delay }.bridge(s, at, &mut x);
         x
     }
@@ -241,7 +241,7 @@ mod tests {
         for k in 0_u8..=200 {
             let command = f32::from(k % 7);
             let at = EffectContext { time, dt: 0.005, nominal_supply: 12.0, ..EffectContext::default() };
-            let mut x = Bridge { command, bus: 12.0, current: 0.0, voltage: command, sampled: command };
+            let mut x = Bridge { command, bus: 12.0, voltage: command, sampled: command, ..Bridge::default() };
             ActuationDelay { delay: 0.010 }.bridge(&s, &at, &mut x);
             assert_eq!(x.sampled, before[0]);
             ActuationDelay { delay: 0.010 }.advance(&mut s, &at, &StepOutcome { command, ..StepOutcome::default() });

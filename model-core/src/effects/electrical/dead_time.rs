@@ -53,7 +53,7 @@ pub const CARD: Card = Card {
             role: Role::Fixed,
         },
     ],
-    needs_current: true,
+    needs_current: false,
     signature: "current short of (u − K_v·ω)/R by V_d/R, against its own sign, at all speeds; wheels do not start at small voltages",
     look_alikes: &[
         LookAlike {
@@ -67,12 +67,7 @@ pub const CARD: Card = Card {
     ],
     code: 3,
     undone: Undone::By("the voltage lost is added"),
-    physics: Physics {
-        // Newton's rule stops at 1e-6 of the current, and its h points the same way whichever way the current flows:
-        // 1e-6 A push with 4e-6 N, on 2 kg for the 0.1 s that the motors take to brake it, and 0.1 N·m on 0.02 kg·m²
-        apart: 2e-5,
-        ..Physics::PASSIVE
-    },
+    physics: Physics::PASSIVE,
 };
 
 /// Voltage lost [V].
@@ -103,9 +98,8 @@ impl<T: Real> Hooks<T> for DeadTime<T> {
 
     fn bridge(&self, _: &(), _: &EffectContext<T>, x: &mut Bridge<T>) {
         let Self { voltage_loss, smoothing_current } = *self;
-        let lost = loss(voltage_loss, smoothing_current, x.current);
-        x.voltage -= lost;
-        x.sampled -= lost;
+        x.drop += voltage_loss;
+        x.drop_current = x.drop_current.max(smoothing_current);
     }
 
     fn undo_bridge(&self, current: T, voltage: &mut T) {
