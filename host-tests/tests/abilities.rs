@@ -1,0 +1,22 @@
+//! # What the seams can carry
+//!
+//! Each ability of the plant that the catalogue does not use yet, shown by an effect that stands only here, against a
+//! reference that shares nothing with the core: a closed form, or equations integrated for themselves.
+
+#[path = "abilities/effects.rs"]
+mod effects;
+
+#[path = "abilities/backlash.rs"]
+mod backlash;
+#[path = "abilities/context.rs"]
+mod context;
+#[path = "abilities/elastic_shaft.rs"]
+mod elastic_shaft;
+#[path = "abilities/load_transfer.rs"]
+mod load_transfer;
+#[path = "abilities/off_centre.rs"]
+mod off_centre;
+#[path = "abilities/roller_friction.rs"]
+mod roller_friction;
+#[path = "abilities/room.rs"]
+mod room;
