@@ -13,7 +13,7 @@
 //!
 //! How to get the numbers: `omni-gap diagnose`, which writes them into `corrected_robot.toml`.
 
-use crate::effects::active::MAX_EFFECTS;
+use crate::effects::active::MOST_UNDONE;
 use crate::effects::{Effect, EffectKind};
 use crate::number::scalar::Real;
 
@@ -37,7 +37,7 @@ impl<T> Undo<T> {
 /// The effects that the controller undoes; [`Compensation::none`] undoes nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compensation<const N: usize, T = f32> {
-    items: [Option<Undo<T>>; MAX_EFFECTS],
+    items: [Option<Undo<T>>; MOST_UNDONE],
 }
 
 /// Why an effect is not undone.
@@ -49,7 +49,7 @@ pub enum NotCompensable {
     Wheel,
     /// The effect is undone on this wheel already.
     Twice,
-    /// There are [`MAX_EFFECTS`] already.
+    /// There are [`MOST_UNDONE`] already.
     Full,
 }
 
@@ -74,7 +74,7 @@ impl<const N: usize, T: Real> Default for Compensation<N, T> {
 impl<const N: usize, T: Real> Compensation<N, T> {
     /// Nothing is undone.
     pub fn none() -> Self {
-        Self { items: [None; MAX_EFFECTS] }
+        Self { items: [None; MOST_UNDONE] }
     }
 
     /// Undoes an effect too; `wheel` the only wheel that has it. Its parameters are within the bounds of its card: whoever

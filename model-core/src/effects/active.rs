@@ -10,7 +10,10 @@ use crate::effects::card::{Scope, Seam};
 use crate::effects::{Effect, EffectKind, EffectSet};
 use crate::number::scalar::Real;
 
-/// The most effects that one model may carry, that a robot undoes, and that its parameter block names.
+/// The most effects that a robot undoes, and that its parameter block names.
+pub const MOST_UNDONE: usize = 24;
+
+/// The most effects that one model may carry: as many as a robot has, and those that a diagnosis adds.
 pub const MAX_EFFECTS: usize = 28;
 
 /// An effect in a model.

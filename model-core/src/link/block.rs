@@ -19,7 +19,7 @@
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 
-use crate::effects::active::MAX_EFFECTS;
+use crate::effects::active::MOST_UNDONE;
 use crate::effects::card::MAX_PARAMS;
 use crate::geometry::kinematics::{Wheel, Wheels};
 use crate::link::bytes::{Reader, Writer};
@@ -41,14 +41,14 @@ pub use limits::Limits;
 pub const VERSION: u16 = 2;
 
 /// Room that is enough for every block.
-pub const MAX_BYTES: usize = 1152;
+pub const MAX_BYTES: usize = 1024;
 
 const MAGIC: [u8; 4] = *b"OMNI";
 const HEADER: usize = 13;
 const CHECK: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// The longest block that there can be: four wheels and all effects with all parameters.
-const LONGEST: usize = HEADER + 4 * (4 * 3 + bounds::SCALARS.len()) + 1 + MAX_EFFECTS * (2 + 4 * MAX_PARAMS) + 4;
+const LONGEST: usize = HEADER + 4 * (4 * 3 + bounds::SCALARS.len()) + 1 + MOST_UNDONE * (2 + 4 * MAX_PARAMS) + 4;
 const _: () = assert!(LONGEST <= MAX_BYTES, "every block fits");
 
 /// How the wheels are driven.

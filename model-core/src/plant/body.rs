@@ -40,10 +40,11 @@ impl<T: Real> Mobility<T> {
     /// cosines cancel) and counts as zero.
     #[inline]
     pub fn new(h: &[[T; 3]; 3]) -> Self {
-        let small = T::lit(1e-18);
+        let small = T::Plain::lit(1e-18);
+        let h_plain = |a: usize, b: usize| h[a][b].plain();
         let couples = |a: usize, b: usize| {
-            let bound = small * h[a][a] * h[b][b];
-            h[a][b] * h[a][b] > bound || h[b][a] * h[b][a] > bound
+            let bound = small * h_plain(a, a) * h_plain(b, b);
+            h_plain(a, b) * h_plain(a, b) > bound || h_plain(b, a) * h_plain(b, a) > bound
         };
         if couples(0, 1) || couples(0, 2) || couples(1, 2) {
             Self::Full(inverse3(h))
@@ -114,23 +115,29 @@ struct Held<T> {
 }
 
 impl<const N: usize, T: Real> DryFriction<'_, N, T> {
-    /// The twist after friction has spent what it takes of its budgets.
-    ///
-    /// `free` is the twist that the step would end with if there were no dry friction [m/s, m/s, rad/s].
+    /// The twist after a step: `x` is that before it [m/s, m/s, rad/s], `impulse` what all forces but dry friction give
+    /// [N·s, N·s, N·m·s].
     #[inline]
-    pub fn spend(&self, free: [T; 3], mobility: &Mobility<T>, dt: T) -> [T; 3] {
-        match mobility {
-            Mobility::Diagonal(d) if self.shafts.is_none() && self.rollers.is_none() => {
-                let mut x = free;
-                for axis in 0..3 {
-                    // x⁺ = x − clamp(x, ±H⁻¹·b·Δt)
-                    let most = d[axis] * self.axes[axis] * dt;
-                    x[axis] -= x[axis].clamp(-most, most);
-                }
-                x
-            }
-            _ => self.slide(free, mobility, dt).unwrap_or_else(|| self.stick(free, mobility, dt)),
+    pub fn spend(&self, x: [T; 3], impulse: [T; 3], mobility: &Mobility<T>, dt: T) -> [T; 3] {
+        if let Mobility::Diagonal(d) = mobility
+            && self.shafts.is_none()
+            && self.rollers.is_none()
+        {
+            return core::array::from_fn(|axis| {
+                // x⁺ = x_free − clamp(x_free, ±H⁻¹·b·Δt)
+                let free = x[axis] + d[axis] * impulse[axis];
+                let most = d[axis] * self.axes[axis] * dt;
+                free - free.clamp(-most, most)
+            });
         }
+        let free = || {
+            let change = mobility.of(impulse);
+            [x[0] + change[0], x[1] + change[1], x[2] + change[2]]
+        };
+        self.slide(x, x, impulse, mobility, dt).unwrap_or_else(|| {
+            let free = free();
+            self.slide(free, x, impulse, mobility, dt).unwrap_or_else(|| self.stick(free, mobility, dt))
+        })
     }
 
     /// What the wheels hold.
@@ -139,24 +146,26 @@ impl<const N: usize, T: Real> DryFriction<'_, N, T> {
         self.shafts.into_iter().flatten().chain(self.rollers.into_iter().flatten())
     }
 
-    /// The twist if every direction slides on as it did: the whole budget of each, against its motion. `None` if that
+    /// The twist if every direction slides as `along` does: the whole budget of each, against that motion. `None` if that
     /// would stop one or turn it round.
     #[inline]
-    fn slide(&self, free: [T; 3], mobility: &Mobility<T>, dt: T) -> Option<[T; 3]> {
-        let against = |along: T, most: T| if along > T::zero() { -most } else { most };
-        let mut force: [T; 3] = core::array::from_fn(|axis| against(free[axis], self.axes[axis]));
-        for Hold { direction, budget } in self.of_wheels() {
-            force = add_scaled(force, against(dot(*direction, free), *budget), *direction);
-        }
-        // x⁺ = x − H⁻¹·Σ d_k·sign(d_k·x)·b_k·Δt
-        let x = add_scaled(free, dt, mobility.of(force));
+    fn slide(&self, along: [T; 3], x: [T; 3], impulse: [T; 3], mobility: &Mobility<T>, dt: T) -> Option<[T; 3]> {
         // the directions of motion are a matter of values alone
-        let (from, to) = (free.map(T::plain), x.map(T::plain));
+        let along = along.map(T::plain);
+        let speed = |hold: &Hold<T>, x| dot(hold.direction.map(T::plain), x);
+        let against = |speed: T::Plain, most: T| if speed > Real::zero() { -most } else { most };
+        let mut force: [T; 3] = core::array::from_fn(|axis| against(along[axis], self.axes[axis]));
+        for hold in self.of_wheels() {
+            force = add_scaled(force, against(speed(hold, along), hold.budget), hold.direction);
+        }
+        // x⁺ = x + H⁻¹·(Δt·F − Σ d_k·sign(d_k·x)·b_k·Δt)
+        let change = mobility.of(add_scaled(impulse, dt, force));
+        let after = [x[0] + change[0], x[1] + change[1], x[2] + change[2]];
+        let to = after.map(T::plain);
         let goes_on = |before: T::Plain, after: T::Plain, most: T| most <= T::zero() || before * after > Real::zero();
-        let axes = (0..3).all(|axis| goes_on(from[axis], to[axis], self.axes[axis]));
-        let along = |hold: &Hold<T>, x| dot(hold.direction.map(T::plain), x);
-        let wheels = self.of_wheels().all(|hold| goes_on(along(hold, from), along(hold, to), hold.budget));
-        (axes && wheels).then_some(x)
+        let axes = (0..3).all(|axis| goes_on(along[axis], to[axis], self.axes[axis]));
+        let wheels = self.of_wheels().all(|hold| goes_on(speed(hold, along), speed(hold, to), hold.budget));
+        (axes && wheels).then_some(after)
     }
 
     /// The twist where some directions stick: which ones is found in plain numbers; the twist then follows at once.
@@ -255,7 +264,7 @@ mod tests {
     fn spent(free: [f64; 3], h: [[f64; 3]; 3], axes: [f64; 3], wheels: Option<[([f64; 3], f64); 4]>) -> [f64; 3] {
         let shafts = wheels.map(|all| all.map(|(direction, budget)| Hold { direction, budget }));
         let dry = DryFriction { axes, shafts: shafts.as_ref(), rollers: None };
-        dry.spend(free, &Mobility::new(&h), 1e-3)
+        dry.spend(free, [0.0; 3], &Mobility::new(&h), 1e-3)
     }
 
     #[test]

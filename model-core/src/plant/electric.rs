@@ -19,7 +19,7 @@ use crate::number::scalar::Real;
 use crate::plant::winding::Motor;
 
 /// What a motor does in a step.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Electric<T> {
     /// Torque at the wheel shaft, its mean over the step [N·m]
     pub torque: T,
@@ -35,6 +35,26 @@ pub(super) struct Electric<T> {
     pub after: T,
     /// Resistance of the winding [Ω]
     pub resistance: T,
+    /// True if torque and currents fall in straight lines over the rotor's speed
+    pub straight: bool,
+}
+
+impl<T: Real> Electric<T> {
+    /// Goes to another speed of the rotor, by `gained` [rad/s]; of a motor that is straight.
+    #[inline]
+    pub fn go_along(&mut self, gained: T) {
+        self.torque = self.torque - self.slope * gained;
+        let current = self.current_slope * gained;
+        for i in [&mut self.sampled, &mut self.mean, &mut self.after] {
+            *i = *i - current;
+        }
+    }
+
+    fn put(&mut self, torque: T, slope: T, current: T, current_slope: T) {
+        (self.torque, self.slope, self.current_slope) = (torque, slope, current_slope);
+        (self.sampled, self.mean, self.after) = (current, current, current);
+        self.straight = true;
+    }
 }
 
 /// What bridge and winding say at a current.
@@ -90,12 +110,13 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         at: &EffectContext<T>,
         state: &State<N, T>,
         memory: &[E::State],
-        source: &Source<'_, N, T>,
-        gain: T,
-    ) -> Electric<T> {
+        (source, gain): (&Source<'_, N, T>, T),
+        motor: &mut Electric<T>,
+    ) {
         let zero = T::zero();
         let j = at.wheel;
-        let bare = Winding {
+        motor.resistance = self.robot.motor.resistance;
+        let bare = || Winding {
             current: zero,
             speed: at.rotor_speed,
             resistance: self.robot.motor.resistance,
@@ -104,32 +125,19 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             torque_constant: self.kt,
         };
         match source {
-            Source::Speed => Electric {
-                torque: zero,
-                slope: zero,
-                current_slope: zero,
-                sampled: zero,
-                mean: zero,
-                after: zero,
-                resistance: zero,
-            },
+            Source::Speed => motor.put(zero, zero, zero, zero),
             Source::Current(current) => {
                 let current = current[j];
-                let winding = self.winding(at, memory, Winding { current, ..bare });
-                Electric {
-                    torque: winding.torque_constant * current,
-                    slope: zero,
-                    current_slope: zero,
-                    sampled: current,
-                    mean: current,
-                    after: current,
-                    resistance: winding.resistance,
-                }
+                let winding = self.winding(at, memory, Winding { current, ..bare() });
+                motor.put(winding.torque_constant * current, zero, current, zero);
+                motor.resistance = winding.resistance;
             }
             Source::Voltage(command) => {
                 let u = command[j] * gain;
                 if self.effects.none_on(&[Seam::Bridge, Seam::Winding], j) {
-                    return self.plain_motor(u, at.rotor_speed);
+                    let (current, torque) = self.plain_motor(u, at.rotor_speed);
+                    motor.put(torque, self.plain_slope, current, self.plain_current_slope);
+                    return;
                 }
                 let turned = !self.effects.none_on(&[Seam::Winding], j);
                 let bus = self.robot.supply * gain;
@@ -139,30 +147,22 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                     for active in self.effects.on(Seam::Bridge, j) {
                         active.effect.bridge(&memory[active.memory(j)], at, &mut bridge);
                     }
-                    let winding = if turned { self.winding(at, memory, Winding { current, ..bare }) } else { bare };
+                    let winding = if turned { self.winding(at, memory, Winding { current, ..bare() }) } else { bare() };
                     let per_resistance = if turned { T::one() / winding.resistance } else { self.per_resistance };
                     let look = Look { bridge, winding, per_resistance };
                     (look.current(bridge.voltage).0, look)
                 };
-                self.solve_winding(state.current[j], at.dt, look)
+                self.solve_winding(state.current[j], at.dt, look, motor);
             }
         }
     }
 
-    /// The motor of the plain model.
+    /// The motor of the plain model: current [A] and torque at the wheel's shaft [N·m].
     #[inline(always)]
-    pub(super) fn plain_motor(&self, voltage: T, rotor_speed: T) -> Electric<T> {
+    pub(super) fn plain_motor(&self, voltage: T, rotor_speed: T) -> (T, T) {
         // i = (u − l·K_v·ω)/R,  τ = l·K_t·i
         let current = (voltage - self.emf * rotor_speed) * self.per_resistance;
-        Electric {
-            torque: self.kt * current,
-            slope: self.kt * self.emf * self.per_resistance,
-            current_slope: self.emf * self.per_resistance,
-            sampled: current,
-            mean: current,
-            after: current,
-            resistance: self.robot.motor.resistance,
-        }
+        (current, self.kt * current)
     }
 
     fn winding(&self, at: &EffectContext<T>, memory: &[E::State], mut winding: Winding<T>) -> Winding<T> {
@@ -173,7 +173,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     }
 
     #[inline]
-    fn solve_winding(&self, last: T, dt: T, look: impl Fn(T) -> (T, Look<T>)) -> Electric<T> {
+    fn solve_winding(&self, last: T, dt: T, look: impl Fn(T) -> (T, Look<T>), motor: &mut Electric<T>) {
         let Solved { x: current, stretch, look } = if self.effects.needs_current() {
             solve(last, look)
         } else {
@@ -193,7 +193,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         };
         let (mean, after) = if inductive {
             // the winding at the wheel's shaft, with the constants and the voltage found above
-            let motor = Motor {
+            let wound = Motor {
                 gear_ratio: T::one(),
                 resistance: w.resistance,
                 emf_constant: w.emf_constant,
@@ -201,13 +201,14 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             };
             let voltage = look.voltage_at(current);
             (
-                motor.mean_current(last, voltage, w.speed, w.inductance, dt),
-                motor.current_after(last, voltage, w.speed, w.inductance, dt),
+                wound.mean_current(last, voltage, w.speed, w.inductance, dt),
+                wound.current_after(last, voltage, w.speed, w.inductance, dt),
             )
         } else {
             (current, current)
         };
-        Electric {
+        let straight = !inductive && !self.effects.needs_current() && look.bridge.drop_current <= T::zero();
+        *motor = Electric {
             torque: w.torque_constant * mean,
             slope: w.torque_constant * current_slope,
             current_slope,
@@ -215,7 +216,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             mean,
             after,
             resistance: w.resistance,
-        }
+            straight,
+        };
     }
 
     /// The bus voltage [V].
@@ -233,6 +235,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         if self.effects.none_at(Seam::Supply) {
             return nominal;
         }
+        let mut motor = Electric::default();
         let supplied = |voltage: T| {
             let gain = voltage / nominal;
             let mut drawn = T::zero();
@@ -240,7 +243,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 let speed = if contact[j].rolls() { rim[j] * contact[j].per_radius } else { state.wheel_speed[j] };
                 self.enter_wheel(at, state, j, (speed, rim[j]));
                 // I_bus = Σ duty_j·i_j,  duty_j = u_j/U_nominal
-                drawn += command[j] / nominal * self.electric(at, state, memory, source, gain).sampled;
+                self.electric(at, state, memory, (source, gain), &mut motor);
+                drawn += command[j] / nominal * motor.sampled;
             }
             at.leave_wheel();
             let mut supply = Supply { current: drawn, voltage: nominal };

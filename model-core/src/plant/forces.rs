@@ -48,15 +48,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             }
         }
         let mobility = Mobility::new(&h);
-        // x_free = x + H⁻¹·Δt·F
-        let force = [
-            dt * (push.force[0] + body.force[0]),
-            dt * (push.force[1] + body.force[1]),
-            dt * (push.force[2] + body.force[2]),
-        ];
-        let change = mobility.of(force);
-        let free = [x[0] + change[0], x[1] + change[1], x[2] + change[2]];
+        // Δt·F
+        let impulse = core::array::from_fn(|axis| dt * (push.force[axis] + body.force[axis]));
         let dry = DryFriction { axes: body.budget, shafts: push.shafts.as_ref(), rollers: push.rollers.as_ref() };
-        dry.spend(free, &mobility, dt)
+        dry.spend(x, impulse, &mobility, dt)
     }
 }

@@ -25,6 +25,11 @@ pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     pub(super) kt: T,
     /// 1/R [1/Ω]
     pub(super) per_resistance: T,
+    /// −∂current/∂(wheel speed) and −∂torque/∂(wheel speed) of the plain motor [A·s] [N·m·s]
+    pub(super) plain_current_slope: T,
+    pub(super) plain_slope: T,
+    /// True if a shaft yields
+    pub(super) yields: bool,
     /// The contacts as the robot's parameters describe them.
     pub(super) contact: [Contact<T>; N],
     /// The shafts with what the effects make of them
@@ -91,6 +96,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let turns = !effects.none_at(Seam::Shaft) || !effects.none_at(Seam::Gear);
         let settled = settled(&effects, contact);
         let shafts = shafts(&effects);
+        let yields = shafts.iter().any(|shaft| shaft.stiffness > T::zero());
         Self {
             robot,
             effects,
@@ -99,6 +105,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             emf,
             kt,
             per_resistance,
+            plain_current_slope: emf * per_resistance,
+            plain_slope: electric,
+            yields,
             contact,
             shafts,
             settled,

@@ -3,7 +3,7 @@
 use super::model::Plant;
 use super::shaft::Rotor;
 use super::state::{Input, Reading, State};
-use super::wheel::Drive;
+use super::wheel::{Drive, Wheel};
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Contact, EffectContext};
@@ -111,28 +111,30 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
         let mut push = Push::none();
         let mut turned = Turned::default();
+        let mut wheel = Wheel::new();
         for j in 0..N {
             let c = &contact[j];
             let rolling = rim[j] * c.per_radius;
             if PLAIN {
-                let motor = self.plain_motor(source.command(j), rolling);
+                let (current, torque) = self.plain_motor(source.command(j), rolling);
+                (truth.current[j], truth.wheel_speed[j]) = (current, rolling);
+                (state.current[j], state.wheel_speed[j]) = (current, rolling);
                 // f = τ/r
-                let force = motor.torque * c.per_radius;
-                (truth.current[j], truth.wheel_speed[j]) = (motor.sampled, rolling);
-                (state.current[j], state.wheel_speed[j]) = (motor.after, rolling);
-                push.force = add_scaled(push.force, force, c.row);
+                push.force = add_scaled(push.force, torque * c.per_radius, c.row);
                 continue;
             }
             self.enter_wheel(&mut at, state, j, (rolling, rim[j]));
             let drive = Drive { source: &source, gain, contact: c, before: state.wheel_speed[j] };
-            let wheel = self.wheel(&mut at, state, memory, &drive);
+            self.wheel(&mut at, state, memory, &drive, &mut wheel);
             truth.current[j] = wheel.motor.sampled;
             truth.wheel_speed[j] = wheel.starts;
             state.wheel_speed[j] = wheel.speed;
             state.current[j] = wheel.motor.after;
             // R·i²·Δt
             turned.heat[j] = wheel.motor.resistance * wheel.motor.mean * wheel.motor.mean * dt;
-            turned.rotor[j] = wheel.rotor;
+            if self.yields {
+                turned.rotors.get_or_insert([Rotor::default(); N])[j] = wheel.rotor;
+            }
             push.add(c.row, wheel.force, wheel.rate);
             if self.turns {
                 accumulate_outer(&mut push.mass, wheel.inertia * (c.per_radius * c.per_radius), c.row);
@@ -196,8 +198,10 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             };
             state.wheel_angle[j] += dt * mean_speed;
             state.heat[j] += done.turned.heat[j];
-            if let Some(rotor) = &done.turned.rotor[j] {
-                let (speed, twisted) = rotor.end(mean_speed, dt);
+            if let Some(rotors) = &done.turned.rotors
+                && self.shafts[j].stiffness > T::zero()
+            {
+                let (speed, twisted) = rotors[j].end(mean_speed, dt);
                 state.rotor_speed[j] = speed;
                 state.shaft_twist[j] += twisted;
             }
@@ -229,13 +233,13 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
 pub(super) struct Turned<const N: usize, T> {
     /// Heat in each winding [J]
     pub heat: [T; N],
-    /// Each rotor that moves on its own
-    pub rotor: [Option<Rotor<T>>; N],
+    /// The rotors, where a shaft yields
+    pub rotors: Option<[Rotor<T>; N]>,
 }
 
 impl<const N: usize, T: Real> Default for Turned<N, T> {
     fn default() -> Self {
-        Self { heat: [T::zero(); N], rotor: [None; N] }
+        Self { heat: [T::zero(); N], rotors: None }
     }
 }
 

@@ -16,16 +16,6 @@ use crate::number::scalar::Real;
 /// No wheel turns faster [rad/s].
 const FASTEST: f64 = 1e6;
 
-/// A wheel whose contact gives way.
-pub(super) struct Grip<T> {
-    /// Force on the floor along the wheel's rolling direction [N]
-    pub force: T,
-    /// −∂force/∂(rim speed) [N/(m/s)]
-    pub rate: T,
-    /// Wheel speed [rad/s]
-    pub wheel_speed: T,
-}
-
 /// What the floor takes of a wheel that gives way.
 #[derive(Clone, Copy)]
 pub(super) struct Floor<T> {
@@ -82,12 +72,10 @@ pub(super) struct Line<T> {
     pub rim_speed: T,
 }
 
-/// What is left of the torque at a wheel speed, by how much that falls, and what the floor takes.
+/// What is left of the torque at a wheel speed, and by how much that falls.
 struct Balance<T> {
     left: T,
     fall: T,
-    force: T,
-    slope: T,
 }
 
 impl<T: Real> Line<T> {
@@ -109,7 +97,7 @@ impl<T: Real> Line<T> {
         let (force, slope) = floor.force(r * speed - self.rim_speed);
         // G(ω) = τ₁ − a·(ω − ω₁) − (J/Δt)·(ω − ω₀) − r·f(r·ω − v)
         let left = self.torque - self.fall * (speed - self.speed) - self.inertia * (speed - self.before) - r * force;
-        Balance { left, fall: self.fall + self.inertia + r * r * slope, force, slope }
+        Balance { left, fall: self.fall + self.inertia + r * r * slope }
     }
 
     /// Near the wheel speed at which nothing is left, by Newton's rule within a bracket.
@@ -123,7 +111,7 @@ impl<T: Real> Line<T> {
         // where the wheel was is close to where it will be
         let mut speed = self.before.clamp(lo, hi);
         for _ in 0..24 {
-            let Balance { left, fall, .. } = self.balance(floor, speed);
+            let Balance { left, fall } = self.balance(floor, speed);
             if left > T::zero() {
                 lo = speed;
             } else {
@@ -149,14 +137,15 @@ fn held<T: Real>(speed: T) -> T {
     speed.clamp(T::lit(-FASTEST), T::lit(FASTEST))
 }
 
-/// Where the motor's line crosses the floor's curve: found without derivatives, then one step with them.
-pub(super) fn cross<T: Real>(line: &Line<T>, floor: &Floor<T>) -> Grip<T> {
+/// Where the motor's line crosses the floor's curve: force on the floor [N], by how much it falls with the speed of the rim
+/// [N/(m/s)], and wheel speed [rad/s]. Found without derivatives, then one step with them.
+pub(super) fn cross<T: Real>(line: &Line<T>, floor: &Floor<T>) -> (T, T, T) {
     let speed = T::from_plain(line.plain().crossing(&floor.plain()));
-    let Balance { left, fall, .. } = line.balance(floor, speed);
+    let Balance { left, fall } = line.balance(floor, speed);
     let speed = held(speed + left / fall.value());
-    let Balance { force, slope, .. } = line.balance(floor, speed);
+    let (force, slope) = floor.force(line.radius * speed - line.rim_speed);
     // ∂f/∂v = −f′·a/(a + r²f′)
     let a = line.fall + line.inertia;
     let r = line.radius;
-    Grip { force, rate: slope * a / (a + r * r * slope), wheel_speed: speed }
+    (force, slope * a / (a + r * r * slope), speed)
 }

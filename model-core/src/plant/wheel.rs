@@ -21,7 +21,7 @@ pub(super) struct Drive<'a, const N: usize, T> {
     pub before: T,
 }
 
-/// A wheel, solved.
+/// A wheel, solved. There is one in a step, filled anew for every wheel.
 pub(super) struct Wheel<T> {
     /// Force on the floor along the wheel's rolling direction [N]
     pub force: T,
@@ -37,18 +37,28 @@ pub(super) struct Wheel<T> {
     pub budget: T,
     pub motor: Electric<T>,
     /// Its rotor, where it moves on its own
-    pub rotor: Option<Rotor<T>>,
-}
-
-/// Motor, shaft and gear at a wheel speed.
-struct Shafted<T> {
-    motor: Electric<T>,
-    rotor: Option<Rotor<T>>,
+    pub rotor: Rotor<T>,
     gear: Gear<T>,
     /// By how much the torque falls with the wheel's speed [N·m·s]
     fall: T,
-    /// Inertia that turns with the wheel [kg·m²]
-    inertia: T,
+}
+
+impl<T: Real> Wheel<T> {
+    pub fn new() -> Self {
+        let zero = T::zero();
+        Self {
+            force: zero,
+            rate: zero,
+            speed: zero,
+            starts: zero,
+            inertia: zero,
+            budget: zero,
+            motor: Electric::default(),
+            rotor: Rotor::default(),
+            gear: Gear::default(),
+            fall: zero,
+        }
+    }
 }
 
 /// How often a motor whose torque is no straight line over the speed is looked at.
@@ -62,107 +72,121 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         state: &State<N, T>,
         memory: &[E::State],
         drive: &Drive<'_, N, T>,
-    ) -> Wheel<T> {
+        wheel: &mut Wheel<T>,
+    ) {
         let c = drive.contact;
-        if !c.rolls() {
-            return self.slipping(at, state, memory, drive);
+        let rolls = c.rolls();
+        if !rolls {
+            // where the wheel was is close to where it will be
+            at.wheel_speed = drive.before;
         }
-        let speed = at.wheel_speed;
-        let Shafted { motor, rotor, gear, fall, inertia } = self.shafted(at, state, memory, drive);
-        // f = τ/r,  k = −∂f/∂v_j = (−∂τ/∂ω)/r²
-        let force = (gear.torque - gear.damping * speed) * c.per_radius;
-        let rate = (fall + gear.damping) * (c.per_radius * c.per_radius);
-        Wheel { force, rate, speed, starts: speed, inertia, budget: gear.budget, motor, rotor }
+        self.look(at, state, memory, drive, wheel);
+        if rolls {
+            // f = τ/r,  k = −∂f/∂v_j = (−∂τ/∂ω)/r²
+            let gear = &wheel.gear;
+            wheel.force = (gear.torque - gear.damping * at.wheel_speed) * c.per_radius;
+            wheel.rate = (wheel.fall + gear.damping) * (c.per_radius * c.per_radius);
+            (wheel.speed, wheel.starts) = (at.wheel_speed, at.wheel_speed);
+        } else {
+            self.slip(at, state, memory, drive, wheel);
+        }
+        wheel.budget = wheel.gear.budget;
     }
 
-    /// A wheel whose contact gives way.
-    fn slipping(
+    /// A wheel whose contact gives way, of which motor, shaft and gear have been looked at where it was.
+    fn slip(
         &self,
         at: &mut EffectContext<T>,
         state: &State<N, T>,
         memory: &[E::State],
         drive: &Drive<'_, N, T>,
-    ) -> Wheel<T> {
+        wheel: &mut Wheel<T>,
+    ) {
         let (c, before) = (drive.contact, drive.before);
         let floor = Floor::of(c);
-        at.wheel_speed = before;
-        let mut look = self.shafted(at, state, memory, drive);
-        let mut grip;
-        let mut looks = 1;
-        loop {
+        let mut line = Line {
+            torque: T::zero(),
+            speed: before,
+            fall: T::zero(),
+            inertia: wheel.inertia / at.dt,
+            before,
+            radius: c.radius,
+            rim_speed: at.rim_speed,
+        };
+        for look in 1..LOOKS {
             // the motor as a straight line through the last look: τ(ω) = τ₁ − a·(ω − ω₁)
-            let line = Line {
-                torque: look.gear.torque - look.gear.damping * at.wheel_speed,
-                speed: at.wheel_speed,
-                fall: look.fall + look.gear.damping,
-                inertia: look.inertia / at.dt,
-                before,
-                radius: c.radius,
-                rim_speed: at.rim_speed,
-            };
-            grip = cross(&line, &floor);
-            let expected = line.torque - line.fall * (grip.wheel_speed - line.speed);
-            at.wheel_speed = grip.wheel_speed;
-            look = self.shafted(at, state, memory, drive);
-            let found = look.gear.torque - look.gear.damping * at.wheel_speed;
-            looks += 1;
+            line.torque = wheel.gear.torque - wheel.gear.damping * at.wheel_speed;
+            line.speed = at.wheel_speed;
+            line.fall = wheel.fall + wheel.gear.damping;
+            (wheel.force, wheel.rate, wheel.speed) = cross(&line, &floor);
+            let gained = wheel.speed - at.wheel_speed;
+            at.wheel_speed = wheel.speed;
+            if wheel.motor.straight && !self.yields {
+                wheel.motor.go_along(gained);
+                if !self.effects.none_on(&[Seam::Gear], at.wheel) {
+                    self.gear(at, memory, wheel.motor.torque, &mut wheel.gear);
+                }
+                break;
+            }
+            let expected = line.torque - line.fall * gained;
+            self.look(at, state, memory, drive, wheel);
+            let found = wheel.gear.torque - wheel.gear.damping * at.wheel_speed;
             let straight = (found - expected).abs() <= T::lit(1e-9) * (found.abs() + T::lit(1e-3));
-            if straight || looks == LOOKS {
+            if straight || look + 1 == LOOKS {
                 break;
             }
         }
-        let Shafted { mut motor, rotor, gear, inertia, .. } = look;
-        let moves = inertia > T::zero();
-        if moves && rotor.is_none() {
+        let moves = wheel.inertia > T::zero();
+        if moves && !self.yields {
             // with inertia the wheel has not moved yet when the reading is taken
-            motor.sampled += motor.current_slope * (grip.wheel_speed - before);
+            wheel.motor.sampled += wheel.motor.current_slope * (wheel.speed - before);
         }
-        let starts = if moves { before } else { grip.wheel_speed };
+        wheel.starts = if moves { before } else { wheel.speed };
         // the wheel's inertia has been accelerated at the crossing
-        let inertia = T::zero();
-        Wheel {
-            force: grip.force,
-            rate: grip.rate,
-            speed: grip.wheel_speed,
-            starts,
-            inertia,
-            budget: gear.budget,
-            motor,
-            rotor,
-        }
+        wheel.inertia = T::zero();
     }
 
-    /// Motor, shaft and gear at the wheel speed of `at`.
+    /// Looks at motor, shaft and gear at the wheel speed of `at`.
     #[inline]
-    fn shafted(
+    fn look(
         &self,
         at: &mut EffectContext<T>,
         state: &State<N, T>,
         memory: &[E::State],
         drive: &Drive<'_, N, T>,
-    ) -> Shafted<T> {
+        wheel: &mut Wheel<T>,
+    ) {
         let j = at.wheel;
         let shaft = &self.shafts[j];
         let yields = shaft.stiffness > T::zero();
         at.rotor_speed = if yields { state.rotor_speed[j] } else { at.wheel_speed };
-        let motor = self.electric(at, state, memory, drive.source, drive.gain);
-        let rotor = yields.then(|| {
+        self.electric(at, state, memory, (drive.source, drive.gain), &mut wheel.motor);
+        let mut torque = wheel.motor.torque;
+        wheel.fall = wheel.motor.slope;
+        if yields {
             let (rotor_speed, wheel_speed) = (at.rotor_speed, at.wheel_speed);
-            Rotor::new(shaft, &motor, &Before { rotor_speed, wheel_speed, twist: state.shaft_twist[j] }, at.dt)
-        });
-        let (torque, fall) = rotor.as_ref().map_or((motor.torque, motor.slope), Rotor::line);
-        let gear = self.gear(at, memory, torque);
-        let inertia = if yields { gear.inertia } else { gear.inertia + shaft.inertia };
-        Shafted { motor, rotor, gear, fall, inertia }
+            let before = Before { rotor_speed, wheel_speed, twist: state.shaft_twist[j] };
+            wheel.rotor = Rotor::new(shaft, &wheel.motor, &before, at.dt);
+            (torque, wheel.fall) = wheel.rotor.line();
+        }
+        self.gear(at, memory, torque, &mut wheel.gear);
+        wheel.inertia = wheel.gear.inertia;
+        if !yields {
+            wheel.inertia += shaft.inertia;
+        }
     }
 
     #[inline]
-    fn gear(&self, at: &EffectContext<T>, memory: &[E::State], torque: T) -> Gear<T> {
-        let coulomb_share = self.coulomb_share[at.wheel];
-        let mut gear = Gear { motor_torque: torque, coulomb_share, torque, ..Gear::default() };
-        for active in self.effects.on(Seam::Gear, at.wheel) {
-            active.effect.gear(&memory[active.memory(at.wheel)], at, &mut gear);
+    fn gear(&self, at: &EffectContext<T>, memory: &[E::State], torque: T, gear: &mut Gear<T>) {
+        let zero = T::zero();
+        (gear.motor_torque, gear.torque) = (torque, torque);
+        (gear.budget, gear.damping, gear.inertia) = (zero, zero, zero);
+        if self.effects.none_at(Seam::Gear) {
+            return;
         }
-        gear
+        gear.coulomb_share = self.coulomb_share[at.wheel];
+        for active in self.effects.on(Seam::Gear, at.wheel) {
+            active.effect.gear(&memory[active.memory(at.wheel)], at, gear);
+        }
     }
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::effects::active::MAX_EFFECTS;
+use crate::effects::active::MOST_UNDONE;
 use crate::effects::card::Scope;
 use crate::effects::contact::creep::Creep;
 use crate::effects::drivetrain::gear_efficiency::GearEfficiency;
@@ -75,10 +75,11 @@ fn an_effect_may_sit_on_two_wheels_but_not_twice_on_one() {
 fn one_effect_more_than_there_is_room_for_is_told() {
     let mut compensation = Compensation::<4, f64>::none();
     let wheels = EffectKind::ALL.into_iter().filter(|kind| kind.undone() && kind.scope() != Scope::Robot);
-    let mut seats = wheels.flat_map(|kind| (0..4).map(move |j| (kind, j)));
-    for (kind, j) in seats.by_ref().take(MAX_EFFECTS) {
+    let seats = wheels.flat_map(|kind| (0..4).map(move |j| (kind, j)));
+    for (kind, j) in seats.take(MOST_UNDONE) {
         assert_eq!(compensation.add(typical(kind), Some(j)), Ok(()));
     }
-    let (kind, j) = seats.next().expect("more seats than room");
-    assert_eq!(compensation.add(typical(kind), Some(j)), Err(NotCompensable::Full));
+    let of_robot = EffectKind::ALL.into_iter().find(|kind| kind.undone() && kind.scope() == Scope::Robot);
+    let kind = of_robot.expect("one that sits on no wheel");
+    assert_eq!(compensation.add(typical(kind), None), Err(NotCompensable::Full));
 }

@@ -1,7 +1,7 @@
 //! The effects in a block: a number each, that never changes its meaning, and their parameters.
 
 use super::{BlockError, BlockErrorKind, BoundedField};
-use crate::effects::active::MAX_EFFECTS;
+use crate::effects::active::MOST_UNDONE;
 use crate::effects::card::{MAX_PARAMS, Scope};
 use crate::effects::{Effect, EffectKind};
 use crate::link::bytes::Reader;
@@ -147,7 +147,7 @@ impl BlockEffect {
 /// The effects of a block.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BlockEffects {
-    items: [Option<BlockEffect>; MAX_EFFECTS],
+    items: [Option<BlockEffect>; MOST_UNDONE],
     len: usize,
 }
 

@@ -247,19 +247,19 @@ fn effects_are_held_to_the_catalogue() {
 const EVERY: u8 = effects::EVERY_WHEEL;
 
 #[test]
-fn there_is_room_for_as_many_effects_as_a_model_carries_each_once_and_the_longest_block_fits() {
+fn there_is_room_for_as_many_effects_as_a_robot_undoes_each_once_and_the_longest_block_fits() {
     let mut effects = BlockEffects::default();
     let on_wheels = EFFECT_CODES.iter().filter(|known| known.scope == crate::effects::card::Scope::Wheels);
     let mut seats = on_wheels.flat_map(|known| [None, Some(0), Some(1), Some(2)].map(|wheel| (known, wheel)));
     let effect = |known: &EffectCode, wheel| BlockEffect::new(known.id, wheel, known.typical()).unwrap();
-    for (known, wheel) in seats.by_ref().take(MAX_EFFECTS) {
+    for (known, wheel) in seats.by_ref().take(MOST_UNDONE) {
         effects.push(effect(known, wheel)).unwrap();
     }
     let stribeck = |wheel| BlockEffect::new("stribeck", wheel, &[0.4, 0.05, 1.0]).unwrap();
     assert_eq!(effects.push(stribeck(Some(1))).unwrap_err().reason, BlockErrorKind::EffectTwice);
     let (known, wheel) = seats.next().expect("more seats than room");
     assert_eq!(effects.push(effect(known, wheel)).unwrap_err().reason, BlockErrorKind::TooManyEffects);
-    assert_eq!(effects.len(), MAX_EFFECTS);
+    assert_eq!(effects.len(), MOST_UNDONE);
     let (bytes, length) = encoded(&Block { effects, ..four() });
     assert!(length <= LONGEST && Parameters::decode(&bytes[..length]).is_ok(), "{length}");
     assert_eq!(BlockEffect::new("creep", None, &[]).unwrap_err().reason, BlockErrorKind::Length);
