@@ -208,6 +208,7 @@ impl<const K: usize> DivAssign for Dual<K> {
 
 impl<const K: usize> Real for Dual<K> {
     type Plain = f64;
+    const DERIVATIVES: bool = true;
     #[inline]
     fn lit(x: f64) -> Self {
         Self::constant(x)

@@ -33,6 +33,8 @@ pub trait Real:
 {
     /// A literal of an equation, rounded to this precision.
     fn lit(x: f64) -> Self;
+    /// True if it carries derivatives.
+    const DERIVATIVES: bool = false;
     /// The number that an iteration is done in: this one without derivatives.
     type Plain: Real<Plain = Self::Plain>;
     /// The value alone.

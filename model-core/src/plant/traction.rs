@@ -49,6 +49,11 @@ impl<T: Real> Floor<T> {
         traction(self.limit, self.stiffness, self.shape, slip)
     }
 
+    /// True if the force rises with the slip wherever it is.
+    fn rises(&self) -> bool {
+        self.shape <= T::one()
+    }
+
     fn plain(&self) -> Floor<T::Plain> {
         let Self { limit, creep, stiffness, shape } = *self;
         Floor { limit: limit.plain(), creep: creep.plain(), stiffness: stiffness.plain(), shape: shape.plain() }
@@ -100,28 +105,47 @@ impl<T: Real> Line<T> {
         Balance { left, fall: self.fall + self.inertia + r * r * slope }
     }
 
-    /// Near the wheel speed at which nothing is left, by Newton's rule within a bracket.
+    /// The wheel speed at which nothing is left, by Newton's rule; plain numbers only.
     fn crossing(&self, floor: &Floor<T>) -> T {
+        // where the wheel was is close to where it will be; a curve that rises to its limit is crossed once
+        let quick = if floor.rises() { self.newton(floor, self.before, 6) } else { None };
+        quick.unwrap_or_else(|| self.bracketed(floor))
+    }
+
+    /// Newton's rule as it goes; `None` if it takes more rounds.
+    fn newton(&self, floor: &Floor<T>, start: T, rounds: usize) -> Option<T> {
+        let mut speed = start;
+        for _ in 0..rounds {
+            // ω ← ω + G/(−G′)
+            let Balance { left, fall } = self.balance(floor, speed);
+            let next = speed + left / fall;
+            if settled(speed, next) {
+                return Some(next);
+            }
+            speed = next;
+        }
+        None
+    }
+
+    /// Newton's rule within a bracket.
+    fn bracketed(&self, floor: &Floor<T>) -> T {
         // between rolling, where the floor takes nothing, and the speed at which the motor gives nothing
         let rolling = self.rim_speed / self.radius;
         let fall = self.fall + self.inertia;
         let drives = self.torque + self.fall * (self.speed - rolling) + self.inertia * (self.before - rolling);
         let idle = if fall > T::zero() { held(rolling + drives / fall) } else { held(drives * T::lit(FASTEST)) };
         let (mut lo, mut hi) = if rolling < idle { (rolling, idle) } else { (idle, rolling) };
-        // where the wheel was is close to where it will be
         let mut speed = self.before.clamp(lo, hi);
-        for _ in 0..24 {
+        for _ in 0..40 {
             let Balance { left, fall } = self.balance(floor, speed);
             if left > T::zero() {
                 lo = speed;
             } else {
                 hi = speed;
             }
-            // ω ← ω + G/(−G′)
             let mut next = speed + left / fall;
-            // the step that follows carries the derivative, and carries it right from as near as this
-            if (next - speed).abs() <= T::lit(1e-7) * (speed.abs() + T::one()) {
-                return next;
+            if settled(speed, next) {
+                return held(next);
             }
             if next <= lo || next >= hi {
                 next = T::lit(0.5) * (lo + hi);
@@ -132,17 +156,25 @@ impl<T: Real> Line<T> {
     }
 }
 
+/// True if a step of Newton's rule is so small that what is left after it is rounding.
+fn settled<T: Real>(speed: T, next: T) -> bool {
+    (next - speed).abs() <= T::lit(1e-6) * (speed.abs() + T::one())
+}
+
 /// A motor that pushes harder than the floor can take, with nothing to accelerate, has no speed to settle at.
 fn held<T: Real>(speed: T) -> T {
     speed.clamp(T::lit(-FASTEST), T::lit(FASTEST))
 }
 
 /// Where the motor's line crosses the floor's curve: force on the floor [N], by how much it falls with the speed of the rim
-/// [N/(m/s)], and wheel speed [rad/s]. Found without derivatives, then one step with them.
+/// [N/(m/s)], and wheel speed [rad/s]. Found without derivatives; one step more carries them.
 pub(super) fn cross<T: Real>(line: &Line<T>, floor: &Floor<T>) -> (T, T, T) {
-    let speed = T::from_plain(line.plain().crossing(&floor.plain()));
-    let Balance { left, fall } = line.balance(floor, speed);
-    let speed = held(speed + left / fall.value());
+    let mut speed = T::from_plain(line.plain().crossing(&floor.plain()));
+    if T::DERIVATIVES {
+        let Balance { left, fall } = line.balance(floor, speed);
+        let step = left / fall.value();
+        speed += step - step.value();
+    }
     let (force, slope) = floor.force(line.radius * speed - line.rim_speed);
     // ∂f/∂v = −f′·a/(a + r²f′)
     let a = line.fall + line.inertia;

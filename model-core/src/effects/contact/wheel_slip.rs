@@ -85,8 +85,9 @@ pub fn traction<T: Real>(limit: T, stiffness: T, shape: T, slip: T) -> (T, T) {
     let square = one + x * x;
     if shape == one {
         // f = μ·N · x/√(1 + x²),  ∂f/∂s = μ·N·B/(1 + x²)^(3/2)
-        let root = square.sqrt();
-        return (limit * x / root, limit * stiffness / (square * root));
+        let per_root = one / square.sqrt();
+        let force = limit * per_root;
+        return (force * x, force * stiffness * (per_root * per_root));
     }
     // f = μ·N · sin(C · atan x),  ∂f/∂s = μ·N · cos(C · atan x) · C·B/(1 + x²)
     let (sin, cos) = (shape * x.atan2(one)).sin_cos();
