@@ -6,6 +6,7 @@ use super::step::Push;
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Body, EffectContext};
+use crate::number::linalg::Mat3;
 use crate::number::scalar::Real;
 use crate::plant::body::{DryFriction, Mobility};
 
@@ -21,16 +22,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         dt: T,
     ) -> [T; 3] {
         let x = state.twist.to_array();
-        let viscous = self.robot.friction.viscous;
-        let zero = T::zero();
-        let (mass, inertia) = (self.robot.mass, self.robot.inertia);
-        let mut body = Body {
-            mass: [[mass, zero, zero], [zero, mass, zero], [zero, zero, inertia]],
-            // −B·x
-            force: [-(viscous[0] * x[0]), -(viscous[1] * x[1]), -(viscous[2] * x[2])],
-            rate: [[viscous[0], zero, zero], [zero, viscous[1], zero], [zero, zero, viscous[2]]],
-            budget: self.robot.friction.coulomb,
-        };
+        let mut body = self.bare_body(x);
         if !self.effects.none_at(Seam::Body) {
             at.leave_wheel();
             // a force that depends on the heading is taken in the middle of the step
@@ -39,18 +31,56 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 active.effect.body(&memory[active.memory(0)], at, &mut body);
             }
         }
-        // H = M + ½·Δt·A
-        let half = T::lit(0.5) * dt;
-        let mut h = push.mass;
-        for (row, h) in h.iter_mut().enumerate() {
-            for (column, h) in h.iter_mut().enumerate() {
-                *h += body.mass[row][column] + half * (push.rate[row][column] + body.rate[row][column]);
+        let dry = DryFriction { axes: body.budget, shafts: push.shafts.as_ref(), rollers: push.rollers.as_ref() };
+        let mut mass = push.mass;
+        for (row, own) in mass.iter_mut().zip(body.mass) {
+            for (mass, own) in row.iter_mut().zip(own) {
+                *mass += own;
             }
         }
-        let mobility = Mobility::new(&h);
-        // Δt·F
-        let impulse = core::array::from_fn(|axis| dt * (push.force[axis] + body.force[axis]));
-        let dry = DryFriction { axes: body.budget, shafts: push.shafts.as_ref(), rollers: push.rollers.as_ref() };
-        dry.spend(x, impulse, &mobility, dt)
+        solve_motion(x, &mass, [(push.force, &push.rate), (body.force, &body.rate)], &dry, dt)
     }
+
+    /// The same of a robot without effects.
+    #[inline(always)]
+    pub(super) fn move_plain(&self, x: [T; 3], force: [T; 3], dt: T) -> [T; 3] {
+        let body = self.bare_body(x);
+        let dry = DryFriction::<N, T> { axes: body.budget, shafts: None, rollers: None };
+        solve_motion(x, &body.mass, [(force, &self.plain_rate), (body.force, &body.rate)], &dry, dt)
+    }
+
+    /// The body as the robot's parameters describe it.
+    #[inline(always)]
+    fn bare_body(&self, x: [T; 3]) -> Body<T> {
+        let viscous = self.robot.friction.viscous;
+        let zero = T::zero();
+        let (mass, inertia) = (self.robot.mass, self.robot.inertia);
+        Body {
+            mass: [[mass, zero, zero], [zero, mass, zero], [zero, zero, inertia]],
+            // −B·x
+            force: [-(viscous[0] * x[0]), -(viscous[1] * x[1]), -(viscous[2] * x[2])],
+            rate: [[viscous[0], zero, zero], [zero, viscous[1], zero], [zero, zero, viscous[2]]],
+            budget: self.robot.friction.coulomb,
+        }
+    }
+}
+
+/// One linearly implicit step: forces with −∂force/∂twist, of the wheels and of the body.
+#[inline(always)]
+fn solve_motion<const N: usize, T: Real>(
+    x: [T; 3],
+    mass: &Mat3<T>,
+    forces: [([T; 3], &Mat3<T>); 2],
+    dry: &DryFriction<'_, N, T>,
+    dt: T,
+) -> [T; 3] {
+    let [(push, push_rate), (own, own_rate)] = forces;
+    // H = M + ½·Δt·A
+    let half = T::lit(0.5) * dt;
+    let h = core::array::from_fn(|row| {
+        core::array::from_fn(|column| mass[row][column] + half * (push_rate[row][column] + own_rate[row][column]))
+    });
+    // Δt·F
+    let impulse = core::array::from_fn(|axis| dt * (push[axis] + own[axis]));
+    dry.spend(x, impulse, &Mobility::new(&h), dt)
 }

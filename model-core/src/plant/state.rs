@@ -1,6 +1,7 @@
 //! What goes into a step of the plant, what it goes on from, and what the sensors say.
 
 use crate::geometry::frames::{BodyTwist, Pose};
+use crate::number::scalar::Real;
 
 /// What drives the robot during a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +41,16 @@ pub struct State<const N: usize, T> {
     pub current: [T; N],
     /// Bus voltage of the last step [V]
     pub bus: T,
+}
+
+impl<const N: usize, T: Real> State<N, T> {
+    /// Lets time and pose go on to the twist at the end of a step.
+    #[inline(always)]
+    pub(super) fn go_on(&mut self, next: BodyTwist<T>, dt: T) {
+        self.pose = self.pose.moved(self.twist.mean(next), dt);
+        self.twist = next;
+        self.time += dt;
+    }
 }
 
 /// What the sensors say at the beginning of a step, just after its input has been applied.

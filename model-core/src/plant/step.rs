@@ -73,19 +73,15 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     #[inline]
     pub fn step(&self, state: &mut State<N, T>, memory: &mut [E::State], input: &Input<N, T>, dt: T) -> Reading<N, T> {
         match input {
-            Input::Voltage(command) if self.plain => {
-                self.step_forces::<true>(state, memory, Source::Voltage(command), dt)
-            }
-            Input::Voltage(command) => self.step_forces::<false>(state, memory, Source::Voltage(command), dt),
-            Input::Current(current) => self.step_forces::<false>(state, memory, Source::Current(current), dt),
+            Input::Voltage(command) if self.plain => self.step_plain(state, memory, command, dt),
+            Input::Voltage(command) => self.step_forces(state, memory, Source::Voltage(command), dt),
+            Input::Current(current) => self.step_forces(state, memory, Source::Current(current), dt),
             Input::Speed(speed) => self.step_speed_driven(state, memory, speed, dt),
         }
     }
 
-    /// A step in which forces move the body. `PLAIN` leaves out, when compiled, what acts before the body, where
-    /// nothing does; what stays is the same arithmetic in the same order.
-    #[inline]
-    fn step_forces<const PLAIN: bool>(
+    /// A step in which forces move the body.
+    fn step_forces(
         &self,
         state: &mut State<N, T>,
         memory: &mut [E::State],
@@ -97,16 +93,15 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let mut at = self.at(state, dt);
         let hooked;
         let contact = match &self.settled {
-            Some(settled) if !PLAIN => settled,
-            None if !PLAIN => {
+            Some(settled) => settled,
+            None => {
                 hooked = self.contacts(&mut at, state, memory);
                 &hooked
             }
-            _ => &self.contact,
         };
         let rim: [T; N] = core::array::from_fn(|j| dot(contact[j].row, x));
-        let bus = if PLAIN { self.robot.supply } else { self.bus(&mut at, state, memory, &source, (contact, &rim)) };
-        let gain = if PLAIN { T::one() } else { bus / self.robot.supply };
+        let bus = self.bus(&mut at, state, memory, &source, (contact, &rim));
+        let gain = bus / self.robot.supply;
 
         let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
         let mut push = Push::none();
@@ -115,14 +110,6 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         for j in 0..N {
             let c = &contact[j];
             let rolling = rim[j] * c.per_radius;
-            if PLAIN {
-                let (current, torque) = self.plain_motor(source.command(j), rolling);
-                (truth.current[j], truth.wheel_speed[j]) = (current, rolling);
-                (state.current[j], state.wheel_speed[j]) = (current, rolling);
-                // f = τ/r
-                push.force = add_scaled(push.force, torque * c.per_radius, c.row);
-                continue;
-            }
             self.enter_wheel(&mut at, state, j, (rolling, rim[j]));
             let drive = Drive { source: &source, gain, contact: c, before: state.wheel_speed[j] };
             self.wheel(&mut at, state, memory, &drive, &mut wheel);
@@ -147,11 +134,39 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 push.add_rollers(j, c, x);
             }
         }
-        if PLAIN {
-            push.rate = self.plain_rate;
-        }
         let next = self.move_body(&mut at, state, memory, &push, dt);
         let done = Done { truth, next: BodyTwist::from_array(next), contact, source: &source, bus, turned: &turned };
+        self.finish(&mut at, state, memory, &done, dt)
+    }
+
+    /// The same where no effect stands between the command and the wheels' forces: the same arithmetic in the same order.
+    #[inline]
+    fn step_plain(&self, state: &mut State<N, T>, memory: &mut [E::State], command: &[T; N], dt: T) -> Reading<N, T> {
+        let zero = T::zero();
+        let x = state.twist.to_array();
+        let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
+        let mut force = [zero; 3];
+        for j in 0..N {
+            let c = &self.contact[j];
+            let rolling = dot(c.row, x) * c.per_radius;
+            let (current, torque) = self.plain_motor(command[j], rolling);
+            (truth.current[j], truth.wheel_speed[j]) = (current, rolling);
+            // f = τ/r
+            force = add_scaled(force, torque * c.per_radius, c.row);
+        }
+        (state.current, state.wheel_speed) = (truth.current, truth.wheel_speed);
+        if self.effects.is_empty() {
+            let next = BodyTwist::from_array(self.move_plain(x, force, dt));
+            state.go_on(next, dt);
+            state.bus = self.robot.supply;
+            return truth;
+        }
+        let mut at = self.at(state, dt);
+        let push = Push { force, rate: self.plain_rate, ..Push::none() };
+        let next = BodyTwist::from_array(self.move_body(&mut at, state, memory, &push, dt));
+        let (source, turned) = (Source::Voltage(command), Turned::default());
+        let done =
+            Done { truth, next, contact: &self.contact, source: &source, bus: self.robot.supply, turned: &turned };
         self.finish(&mut at, state, memory, &done, dt)
     }
 
@@ -180,9 +195,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             state.acceleration =
                 [rate(from.v, to.v) - mean.w * mean.vn, rate(from.vn, to.vn) + mean.w * mean.v, rate(from.w, to.w)];
         }
-        state.pose = state.pose.moved(mean, dt);
-        state.twist = done.next;
-        state.time += dt;
+        state.go_on(done.next, dt);
         state.bus = done.bus;
         reading
     }
