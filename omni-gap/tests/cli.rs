@@ -10,6 +10,8 @@ mod bench;
 mod experiments;
 #[path = "cli/explain.rs"]
 mod explain;
+#[path = "cli/folders.rs"]
+mod folders;
 #[path = "cli/manners.rs"]
 mod manners;
 #[path = "cli/robot.rs"]

@@ -5,18 +5,15 @@
 //! with it. Everything between the two drives is what a person would do with `omni-gap record`, `diagnose` and `export`:
 //! the same library calls, on files in a folder.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
 use model_core::geometry::frames::BodyTwist;
 use model_core::plant::robot::Robot;
-use omni_gap::log::{RobotFile, Session, write_whole, write_whole_with};
+use omni_gap::log::{RobotFile, Session, write_whole};
 use omni_gap::report::Verdict;
 use omni_gap::wire::block::export;
-use omni_gap::wire::capture::Capture;
-use omni_gap::wire::run::{columns, run};
-use omni_gap::wire::source::Source;
 use omni_gap::{Diagnosis, Options, known_effects};
 
 use super::{ClosedLoopRun, RunLog};
@@ -119,13 +116,11 @@ pub fn close_gap<B: BoardProgram, const N: usize>(
 ) -> Result<ClosedGap, RunError> {
     let nominal_path = folder.join("robot.toml");
     write(&nominal_path, nominal);
-    write(&folder.join("columns.toml"), &columns(N));
     std::fs::create_dir_all(folder.join("runs")).expect("a folder for the runs");
     let mut before = Vec::new();
     for (k, phase) in SCRIPTS.into_iter().enumerate() {
-        let name = format!("drive-{k}");
         let (log, bytes) = drive(robot, hidden, &nominal_path, phase, k as u64, program()?)?;
-        record(&bytes, &name, N, &folder.join("runs"));
+        write_whole(&folder.join(format!("runs/drive-{k}.rec")), &bytes).expect("room for a run");
         before.push(log);
     }
 
@@ -167,15 +162,6 @@ fn drive<B: BoardProgram, const N: usize>(
     run.follow_every_tick(SECONDS, |t| script(phase, t))?;
     let bytes = run.lockstep.link.received().to_vec();
     Ok((run.log, bytes))
-}
-
-/// Makes a run of what came over the link.
-fn record(bytes: &[u8], name: &str, wheels: usize, folder: &Path) {
-    let mut capture = Capture::new(None);
-    capture.take(bytes);
-    let source = Source::File(PathBuf::from("link"));
-    let run = run(&capture, &source, name, wheels).expect("a drive that was recorded");
-    write_whole_with(&folder.join(format!("{name}.csv")), |out| run.write_csv(out)).expect("room for a run");
 }
 
 /// RMS of what the body does less what is wanted, while the robot is commanded [m/s]; ω counts at a distance [m].

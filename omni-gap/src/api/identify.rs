@@ -83,7 +83,7 @@ pub fn identify(session: &Session) -> Result<Identification> {
 /// Refuses recordings with a fault that spoils any fit.
 pub(super) fn refuse_faulty(session: &Session) -> Result<()> {
     let Some(fault) = check(session).into_iter().find(|fault| fault.fatal) else { return Ok(()) };
-    let problem = format!("lines {} to {}: {}", fault.lines.0, fault.lines.1, fault.sentence);
+    let problem = format!("{}: {}", fault.lines_in_words(), fault.sentence);
     Err(Error::Faulty { code: fault.code, file: fault.file, problem, fix: fault.fix })
 }
 

@@ -14,7 +14,7 @@
 //! | [`check`](fn@check) | [`Fault`]s of the recordings, each with a code and a mend |
 //! | [`experiments`], [`rehearse`] | [`PlannedExperiments`]: what to play so that a robot's numbers can be told |
 //! | [`sensitivity`](fn@sensitivity) | [`Sensitivity`]: which numbers of a robot file its motion depends on |
-//! | [`export`], [`record`](fn@record) | the parameter block of a robot file; a [`Run`] of what a robot sent |
+//! | [`export`], [`record`](fn@record) | the parameter block of a robot file; a [`Run`] of what a robot sent, and its frames |
 //!
 //! Sessions come from files ([`Session::load`]) or from memory ([`Session`] has public fields). Whatever is wrong with
 //! them is an [`Error`] that says where it stands and how to mend it; recordings that cannot be used are no error of
@@ -41,5 +41,5 @@ pub use by_experiment::identify_by_experiment;
 pub use experiment::{PlannedExperiments, PlannedScript, experiments, rehearse};
 pub use identify::{FitRemark, FittedNumber, Identification, identify};
 pub use predict::predict;
-pub use record::{Recording, record};
+pub use record::{Recorded, Recording, record};
 pub use simulate::simulate;

@@ -5,7 +5,8 @@ use crate::log::{Channel, Group, RobotFile, Run, Sampled};
 use crate::simulate::{self, Channels, Model, Prediction, SignalGroup, drivable, supply_seen};
 
 /// Predicts every measured column of a run by free runs that are restarted every `horizon_s` [s] from the smoothed
-/// measurement and driven by the run's own input. The answer has the run's rows and measured columns, all filled.
+/// measurement and driven by the run's own input. The answer has the rows of the file whose signal
+/// drives, on that file's clock, and the run's measured columns, all filled.
 ///
 /// # Errors
 /// Where nothing in the run can drive the model.
@@ -19,28 +20,32 @@ pub fn predict(robot: &RobotFile, run: &Run, horizon_s: f64) -> Result<Run> {
 fn predicted<const N: usize>(robot: &RobotFile, run: &Run, horizon_s: f64) -> Result<Run> {
     let recorded = drivable::<N>(run, robot)?;
     let plant = Model::<N>::nominal(robot, supply_seen([&recorded])).plant();
-    Ok(as_run(run, &simulate::predict(&plant, &recorded, horizon_s), N))
+    let prediction = simulate::predict(&plant, &recorded, horizon_s);
+    let on_driving_rows = |k: &usize| recorded.driven[*k];
+    let rows: Vec<usize> = (0..recorded.rows()).filter(on_driving_rows).collect();
+    Ok(as_run(run, &prediction, &rows, N))
 }
 
-/// The prediction in the place of what the run measured.
-fn as_run(run: &Run, prediction: &Prediction, wheels: usize) -> Run {
+/// The prediction on `rows` in the place of what the run measured.
+fn as_run(run: &Run, prediction: &Prediction, rows: &[usize], wheels: usize) -> Run {
     let late = run.currents_sampled == Sampled::Before;
     let column = |c: usize, shift: bool| -> Channel {
         // a current sampled before its row's voltage answers to the voltage of the row above; before the first it is zero
         let above = shift.then_some(0.0).into_iter();
-        Channel::from_values(above.chain(prediction.rows.iter().map(|row| row[c])).take(run.rows()))
+        Channel::from_values(above.chain(rows.iter().map(|row| prediction.rows[*row][c])).take(rows.len()))
     };
     let channels = Channels { wheels };
     let group = |there: &Option<Group>, of: SignalGroup, shift: bool| {
         there.as_ref().map(|_| Group::new(channels.of(of).map(|c| column(c, shift)).collect()))
     };
+    let offset_s = run.driving_file().map_or(0.0, |file| file.offset_s);
     Run {
         name: run.name.clone(),
-        t_s: run.t_s.clone(),
+        t_s: run.driving_rows().into_iter().map(|row| run.t_s[row] - offset_s).collect(),
         i: group(&run.i, SignalGroup::Current, late),
         w: group(&run.w, SignalGroup::WheelSpeed, false),
         pose: group(&run.pose, SignalGroup::Pose, false),
-        vbat: run.vbat.as_ref().map(|_| Channel::from_values(prediction.bus.iter().copied())),
+        vbat: run.vbat.as_ref().map(|_| Channel::from_values(rows.iter().map(|row| prediction.bus[*row]))),
         gyro: run.gyro.as_ref().map(|_| column(channels.gyro(), false)),
         ..Run::default()
     }

@@ -2,8 +2,8 @@
 
 use crate::error::Result;
 use crate::log::Run;
-use crate::wire::capture::Capture;
-use crate::wire::run::run;
+use crate::log::records::capture::Capture;
+use crate::log::records::run::run;
 use crate::wire::source::Source;
 
 /// Turns of the currents in a second [1/s]; a robot tells its own, this one only says when there is enough.
@@ -27,16 +27,33 @@ pub struct Recording<'a> {
     pub wheels: usize,
 }
 
-/// Records a run, and what was captured on the way: losses, faults, how the robot says it is set up.
+/// What was recorded.
+#[derive(Clone, Debug)]
+pub struct Recorded {
+    /// The run that the frames tell.
+    pub run: Run,
+    /// What came: losses, faults, how the robot says it is set up.
+    pub capture: Capture,
+    /// Every byte of it, as a file `NAME.rec` keeps them.
+    pub frames: Vec<u8>,
+}
+
+/// Records a run.
 ///
 /// # Errors
 /// Where the source cannot be read, no record came, or the robot has another number of wheels.
-pub fn record(recording: &Recording) -> Result<(Run, Capture)> {
+pub fn record(recording: &Recording) -> Result<Recorded> {
     let Recording { source, baud, seconds, name, wheels } = *recording;
     let seconds = seconds.or(source.is_live().then_some(USUAL_SECONDS));
     let wanted = seconds.map(|seconds| (seconds * TURNS_A_SECOND).min(f64::from(u32::MAX / 2)) as u32);
     let mut capture = Capture::new(wanted);
-    source.read(baud, |bytes| capture.take(bytes))?;
-    let run = run(&capture, source, name, wheels)?;
-    Ok((run, capture))
+    let mut frames = Vec::new();
+    source.read(baud, |bytes| {
+        let before = capture.bytes_taken;
+        let progress = capture.take(bytes);
+        frames.extend(bytes.iter().take(capture.bytes_taken - before));
+        progress
+    })?;
+    let run = run(&capture, &source.place(), name, Some(wheels))?;
+    Ok(Recorded { run, capture, frames })
 }

@@ -1,5 +1,7 @@
 //! Simulate: what the robot of a file would have recorded of a run's inputs.
 
+use std::borrow::Cow;
+
 use crate::error::Result;
 use crate::log::{Channel, Group, Missing, RobotFile, Run, SensorsFile};
 use crate::simulate::{Model, SensorSetup, drivable, record, supply_seen};
@@ -9,7 +11,7 @@ const FINER: usize = 10;
 /// More frames a second than any log has rows, so that every row gets one [1/s]
 const EVERY_ROW: f64 = 1e8;
 
-/// Records what a robot file's model does with a run's inputs on the run's clock, starting at rest in the origin. Poses
+/// Records what a robot file's model does with a run's inputs on the run's clocks, starting at rest in the origin. Poses
 /// are seen on the rows where the run has one. With `noise_seed` the noise of `[sensors]` is added; the same seed gives
 /// the same run.
 ///
@@ -24,6 +26,7 @@ pub fn simulate(robot: &RobotFile, input: &Run, noise_seed: Option<u64>) -> Resu
 
 fn simulated<const N: usize>(robot: &RobotFile, input: &Run, noise_seed: Option<u64>) -> Result<Run> {
     let recorded = drivable::<N>(input, robot)?;
+    let input = &*driven(input);
     let plant = Model::<N>::nominal(robot, supply_seen([&recorded])).plant();
     let rows = recorded.rows();
     let mean: usize = (0..rows).map(|row| recorded.steps(row)).sum::<usize>().div_ceil(rows);
@@ -41,7 +44,32 @@ fn simulated<const N: usize>(robot: &RobotFile, input: &Run, noise_seed: Option<
     if let (Some(pose), Some(seen)) = (&mut run.pose, &input.pose) {
         blank_where_unseen(pose, seen);
     }
-    Ok(run)
+    Ok(on_clocks_of(run, input))
+}
+
+/// The rows of a run from the first that drives to the end of the last one's hold.
+fn driven(input: &Run) -> Cow<'_, Run> {
+    let span = input.driven_span();
+    if span.len() == input.rows() {
+        return Cow::Borrowed(input);
+    }
+    let mut driven = input.with_channels(|_, channel| Some(span.clone().map(|row| channel.get(row)).collect()));
+    driven.t_s = input.t_s[span].to_vec();
+    Cow::Owned(driven)
+}
+
+/// What was recorded, each signal only at the instants of the clock that it has in the input.
+fn on_clocks_of(run: Run, input: &Run) -> Run {
+    if input.files.is_empty() {
+        return run;
+    }
+    let signals = input.signals();
+    run.with_channels(|name, channel| {
+        let clock = signals.iter().find(|(other, _)| other == name).map(|(_, clock)| *clock);
+        let due = |row: usize| clock.is_none_or(|clock| clock.is_due(row));
+        let sample = |row| if due(row) { channel.get(row) } else { Err(Missing::NotDue) };
+        Some((0..channel.len()).map(sample).collect())
+    })
 }
 
 fn blank_where_unseen(pose: &mut Group, seen: &Group) {

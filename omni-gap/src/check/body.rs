@@ -1,40 +1,8 @@
 //! Wheel speeds as body speed, and which wheel speeds a run has to offer.
 
 use crate::log::{Group, RobotFile, Run};
-use nalgebra::DMatrix;
 
-/// The body twist (v (m/s), vn (m/s), ω (rad/s)) from wheel speeds (rad/s), by least squares.
-#[derive(Debug)]
-pub(super) struct BodyFromWheels {
-    inverse: DMatrix<f64>,
-    radius_m: Vec<f64>,
-}
-
-impl BodyFromWheels {
-    pub fn new(robot: &RobotFile) -> Option<BodyFromWheels> {
-        let rows: Vec<f64> = robot.wheel.iter().flat_map(|wheel| wheel.wheel().row()).collect();
-        let inverse = DMatrix::from_row_slice(robot.wheel.len(), 3, &rows).pseudo_inverse(1e-9).ok()?;
-        Some(BodyFromWheels { inverse, radius_m: robot.wheel.iter().map(|wheel| wheel.radius_m).collect() })
-    }
-
-    pub fn twist(&self, wheel_speeds: &[f64]) -> [f64; 3] {
-        std::array::from_fn(|axis| {
-            wheel_speeds.iter().zip(&self.radius_m).enumerate().map(|(j, (w, r))| self.inverse[(axis, j)] * r * w).sum()
-        })
-    }
-}
-
-/// The most channels that a group has.
-pub(super) const MOST_CHANNELS: usize = 4;
-
-/// All channels of a group on a row, where every one of them has a sample; zero beyond the last channel.
-pub(super) fn row_of(group: &Group, row: usize) -> Option<[f64; MOST_CHANNELS]> {
-    let mut all = [0.0; MOST_CHANNELS];
-    for (value, channel) in all.iter_mut().zip(&group.channels) {
-        *value = channel.get(row).ok()?;
-    }
-    Some(all)
-}
+pub(super) use crate::log::{BodyFromWheels, MOST_CHANNELS, row_of};
 
 /// The input that moves the robot: voltages, or set speeds, or currents.
 pub(super) fn input(run: &Run) -> Option<(&'static str, &Group)> {

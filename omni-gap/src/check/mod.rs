@@ -8,7 +8,7 @@
 //! `saturated`, `glitch`, `repeated`, `held`, `rectified`, `bunched`, `pushed`; then the relations, judged on all runs of a
 //! session (`agree`): `motor` (volts, currents and speeds of each wheel, from the sums in `gram`; `duty`) and `pose` (wheels
 //! against the pose, over `windows`, with the guesses of `frame`; `quaternion`); then the session as a whole: `same` and
-//! `enough`; `grouped` tells once what many runs share. `order` lists the ways in which wheels can have changed places,
+//! `enough`; `grouped` tells once what many runs share. A run of files with a clock each is looked at as `clocks` has it. `order` lists the ways in which wheels can have changed places,
 //! `body` turns wheel speeds into body speed.
 //!
 //! Left to the diagnosis, since a robot can have it as well as a recording: encoders or currents that are late (a filter, a
@@ -18,6 +18,7 @@ mod absurd;
 mod agree;
 mod body;
 mod bunched;
+mod clocks;
 mod duty;
 mod enough;
 mod fault;
@@ -54,6 +55,8 @@ mod tests_rows;
 
 pub use fault::Fault;
 
+use std::borrow::Cow;
+
 use crate::log::{RobotFile, Run, Session};
 
 /// All faults of a session's runs, held-out ones included; the fatal ones first, in the order of the runs.
@@ -62,11 +65,14 @@ use crate::log::{RobotFile, Run, Session};
 /// that several runs share is told once, at the first of them.
 pub fn check(session: &Session) -> Vec<Fault> {
     let runs: Vec<&Run> = session.runs.iter().chain(&session.heldout).collect();
-    let mut faults = check_runs(&runs, &session.robot);
-    faults.extend(same::check(&runs));
+    let one_clock: Vec<Cow<Run>> = runs.iter().map(|run| clocks::on_one_clock(run)).collect();
+    let one_clock: Vec<&Run> = one_clock.iter().map(AsRef::as_ref).collect();
+    let mut faults = check_runs(&one_clock, &session.robot);
+    faults.extend(same::check(&one_clock));
     if !faults.iter().any(|fault| fault.fatal) {
-        faults.extend(enough::check(&runs, &session.robot));
+        faults.extend(enough::check(&one_clock, &session.robot));
     }
+    faults = clocks::told_by_file(faults, &runs, &session.robot);
     faults.extend(enough::frictionless(&session.robot));
     let place = |fault: &Fault| runs.iter().position(|run| fault.is_of(run));
     faults.sort_by_key(|fault| (!fault.fatal, place(fault)));
@@ -75,7 +81,7 @@ pub fn check(session: &Session) -> Vec<Fault> {
 
 /// All faults of one run; whether there is enough to tell anything is a matter of the session.
 pub fn check_run(run: &Run, robot: &RobotFile) -> Vec<Fault> {
-    check_runs(&[run], robot)
+    clocks::told_by_file(check_runs(&[&clocks::on_one_clock(run)], robot), &[run], robot)
 }
 
 fn check_runs(runs: &[&Run], robot: &RobotFile) -> Vec<Fault> {

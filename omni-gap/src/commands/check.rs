@@ -46,10 +46,7 @@ impl Check {
 /// "fault: runs/run02.csv, lines 317 to 400, w1_rad_s: …"
 fn summary(fault: &Fault) -> String {
     let word = if fault.fatal { "fault" } else { "slight fault" };
-    let lines = match fault.lines {
-        (first, last) if first == last => format!("line {first}"),
-        (first, last) => format!("lines {first} to {last}"),
-    };
+    let lines = fault.lines_in_words();
     let file = if fault.file == Path::new("") { fault.run.clone() } else { fault.file.display().to_string() };
     let signal = if fault.signal.is_empty() { String::new() } else { format!(", {}", fault.signal) };
     let head = format!("{word}: {file}, {lines}{signal} [{}]: {}", fault.code, fault.sentence);

@@ -12,7 +12,7 @@ use super::console::Console;
 /// A session: a folder, or a robot file and runs that lie anywhere.
 #[derive(Debug, Args)]
 pub struct GivenSession {
-    /// A session folder (robot.toml and runs/*.csv); with --robot, the run logs or folders of them
+    /// A session folder (robot.toml and runs/); with --robot, the run logs or folders of them
     #[arg(value_name = "SESSION | RUN.csv", required = true)]
     paths: Vec<PathBuf>,
 
@@ -85,7 +85,7 @@ pub fn robot_and_run(
     console.phase("reading the robot file and the run");
     let robot = RobotFile::load(robot, &known_effects())?;
     let columns = columns.map(Columns::load).transpose()?;
-    let (run, notices) = Run::load(run, robot.wheel.len(), columns.as_ref())?;
+    let (run, notices) = Run::open(run, &robot, columns.as_ref())?;
     console.end_phase();
     for notice in notices {
         console.more(notice);

@@ -7,6 +7,7 @@
 mod check;
 mod cli_error;
 mod console;
+mod convert;
 mod demo;
 mod diagnose;
 mod done;
@@ -56,6 +57,7 @@ enum Command {
     Explain(explain::Explain),
     Export(export::Export),
     Record(record::Record),
+    Convert(convert::Convert),
 }
 
 /// Exit code for input that cannot be used.
@@ -78,6 +80,7 @@ impl Cli {
             Command::Explain(c) => c.run(&console),
             Command::Export(c) => c.run(&console),
             Command::Record(c) => c.run(&console),
+            Command::Convert(c) => c.run(&console),
         };
         console.end_phase();
         match done {

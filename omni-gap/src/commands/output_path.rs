@@ -8,7 +8,7 @@ use omni_gap::error::Result;
 
 const NAME_ANOTHER: &str = "Name another place with --out";
 
-/// Refuses a file that could not be written, or that is one of the inputs.
+/// Refuses a file that could not be written, or that is one of the inputs, or lies among the files of one.
 pub fn file(path: &Path, inputs: &[&Path]) -> Result<()> {
     if path.is_dir() {
         return Err(Error::output(path, "it is a folder", "Name a file with --out"));
@@ -21,6 +21,14 @@ pub fn file(path: &Path, inputs: &[&Path]) -> Result<()> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
+    let within = |input: &&&Path| input.is_dir() && folder.canonicalize().ok() == input.canonicalize().ok();
+    if let Some(input) = inputs.iter().find(within) {
+        return Err(Error::output(
+            path,
+            format!("it lies among the files of the run {}", input.display()),
+            NAME_ANOTHER,
+        ));
+    }
     if folder.is_file() {
         return Err(Error::output(path, format!("{} is a file, not a folder", folder.display()), NAME_ANOTHER));
     }

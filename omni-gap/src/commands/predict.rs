@@ -18,15 +18,15 @@ pub struct Predict {
     #[arg(value_name = "ROBOT.toml")]
     robot: PathBuf,
 
-    /// The run; its recorded input drives the model
-    #[arg(value_name = "RUN.csv")]
+    /// The run, a file or a folder; its recorded input drives the model
+    #[arg(value_name = "RUN")]
     run: PathBuf,
 
     /// Time between restarts from the smoothed measurement [s]
     #[arg(long, value_name = "S", default_value_t = HORIZON_S, value_parser = seconds)]
     horizon: f64,
 
-    /// The file to write: the same rows and measured columns as the run's, every row filled
+    /// The file to write: the rows on which the run is driven and its measured columns, every row filled
     #[arg(long, value_name = "PRED.csv")]
     out: PathBuf,
 

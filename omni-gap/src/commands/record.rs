@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use model_core::link::hello::Hello;
-use omni_gap::api::{Error, Recording, export, known_effects, record};
+use omni_gap::api::{Error, Recorded, Recording, export, known_effects, record};
 use omni_gap::error::Result;
-use omni_gap::log::{RobotFile, Run, write_whole, write_whole_with};
-use omni_gap::wire::capture::Capture;
-use omni_gap::wire::run::{columns, faults};
+use omni_gap::log::records::run::notices;
+use omni_gap::log::{RobotFile, write_whole};
 use omni_gap::wire::source::Source;
 
 use super::console::Console;
@@ -16,7 +15,7 @@ use super::done::{DONE, Done};
 use super::given;
 use super::output_path;
 
-/// Record what a robot sends into a session: a run, the robot file, and how to read the columns
+/// Record what a robot sends into a session: the robot file, and a run as it came, NAME.rec
 #[derive(Debug, clap::Args)]
 pub struct Record {
     /// Where the frames come from
@@ -51,12 +50,10 @@ impl Record {
         let robot = RobotFile::load(&self.robot, &known_effects())?;
         let text = std::fs::read_to_string(&self.robot)
             .map_err(|why| Error::input(&self.robot, why.to_string(), "Check the file's permissions"))?;
-        let columns = columns(robot.wheel.len());
         let runs = self.out.join("runs");
-        let file = runs.join(format!("{}.csv", self.name));
-        output_path::folder(&self.out, &["robot.toml", "columns.toml"])?;
+        let file = runs.join(format!("{}.rec", self.name));
+        output_path::folder(&self.out, &["robot.toml"])?;
         fits(&self.out.join("robot.toml"), &text)?;
-        fits(&self.out.join("columns.toml"), &columns)?;
         if file.exists() {
             return Err(Error::output(&file, "a run of this name is there", "Name another with --name").into());
         }
@@ -64,17 +61,17 @@ impl Record {
             console.phase("recording");
         }
         let (baud, seconds, wheels) = (self.baud, self.seconds, robot.wheel.len());
-        let (run, capture) = record(&Recording { source: &source, baud, seconds, name: &self.name, wheels })?;
+        let recorded = record(&Recording { source: &source, baud, seconds, name: &self.name, wheels })?;
         console.end_phase();
 
         let made = output_path::NewFolder::make(&runs)?;
-        let fresh = [("robot.toml", &text), ("columns.toml", &columns)];
-        for (name, text) in fresh.into_iter().filter(|(name, _)| !self.out.join(name).exists()) {
-            write_whole(&self.out.join(name), text.as_bytes())?;
+        let robot_file = self.out.join("robot.toml");
+        if !robot_file.exists() {
+            write_whole(&robot_file, text.as_bytes())?;
         }
-        write_whole_with(&file, |out| run.write_csv(out))?;
+        write_whole(&file, &recorded.frames)?;
         made.keep();
-        console.say(&summary(&capture, &run, &file, &robot, &self.robot))?;
+        console.say(&summary(&recorded, &file, &robot, &self.robot))?;
         Ok(DONE)
     }
 }
@@ -88,31 +85,15 @@ fn fits(path: &Path, text: &str) -> Result<()> {
     Ok(())
 }
 
-fn summary(capture: &Capture, run: &Run, file: &Path, robot: &RobotFile, path: &Path) -> String {
+fn summary(recorded: &Recorded, file: &Path, robot: &RobotFile, path: &Path) -> String {
+    let Recorded { run, capture, .. } = recorded;
     let mut text = format!("{} rows, {:.3} s, written to {}\n", run.rows(), run.duration_s(), file.display());
-    let mut add = |line: String| text += &wrapped(2, &line);
-    let (on_the_way, no_room) = capture.lost();
-    if on_the_way + no_room > 0 {
-        add(format!(
-            "{on_the_way} records were lost on the way and {no_room} for lack of room on the robot; their rows are empty"
-        ));
-    }
-    if capture.bad_frames() > 0 {
-        add(format!("{} frames came broken (checksum or form)", capture.bad_frames()));
-    }
-    if capture.strange > 0 {
-        add(format!("{} frames say nothing to this program; is the firmware newer?", capture.strange));
-    }
-    if capture.restarted {
-        add("the robot started again; what followed is left out".to_owned());
-    }
-    for (fault, at) in faults(capture) {
-        add(format!("fault at {at:.3} s: {}", fault.text()));
-    }
+    let mut add = |line: &str| text += &wrapped(2, line);
+    notices(capture).iter().for_each(|notice| add(notice));
     let other = |hello: &Hello| export(robot, path).is_ok_and(|block| block.checksum != hello.block_check);
     if capture.hellos.iter().any(|(_, hello)| other(hello)) {
         let path = path.display();
-        add(format!("the robot runs with other parameters than `omni-gap export {path}` writes"));
+        add(&format!("the robot runs with other parameters than `omni-gap export {path}` writes"));
     }
     text
 }

@@ -7,7 +7,7 @@ use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::Plant;
 
-use crate::simulate::{AlignedRun, FreeRun, HORIZON_S, MAX_CHANNELS, Model, restart_rows, start_at};
+use crate::simulate::{AlignedRun, FreeRun, HORIZON_S, MAX_CHANNELS, Model, start_at};
 
 /// The state from which a window starts: x, y, θ, v, vn, ω [m, m, rad, m/s, m/s, rad/s].
 pub type StartState = [f64; 6];
@@ -25,7 +25,7 @@ pub struct Windows(Vec<usize>);
 impl Windows {
     /// Windows of `horizon` [s]; a last one shorter than half of that joins the one before.
     pub fn new<const N: usize>(run: &AlignedRun<N>, horizon: f64) -> Self {
-        let mut rows = restart_rows(&run.t, horizon);
+        let mut rows = run.restart_rows(horizon);
         if rows.len() > 1 && run.t[run.rows() - 1] - run.t[rows[rows.len() - 1]] < 0.5 * horizon {
             rows.pop();
         }

@@ -79,6 +79,7 @@ mod tests {
             chain: Chain::Voltage,
             input: Vec::new(),
             open: Vec::new(),
+            driven: Vec::new(),
             measured: Vec::new(),
             has: Vec::new(),
             sigma: [1.0; MAX_CHANNELS],

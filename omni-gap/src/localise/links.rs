@@ -10,7 +10,7 @@ use model_core::plant::{Input, Plant};
 use rayon::prelude::*;
 
 use super::gap::{FLOOR_SEED, replayed};
-use crate::simulate::{AlignedRun, Row, SignalGroup, free_run, restart_rows};
+use crate::simulate::{AlignedRun, Row, SignalGroup, free_run};
 
 /// A link between two measured signals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -169,6 +169,6 @@ fn rows<const N: usize>(
     input: impl Fn(usize) -> Input<N, f64>,
 ) -> Vec<Row> {
     let mut rows = Vec::with_capacity(run.rows());
-    free_run(plant, run, &restart_rows(&run.t, horizon), input, |_, passed| rows.push(run.row_of(passed)));
+    free_run(plant, run, &run.restart_rows(horizon), input, |_, passed| rows.push(run.row_of(passed)));
     rows
 }

@@ -1,126 +1,21 @@
 #![doc = include_str!("columns.md")]
 
-use super::catalogue::nearest;
-use super::csv::Layout;
-use super::run::Sampled;
-use super::target::{Quantity, Target};
+use super::file_table::{FileTable, file_tables};
+use super::mapping::{MAPPING_KEYS, Mapping};
 use super::toml_walk::{Section, Source, read_text};
 use crate::error::{InputKind, Result};
-use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
 
 /// A mapping from another layout to the contract's columns.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Columns {
-    /// When, relative to the row's voltage, its currents were measured.
-    pub currents_sampled: Sampled,
     /// Patterns of the file names that are runs; empty for every file.
     pub files: Vec<String>,
-    pub(crate) layout: Layout,
-    pub(crate) rules: Vec<(Target, Rule)>,
-    pub(crate) groups: BTreeMap<String, Flags>,
+    /// The files that make a run which is a folder; empty where a folder is no run.
+    pub(crate) parts: Vec<FileTable>,
+    /// How a run is read that is one file.
+    pub(crate) alone: Mapping,
 }
-
-/// What is true of a whole group.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Flags {
-    pub unsigned: bool,
-    pub quantum: Option<f64>,
-    /// Of wheel speeds taken from the time between edges: edges in a turn of the wheel.
-    pub edges_per_turn: Option<f64>,
-}
-
-/// Where a column comes from.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) enum From {
-    #[default]
-    Itself,
-    Name(String),
-    /// Counted from 1.
-    Position(usize),
-}
-
-impl From {
-    pub fn find(&self, names: &[String], width: usize) -> Option<usize> {
-        match self {
-            From::Itself => None,
-            From::Name(name) => names.iter().position(|other| other == name),
-            From::Position(number) => (*number <= width).then(|| number - 1),
-        }
-    }
-}
-
-impl fmt::Display for From {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            From::Itself => write!(f, "of its own name"),
-            From::Name(name) => write!(f, "`{name}`"),
-            From::Position(number) => write!(f, "{number}"),
-        }
-    }
-}
-
-/// How counts become speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Counts {
-    pub per_turn: f64,
-    /// A running count, rather than counts since the row above.
-    pub position: bool,
-}
-
-/// How one column is made.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Rule {
-    pub from: From,
-    /// Sign, scale and unit in one factor.
-    pub factor: f64,
-    pub offset: f64,
-    pub counts: Option<Counts>,
-    pub running_sum: bool,
-    /// A log without the source is read without the column.
-    pub optional: bool,
-}
-
-impl Default for Rule {
-    fn default() -> Self {
-        Rule { from: From::Itself, factor: 1.0, offset: 0.0, counts: None, running_sum: false, optional: false }
-    }
-}
-
-impl Rule {
-    pub fn linear(&self, value: f64) -> f64 {
-        value * self.factor + self.offset
-    }
-
-    pub fn is_plain(&self) -> bool {
-        self.factor == 1.0 && self.offset == 0.0
-    }
-}
-
-/// Units a source may have, what they measure, and what one of them is in the contract's unit.
-const UNITS: [(&str, Quantity, f64); 16] = [
-    ("s", Quantity::Time, 1.0),
-    ("ms", Quantity::Time, 1e-3),
-    ("us", Quantity::Time, 1e-6),
-    ("ns", Quantity::Time, 1e-9),
-    ("V", Quantity::Voltage, 1.0),
-    ("mV", Quantity::Voltage, 1e-3),
-    ("A", Quantity::Current, 1.0),
-    ("mA", Quantity::Current, 1e-3),
-    ("rad/s", Quantity::Rate, 1.0),
-    ("deg/s", Quantity::Rate, std::f64::consts::PI / 180.0),
-    ("rpm", Quantity::Rate, std::f64::consts::PI / 30.0),
-    ("m", Quantity::Length, 1.0),
-    ("cm", Quantity::Length, 1e-2),
-    ("mm", Quantity::Length, 1e-3),
-    ("rad", Quantity::Angle, 1.0),
-    ("deg", Quantity::Angle, std::f64::consts::PI / 180.0),
-];
-
-const RULE_KEYS: [&str; 9] =
-    ["from", "unit", "scale", "sign", "offset", "counts_per_turn", "counts", "running_sum", "optional"];
-const TOP_KEYS: [&str; 7] = ["separator", "skip_lines", "header", "currents_sampled", "files", "columns", "groups"];
 
 impl Columns {
     /// Reads and checks a mapping.
@@ -133,47 +28,31 @@ impl Columns {
         let source = Source { path, text };
         let document = source.parse()?;
         let top = Section::of(source, "columns.toml", document.as_table(), None);
-        top.only_keys(&TOP_KEYS)?;
-        let header = top.flag("header")?.unwrap_or(true);
-        let layout = Layout { separator: separator(&top)?, skip_lines: top.whole("skip_lines")?.unwrap_or(0), header };
-        let currents_sampled = match top.text("currents_sampled")? {
-            None | Some("after") => Sampled::After,
-            Some("before") => Sampled::Before,
-            Some(_) => {
-                return Err(top.key_error(
-                    "currents_sampled",
-                    "expected \"before\" or \"after\"",
-                    "Write one of the two",
-                ));
-            }
-        };
-        let Some(item) = top.table.get("columns") else {
+        top.only_keys(&[&["files", "file"], &MAPPING_KEYS[..]].concat())?;
+        let columns = Columns { files: files(&top)?, parts: file_tables(&top)?, alone: Mapping::of(&top)? };
+        let Mapping { rules, groups, currents_sampled, .. } = &columns.alone;
+        if rules.is_empty() && groups.is_empty() && currents_sampled.is_none() && columns.parts.is_empty() {
             return Err(top
                 .error("[columns] is missing: no column is mapped", "Add [columns] with t_s and the signals")
                 .of_kind(InputKind::Missing));
-        };
-        let columns = Section::new(source, "[columns]", item)?;
-        let rules =
-            columns.table.iter().map(|(name, item)| rule(&columns, name, item, header)).collect::<Result<_>>()?;
-        let groups = top
-            .table
-            .get("groups")
-            .map_or(Ok(BTreeMap::new()), |item| groups(&Section::new(source, "[groups]", item)?))?;
-        Ok(Columns { currents_sampled, files: files(&top)?, layout, rules, groups })
+        }
+        Ok(columns)
     }
 
     /// Whether a file of this name is a run.
     pub fn takes(&self, name: &str) -> bool {
-        self.files.is_empty() || self.files.iter().any(|pattern| matches(pattern.as_bytes(), name.as_bytes()))
+        self.files.is_empty() || self.files.iter().any(|pattern| fits(pattern, name))
+    }
+
+    /// Whether a folder is itself a run: whether it holds the first file of one.
+    pub fn is_run(&self, folder: &Path) -> bool {
+        self.parts.first().is_some_and(|first| names_in(folder).any(|name| fits(&first.name, &name)))
     }
 }
 
-fn separator(top: &Section) -> Result<u8> {
-    match top.text("separator")?.map(str::as_bytes) {
-        None => Ok(b','),
-        Some([one]) if one.is_ascii() => Ok(*one),
-        Some(_) => Err(top.key_error("separator", "expected one ASCII character", "Write \",\", \";\" or \"\\t\"")),
-    }
+fn names_in(folder: &Path) -> impl Iterator<Item = String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| entry.file_name().to_string_lossy().into_owned())
 }
 
 fn files(top: &Section) -> Result<Vec<String>> {
@@ -184,117 +63,9 @@ fn files(top: &Section) -> Result<Vec<String>> {
     list.ok_or_else(|| top.key_error("files", "expected a list of file name patterns", "Write files = [\"*.csv\"]"))
 }
 
-fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> Result<(Target, Rule)> {
-    let Some(target) = Target::named(name) else {
-        let known = [
-            "t_s",
-            "u0_V",
-            "i0_A",
-            "w0_rad_s",
-            "wset0_rad_s",
-            "x_m",
-            "y_m",
-            "theta_rad",
-            "vbat_V",
-            "gyro_rad_s",
-            "enable",
-        ];
-        let fix = nearest(name, known)
-            .map_or(format!("Known are {}", known.join(", ")), |near| format!("Did you mean `{near}`?"));
-        return Err(columns.key_error(name, "this is not a column of the run log", fix).of_kind(InputKind::Unknown));
-    };
-    let title = format!("[columns] {name}");
-    let s = Section::new(columns.source, &title, item)?;
-    s.only_keys(&RULE_KEYS)?;
-    let from = match s.table.get("from") {
-        Some(item) if item.is_integer() => match s.whole("from")? {
-            Some(0) | None => return Err(s.key_error("from", "found position 0", "Positions are counted from 1")),
-            Some(number) => From::Position(number),
-        },
-        Some(item) if item.is_str() && header => From::Name(item.as_str().unwrap_or_default().to_string()),
-        Some(item) if item.is_str() => {
-            return Err(s.key_error(
-                "from",
-                "found a name, but the log has no header",
-                "Give the position, counted from 1",
-            ));
-        }
-        _ => {
-            return Err(s
-                .error("`from` is missing", "Name the source column, or give its position")
-                .in_column(name)
-                .of_kind(InputKind::Missing));
-        }
-    };
-    let sign = s.number("sign")?.unwrap_or(1.0);
-    s.checked("sign", sign, sign.abs() == 1.0, "1 or -1")?;
-    let scale = s.number("scale")?.unwrap_or(1.0);
-    s.checked("scale", scale, scale != 0.0, "a factor other than zero")?;
-    let unit = unit(&s, target)?;
-    let counts = counts(&s, target)?;
-    if counts.is_some() && s.table.contains_key("unit") {
-        return Err(s
-            .key_error("unit", "counts have no unit", "Remove `unit`, or `counts_per_turn`")
-            .of_kind(InputKind::Conflict));
-    }
-    let optional = s.flag("optional")?.unwrap_or(false);
-    let running_sum = s.flag("running_sum")?.unwrap_or(false);
-    if running_sum && target != Target::Time {
-        return Err(s
-            .key_error("running_sum", "only time can be a running sum", "Remove the key")
-            .of_kind(InputKind::Conflict));
-    }
-    let offset = s.number("offset")?.unwrap_or(0.0);
-    Ok((target, Rule { from, factor: sign * scale * unit, offset, counts, running_sum, optional }))
-}
-
-fn unit(s: &Section, target: Target) -> Result<f64> {
-    let Some(name) = s.text("unit")? else { return Ok(1.0) };
-    let fitting = |unit: &&(&str, Quantity, f64)| unit.1 == target.quantity();
-    match UNITS.iter().filter(fitting).find(|unit| unit.0 == name) {
-        Some(unit) => Ok(unit.2),
-        None => {
-            let known: Vec<&str> = UNITS.iter().filter(fitting).map(|unit| unit.0).collect();
-            let fix = format!("Known here: {}; or use `scale`", known.join(", "));
-            Err(s.key_error("unit", format!("`{name}` is not a unit for {target}"), fix))
-        }
-    }
-}
-
-fn counts(s: &Section, target: Target) -> Result<Option<Counts>> {
-    let kind = s.text("counts")?;
-    if !s.table.contains_key("counts_per_turn") {
-        return match kind {
-            None => Ok(None),
-            Some(_) => Err(s
-                .key_error("counts", "`counts_per_turn` is missing", "Say how many counts make a turn")
-                .of_kind(InputKind::Missing)),
-        };
-    }
-    let per_turn = s.positive("counts_per_turn")?;
-    if target.quantity() != Quantity::Rate {
-        return Err(s.key_error("counts_per_turn", format!("{target} is not a speed"), "Use `scale` instead"));
-    }
-    match kind {
-        None | Some("per_sample") => Ok(Some(Counts { per_turn, position: false })),
-        Some("position") => Ok(Some(Counts { per_turn, position: true })),
-        Some(_) => Err(s.key_error("counts", "expected \"per_sample\" or \"position\"", "Write one of the two")),
-    }
-}
-
-fn groups(all: &Section) -> Result<BTreeMap<String, Flags>> {
-    all.only_keys(&["u", "i", "w", "wset", "pose"])?;
-    let read = |(name, item): (&str, &toml_edit::Item)| {
-        let title = format!("[groups] {name}");
-        let s = Section::new(all.source, &title, item)?;
-        let keys: &[&str] =
-            if name == "w" { &["unsigned", "quantum", "edges_per_turn"] } else { &["unsigned", "quantum"] };
-        s.only_keys(keys)?;
-        let positive = |key: &str| s.number(key)?.map(|_| s.positive(key)).transpose();
-        let (quantum, edges_per_turn) = (positive("quantum")?, positive("edges_per_turn")?);
-        Ok((name.to_string(), Flags { unsigned: s.flag("unsigned")?.unwrap_or(false), quantum, edges_per_turn }))
-    };
-    all.table.iter().map(read).collect()
+/// Whether a file name fits a pattern.
+pub(super) fn fits(pattern: &str, name: &str) -> bool {
+    matches(pattern.as_bytes(), name.as_bytes())
 }
 
 /// Whether a name fits a pattern in which `*` stands for any letters and `?` for one.

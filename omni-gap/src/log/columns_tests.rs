@@ -1,4 +1,5 @@
-use super::super::run::{Missing, Run};
+use super::super::channel::Missing;
+use super::super::run::Run;
 use super::*;
 
 fn read(mapping: &str, log: &str, wheels: usize) -> Result<(Run, Vec<String>)> {
@@ -20,10 +21,11 @@ fn blocks() -> Vec<&'static str> {
 fn the_page_shows_what_the_examples_say() {
     let read = |text: &str| Columns::parse(text, Path::new("columns.toml")).unwrap();
     let blocks = blocks();
-    assert_eq!(blocks.len(), 3);
+    assert_eq!(blocks.len(), 4);
     read(blocks[0]);
     assert_eq!(read(blocks[1]), read(ROBOTINO));
     assert_eq!(read(blocks[2]), read(SSL2018));
+    assert_eq!(read(blocks[3]).parts.len(), 2);
 }
 
 #[test]

@@ -9,7 +9,7 @@
 //! ω̄ = (2π/n)/τ,   ω(t_edge − τ/2) = ω̄ + O(τ²·d²ω/dt²/24)
 //! ```
 
-use super::run::{Channel, Missing};
+use super::channel::{Channel, Missing};
 use std::f64::consts::TAU;
 
 /// The speeds (rad/s) of a channel that holds the last one until the next edge, each on the row where it is true.

@@ -4,31 +4,46 @@
 //! one message that says where and how to mend it.
 //!
 //! Reading order: [`Session`] (a folder of files), [`RobotFile`] (the nominal model), [`Run`] (one recording) with its
-//! [`Channel`]s, and [`columns`] (logs in another layout).
+//! [`Channel`]s, and [`columns`] (logs in another layout). A recording comes in through `source` (a file of any format →
+//! columns of samples) → `read` (a `mapping` makes SI units of them, on the file's own clock) → `folder` and `align`
+//! (files with a clock each → one run; `clock_offset` compares clocks by the `motion` that each file tells).
 
+mod align;
+mod body_from_wheels;
 mod catalogue;
+mod channel;
+mod clock_offset;
 pub mod columns;
 pub mod controller;
 mod correct;
-mod csv;
+mod driving;
 mod edges;
 mod effects_read;
+mod file_table;
+mod folder;
+mod mapping;
+mod motion;
 mod plausible;
 mod read;
+pub mod records;
 mod robot_file;
 mod robot_read;
 mod run;
 mod session;
+mod source;
 mod target;
 mod toml_walk;
 mod write;
 
+pub(crate) use body_from_wheels::{BodyFromWheels, MOST_CHANNELS, row_of};
 pub use catalogue::{Catalogue, KnownEffect, KnownParam, nearest};
+pub use channel::{Channel, Missing};
 pub use columns::Columns;
 pub use controller::ControllerFile;
 pub use correct::{Change, corrected};
-pub(crate) use edges::{EdgeInterval, retimed, speeds_on_rows};
+pub use driving::Chain;
+pub(crate) use edges::retimed;
 pub use robot_file::*;
-pub use run::{Channel, Group, Missing, Run, Sampled};
+pub use run::{Group, Run, RunFile, Sampled};
 pub use session::Session;
 pub use write::{write_whole, write_whole_with};

@@ -1,92 +1,114 @@
-//! # From a table of numbers to a run
+//! # Mapping: from the columns of a source to a run in SI units, on the clock of its file
 
-use super::columns::{Columns, Rule};
-use super::csv::{Layout, Table};
+use super::channel::{Channel, Missing};
+use super::columns::Columns;
 use super::edges::retimed;
-use super::run::{Channel, Missing, Run};
+use super::mapping::{Mapping, Rule};
+use super::run::Run;
+use super::source::{self, Layout, Source};
 use super::target::Target;
 use crate::error::{Error, InputKind, Result};
 use std::f64::consts::TAU;
 use std::path::Path;
 
 impl Run {
-    /// Reads a run log of a robot with `wheels` wheels: in the contract's layout, or through a mapping.
+    /// Reads a run of one file of a robot with `wheels` wheels: in the contract's layout, or through a mapping.
     ///
     /// The heading is unwrapped, see [`Channel::unwrapped`]. The second value holds notices: what was left out.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, or is no log of such a robot.
     pub fn load(path: &Path, wheels: usize, columns: Option<&Columns>) -> Result<(Run, Vec<String>)> {
-        let layout = columns.map_or_else(Layout::default, |columns| columns.layout.clone());
-        let table = Table::open(path, &layout)?;
         let mut notices = Vec::new();
-        let bindings = match columns {
-            Some(columns) => mapped(&table, columns, &mut notices)?,
-            None => named(&table, &mut notices),
-        };
-        complete(&table, &bindings, wheels)?;
-        let wanted: Vec<usize> = bindings.iter().map(|binding| binding.1).collect();
-        let raw = table.columns(&wanted)?;
-        if raw[0].len() < 2 {
-            let rows = ["no rows", "one row"][raw[0].len()];
-            return Err(Error::input(
-                path,
-                format!("there is a header and {rows}, expected at least two rows"),
-                "Record the run again",
-            )
-            .of_kind(InputKind::TooLittle));
-        }
-        let mut raw: Vec<(Target, Rule, Channel)> =
-            bindings.into_iter().zip(raw).map(|((target, _, rule), channel)| (target, rule, channel)).collect();
-        raw.sort_by_key(|(target, ..)| *target);
-        let (_, rule, time) = raw.remove(0);
-        let (t_s, first_step_s) = clock(&table, &rule, &time)?;
-        let mut run = Run { t_s, ..Run::default() };
-        run.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        run.path = path.into();
-        run.first_line = Some(table.line_of(0));
-        if let Some(columns) = columns {
-            run.currents_sampled = columns.currents_sampled;
-        }
-        for (target, rule, channel) in raw {
-            let channel = convert(&channel, &rule, &run.t_s, first_step_s);
-            place(&mut run, target, channel);
-        }
-        finish(&mut run, columns, &mut notices)?;
+        let mut run = read(path, columns.map(|columns| &columns.alone), Needs { wheels, motion: true }, &mut notices)?;
+        open_bridges_apply_nothing(&mut run)?;
         Ok((run, notices))
     }
+}
+
+/// What a file must have.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Needs {
+    /// A channel of a group for each wheel of the robot.
+    pub wheels: usize,
+    /// Wheels or pose; a file beside others may have the battery alone.
+    pub motion: bool,
+}
+
+/// Reads one file, on its own clock.
+pub(super) fn read(path: &Path, columns: Option<&Mapping>, needs: Needs, notices: &mut Vec<String>) -> Result<Run> {
+    let layout = columns.map_or_else(Layout::default, |columns| columns.layout.clone());
+    let source = source::open(path, &layout)?;
+    notices.extend(source.notices());
+    let bindings = match columns.filter(|columns| !columns.rules.is_empty()) {
+        Some(columns) => mapped(&*source, columns, notices)?,
+        None => named(&*source, notices),
+    };
+    complete(&*source, &bindings, needs)?;
+    let wanted: Vec<usize> = bindings.iter().map(|binding| binding.1).collect();
+    let raw = source.columns(&wanted)?;
+    if raw[0].len() < 2 {
+        let rows = ["no rows", "one row"][raw[0].len()];
+        return Err(Error::input(
+            path,
+            format!("there is a header and {rows}, expected at least two rows"),
+            "Record the run again",
+        )
+        .of_kind(InputKind::TooLittle));
+    }
+    let mut raw: Vec<(Target, Rule, Channel)> =
+        bindings.into_iter().zip(raw).map(|((target, _, rule), channel)| (target, rule, channel)).collect();
+    raw.sort_by_key(|(target, ..)| *target);
+    let (_, rule, time) = raw.remove(0);
+    let (t_s, first_step_s) = clock(&*source, &rule, &time)?;
+    let mut run = Run { t_s, ..Run::default() };
+    run.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    run.path = path.into();
+    run.first_line = source.line_of(0);
+    let sampled = columns.and_then(|columns| columns.currents_sampled);
+    run.currents_sampled = sampled.or(source.currents_sampled()).unwrap_or_default();
+    drop(source);
+    for (target, rule, channel) in raw {
+        let channel = convert(channel, &rule, &run.t_s, first_step_s);
+        place(&mut run, target, channel);
+    }
+    finish(&mut run, columns, needs, notices)?;
+    Ok(run)
 }
 
 type Binding = (Target, usize, Rule);
 
 /// Columns of the contract, by name.
-fn named(table: &Table, notices: &mut Vec<String>) -> Vec<Binding> {
+fn named(table: &dyn Source, notices: &mut Vec<String>) -> Vec<Binding> {
     let mut bindings = Vec::new();
     let mut ignored = Vec::new();
-    for (column, name) in table.names.iter().enumerate() {
+    for (column, name) in table.names().iter().enumerate() {
         match Target::named(name) {
             Some(target) => bindings.push((target, column, Rule::default())),
             None => ignored.push(format!("`{name}`")),
         }
     }
     if !ignored.is_empty() {
-        notices.push(format!("{}: columns left out: {}", table.path.display(), ignored.join(", ")));
+        notices.push(format!("{}: columns left out: {}", table.path().display(), ignored.join(", ")));
     }
     bindings
 }
 
 /// Columns named by the mapping.
-fn mapped(table: &Table, columns: &Columns, notices: &mut Vec<String>) -> Result<Vec<Binding>> {
+fn mapped(table: &dyn Source, columns: &Mapping, notices: &mut Vec<String>) -> Result<Vec<Binding>> {
     let mut bindings = Vec::new();
     for (target, rule) in &columns.rules {
-        match rule.from.find(&table.names, table.width) {
+        match rule.from.find(table.names(), table.width()) {
             Some(column) => bindings.push((*target, column, rule.clone())),
             None if rule.optional => {
-                notices.push(format!("{}: no column {} for {target}", table.path.display(), rule.from));
+                notices.push(format!("{}: no column {} for {target}", table.path().display(), rule.from));
             }
             None => {
-                let names = || table.names.join(", ");
-                let there = if table.names.is_empty() { format!("{} columns", table.width) } else { names() };
+                let names = || table.names().join(", ");
+                let there = if table.names().is_empty() { format!("{} columns", table.width()) } else { names() };
                 let problem = format!("the log has no column {} for {target}; it has {there}", rule.from);
                 return Err(Error::input(
-                    &table.path,
+                    table.path(),
                     problem,
                     "Correct `from` in columns.toml, or set optional = true",
                 )
@@ -96,7 +118,7 @@ fn mapped(table: &Table, columns: &Columns, notices: &mut Vec<String>) -> Result
     }
     let unused = |column: &usize| !bindings.iter().any(|(_, used, _)| used == column);
     let ignored: Vec<String> =
-        (0..table.width).filter(unused).map(|column| format!("`{}`", table.title(column))).collect();
+        (0..table.width()).filter(unused).map(|column| format!("`{}`", table.title(column))).collect();
     if !ignored.is_empty() {
         notices.push(format!("columns that the mapping leaves out: {}", ignored.join(", ")));
     }
@@ -104,11 +126,12 @@ fn mapped(table: &Table, columns: &Columns, notices: &mut Vec<String>) -> Result
 }
 
 /// Refuses a log without a clock, without any signal, or with a group that lacks a wheel.
-fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
+fn complete(table: &dyn Source, bindings: &[Binding], needs: Needs) -> Result<()> {
+    let wheels = needs.wheels;
     let has = |target: Target| bindings.iter().any(|binding| binding.0 == target);
     let missing = |target: Target, why: &str| {
         let error = Error::input(
-            &table.path,
+            table.path(),
             format!("the column is missing: {why}"),
             "Add the column, or map it in columns.toml",
         )
@@ -121,7 +144,7 @@ fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
     if let Some((target, ..)) = bindings.iter().find(|(target, ..)| target.wheel().is_some_and(|wheel| wheel >= wheels))
     {
         let problem = format!("a column for a wheel that the robot file does not have; it has {wheels} wheels");
-        return Err(Error::input(&table.path, problem, "Describe the wheel in robot.toml, or remove the column")
+        return Err(Error::input(table.path(), problem, "Describe the wheel in robot.toml, or remove the column")
             .of_kind(InputKind::Unknown)
             .in_column(target.to_string()));
     }
@@ -135,11 +158,14 @@ fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
     if let Some(absent) = pose.into_iter().find(|target| !has(*target) && pose.iter().any(|other| has(*other))) {
         return missing(absent, "a pose is x_m, y_m and theta_rad");
     }
-    let signal = |target: &Target| target.wheel().is_some() || *target == Target::X;
+    let signal = |target: &Target| match needs.motion {
+        true => target.wheel().is_some() || *target == Target::X,
+        false => *target != Target::Time,
+    };
     if !bindings.iter().any(|(target, ..)| signal(target)) {
         let problem = "found no signal, expected at least one of u<j>_V, i<j>_A, w<j>_rad_s or x_m, y_m, theta_rad";
         return Err(Error::input(
-            &table.path,
+            table.path(),
             problem,
             "Name the columns as the log form says, or map them in columns.toml",
         )
@@ -149,13 +175,11 @@ fn complete(table: &Table, bindings: &[Binding], wheels: usize) -> Result<()> {
 }
 
 /// The time of each row (s), and the length of the first row's sample where the log tells it (s).
-fn clock(table: &Table, rule: &Rule, raw: &Channel) -> Result<(Vec<f64>, Option<f64>)> {
+fn clock(table: &dyn Source, rule: &Rule, raw: &Channel) -> Result<(Vec<f64>, Option<f64>)> {
     let mut t_s = Vec::with_capacity(raw.len());
     let mut first = None;
     let mut last = f64::NEG_INFINITY;
-    let told = |row: usize, problem: String, fix: &str| {
-        Err(Error::input(&table.path, problem, fix).at_line(table.line_of(row)).in_column("t_s"))
-    };
+    let told = |row: usize, problem: String, fix: &str| Err(table.error_on(row, problem, fix).in_column("t_s"));
     for (row, value) in raw.iter().enumerate() {
         let Ok(value) = value else {
             return told(row, "the time is missing".into(), "Every row needs its time; remove rows without one");
@@ -184,9 +208,9 @@ fn clock(table: &Table, rule: &Rule, raw: &Channel) -> Result<(Vec<f64>, Option<
 }
 
 /// One channel in its contract unit.
-fn convert(raw: &Channel, rule: &Rule, t_s: &[f64], first_step_s: Option<f64>) -> Channel {
+fn convert(raw: Channel, rule: &Rule, t_s: &[f64], first_step_s: Option<f64>) -> Channel {
     let Some(counts) = rule.counts else {
-        return if rule.is_plain() { raw.clone() } else { raw.map(|_, v| rule.linear(v)) };
+        return if rule.is_plain() { raw } else { raw.map(|_, v| rule.linear(v)) };
     };
     let turn = TAU / counts.per_turn;
     let mut last: Option<(usize, f64)> = None;
@@ -222,7 +246,7 @@ fn place(run: &mut Run, target: Target, channel: Channel) {
 }
 
 /// Drops what is blank throughout, and sets what the mapping says of whole groups.
-fn finish(run: &mut Run, columns: Option<&Columns>, notices: &mut Vec<String>) -> Result<()> {
+fn finish(run: &mut Run, columns: Option<&Mapping>, needs: Needs, notices: &mut Vec<String>) -> Result<()> {
     let place = run.path.display().to_string();
     let groups =
         [("u", &mut run.u), ("i", &mut run.i), ("w", &mut run.w), ("wset", &mut run.wset), ("pose", &mut run.pose)];
@@ -252,9 +276,9 @@ fn finish(run: &mut Run, columns: Option<&Columns>, notices: &mut Vec<String>) -
             notices.push(format!("{place}: every field of `{name}` is empty; it counts as absent"));
             *channel = None;
         }
+        any |= channel.is_some() && !needs.motion;
     }
-    open_bridges_apply_nothing(run)?;
-    match any {
+    match any || run.enable.is_some() && !needs.motion {
         true => Ok(()),
         false => Err(Error::input(&run.path, "every signal is empty throughout", "Record the run again")
             .of_kind(InputKind::TooLittle)),
@@ -262,16 +286,20 @@ fn finish(run: &mut Run, columns: Option<&Columns>, notices: &mut Vec<String>) -
 }
 
 /// Where the bridges are open no voltage is applied, whatever the log says of it.
-fn open_bridges_apply_nothing(run: &mut Run) -> Result<()> {
+pub(super) fn open_bridges_apply_nothing(run: &mut Run) -> Result<()> {
     let switch = |value: f64| value == 0.0 || value == 1.0;
     if let Some((row, found)) = run.enable.iter().flat_map(Channel::present).find(|(_, value)| !switch(*value)) {
         let problem = format!("found {found}, expected 1 (bridges driven) or 0 (bridges open)");
-        let error = Error::input(&run.path, problem, "Log whether the bridges are enabled, or remove the column");
-        return Err(error.at_line(run.line_of(row)).in_column("enable"));
+        let fix = "Log whether the bridges are enabled, or remove the column";
+        return Err(run.error_at(row, "enable", problem, fix));
     }
-    let open: Vec<bool> = (0..run.rows()).map(|row| run.is_open(row)).collect();
+    if run.enable.is_none() {
+        return Ok(());
+    }
+    let open = run.open_rows();
     for channel in run.u.iter_mut().flat_map(|group| &mut group.channels) {
-        *channel = channel.iter().zip(&open).map(|(u, open)| if *open { Err(Missing::Blank) } else { u }).collect();
+        let applied = |(row, u): (usize, _)| if open[row] && channel.is_due(row) { Err(Missing::Blank) } else { u };
+        *channel = channel.iter().enumerate().map(applied).collect();
     }
     Ok(())
 }

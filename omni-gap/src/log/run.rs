@@ -1,151 +1,15 @@
 //! # A run: what one recording says, in SI units
 //!
-//! A [`Channel`] is a column of numbers in which every hole has a reason; it never shows a NaN. A [`Group`] is the
-//! channels of one kind, one per wheel, or x, y and heading for the pose. A [`Run`] is the groups on one clock.
+//! A [`Group`] is the channels of one kind, one per wheel, or x, y and heading for the pose. A [`Run`] is the groups on
+//! common rows. Where files with a clock each make the run, its rows are all instants at which anything was commanded or
+//! measured, and a channel has holes, [`Missing::NotDue`], at the instants of other clocks: nothing is resampled.
+//!
+//! [`Missing::NotDue`]: super::Missing::NotDue
 
+use super::channel::Channel;
 use super::robot_file::RobotFile;
+use crate::error::Error;
 use std::path::{Path, PathBuf};
-
-/// Why a sample is missing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-pub enum Missing {
-    /// The field was left empty: nothing was measured on this row.
-    Blank,
-    /// A sample was due and never arrived, or was not a number.
-    Lost,
-    /// The sensor was at its limit.
-    Saturated,
-    /// The sensor repeated an old value.
-    Stale,
-    /// The telegram failed its checksum.
-    BadCrc,
-}
-
-const REASONS: [Missing; 5] = [Missing::Blank, Missing::Lost, Missing::Saturated, Missing::Stale, Missing::BadCrc];
-
-/// One signal over the rows of a run. Values are finite; a hole has a reason.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Channel {
-    values: Vec<f64>,
-    // 0 = present, 1.. = index into REASONS plus one; empty while there is no hole at all
-    holes: Vec<u8>,
-}
-
-impl Channel {
-    /// An empty channel with room for `rows`.
-    pub fn with_capacity(rows: usize) -> Channel {
-        Channel { values: Vec::with_capacity(rows), holes: Vec::new() }
-    }
-
-    /// A channel of numbers in SI units; one that is not finite becomes a hole, [`Missing::Lost`].
-    pub fn from_values(values: impl IntoIterator<Item = f64>) -> Channel {
-        values.into_iter().map(Ok).collect()
-    }
-
-    /// Adds a sample in SI units. A number that is not finite is recorded as [`Missing::Lost`].
-    pub fn push(&mut self, value: f64) {
-        if !value.is_finite() {
-            return self.push_missing(Missing::Lost);
-        }
-        self.values.push(value);
-        if !self.holes.is_empty() {
-            self.holes.push(0);
-        }
-    }
-
-    /// Adds a hole.
-    pub fn push_missing(&mut self, reason: Missing) {
-        if self.holes.is_empty() {
-            self.holes.reserve(self.values.capacity());
-            self.holes.resize(self.values.len(), 0);
-        }
-        self.values.push(0.0);
-        self.holes.push(reason as u8 + 1);
-    }
-
-    /// The sample on `row`, in SI units, or why there is none.
-    ///
-    /// # Panics
-    /// Where the channel has no such row.
-    #[inline]
-    pub fn get(&self, row: usize) -> std::result::Result<f64, Missing> {
-        match self.holes.get(row) {
-            None | Some(0) => Ok(self.values[row]),
-            Some(&code) => Err(REASONS[usize::from(code) - 1]),
-        }
-    }
-
-    /// How many rows it has, holes included.
-    pub fn len(&self) -> usize {
-        self.values.len()
-    }
-
-    /// Whether it has no rows.
-    pub fn is_empty(&self) -> bool {
-        self.values.is_empty()
-    }
-
-    /// Whether no row has a sample.
-    pub fn is_blank(&self) -> bool {
-        self.present().next().is_none()
-    }
-
-    /// Whether every row has a sample.
-    pub fn is_whole(&self) -> bool {
-        self.holes.iter().all(|&code| code == 0)
-    }
-
-    /// The samples that are there: row and value.
-    pub fn present(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        self.values
-            .iter()
-            .enumerate()
-            .filter(|(row, _)| self.holes.get(*row).is_none_or(|&c| c == 0))
-            .map(|(r, &v)| (r, v))
-    }
-
-    /// All rows in order.
-    pub fn iter(&self) -> impl Iterator<Item = std::result::Result<f64, Missing>> + '_ {
-        (0..self.len()).map(|row| self.get(row))
-    }
-
-    /// The same channel with each sample changed by `f(row, value)`; holes stay.
-    pub fn map(&self, mut f: impl FnMut(usize, f64) -> f64) -> Channel {
-        self.iter().enumerate().map(|(row, sample)| sample.map(|value| f(row, value))).collect()
-    }
-
-    /// Takes 2π jumps out of a heading in radians.
-    ///
-    /// A heading that stays within one turn (and 1 rad for noise) is taken as wrapped: a step of more than half a turn
-    /// is a wrap. One that spans more was never wrapped, and is left as it is.
-    pub fn unwrapped(&self) -> Channel {
-        use std::f64::consts::{PI, TAU};
-        let (low, high) = self.present().fold((f64::MAX, f64::MIN), |(l, h), (_, v)| (l.min(v), h.max(v)));
-        if high - low < PI || high - low > TAU + 1.0 {
-            return self.clone();
-        }
-        let mut last = None;
-        self.map(|_, value| {
-            let value = last.map_or(value, |before: f64| value - TAU * ((value - before) / TAU).round());
-            last = Some(value);
-            value
-        })
-    }
-}
-
-impl FromIterator<std::result::Result<f64, Missing>> for Channel {
-    fn from_iter<I: IntoIterator<Item = std::result::Result<f64, Missing>>>(samples: I) -> Channel {
-        let samples = samples.into_iter();
-        let mut channel = Channel::with_capacity(samples.size_hint().0);
-        for sample in samples {
-            match sample {
-                Ok(value) => channel.push(value),
-                Err(reason) => channel.push_missing(reason),
-            }
-        }
-        channel
-    }
-}
 
 /// Channels of one kind: one per wheel, or x (m), y (m) and heading (rad) for the pose.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -181,15 +45,36 @@ pub enum Sampled {
     After,
 }
 
+const POSE: [&str; 3] = ["x_m", "y_m", "theta_rad"];
+const VBAT: &str = "vbat_V";
+const GYRO: &str = "gyro_rad_s";
+const ENABLE: &str = "enable";
+
+/// One of several files that make a run, each with a clock of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunFile {
+    /// The file.
+    pub path: PathBuf,
+    /// The line of the file on which its first row stands, counted from 1; none where it is not text.
+    pub first_line: Option<usize>,
+    /// What was added to its times to bring them onto the clock of the first file (s).
+    pub offset_s: f64,
+    /// The columns of the run that it has, by their names in the contract.
+    pub columns: Vec<String>,
+}
+
 /// One recording.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Run {
     /// The file's name without folder and suffix.
     pub name: String,
-    /// The file it came from; empty for a run made in memory.
+    /// The file, or folder of files, it came from; empty for a run made in memory.
     pub path: PathBuf,
-    /// The line of the file on which the first row stands, counted from 1; none for a run made in memory.
+    /// The line of the file on which the first row stands, counted from 1; none for a run of several files, of a file
+    /// that is not text, and for one made in memory.
     pub first_line: Option<usize>,
+    /// The files that make the run, where there are several; empty where all signals share one clock.
+    pub files: Vec<RunFile>,
     /// Time of each row (s), strictly increasing.
     pub t_s: Vec<f64>,
     /// Mean motor voltages (V), held from a row until the next.
@@ -218,9 +103,12 @@ impl Run {
         self.t_s.len()
     }
 
-    /// Whether the bridges are open on a row.
-    pub fn is_open(&self, row: usize) -> bool {
-        self.enable.as_ref().is_some_and(|enable| enable.get(row) == Ok(0.0))
+    /// Whether the bridges are open, row by row; what was true last stays true at instants of other clocks.
+    pub fn open_rows(&self) -> Vec<bool> {
+        match self.enable.as_ref().map(Channel::held) {
+            Some(enable) => enable.iter().map(|sample| sample == Ok(0.0)).collect(),
+            None => vec![false; self.rows()],
+        }
     }
 
     /// Where it stands: its file; its name, for a run made in memory.
@@ -228,21 +116,30 @@ impl Run {
         if self.path.as_os_str().is_empty() { Path::new(&self.name) } else { &self.path }
     }
 
-    /// The line of the file on which a row stands; for a run made in memory, of the file that it would be written to.
+    /// Whether its file has lines: a run made in memory has those of the file that it would be written to.
+    pub fn is_text(&self) -> bool {
+        self.first_line.is_some() || self.path.as_os_str().is_empty()
+    }
+
+    /// The line of the file on which a row stands; the row's number, counted from 1, where the file is not text.
     pub fn line_of(&self, row: usize) -> usize {
-        self.first_line.unwrap_or(2) + row
+        let first = if self.is_text() { self.first_line.unwrap_or(2) } else { 1 };
+        first + row
+    }
+
+    /// A mistake in a column on a row, told at its place in the file that has the column.
+    pub(super) fn error_at(&self, row: usize, column: &str, problem: String, fix: &str) -> Error {
+        let file = self.files.iter().find(|file| file.columns.iter().any(|name| name == column));
+        let (path, first_line) = file.map_or((self.place(), self.first_line), |file| (&file.path, file.first_line));
+        let channel = self.signals().into_iter().find(|(name, _)| name == column).map(|(_, channel)| channel);
+        let rows_before = channel.map_or(row, |channel| (0..row).filter(|row| channel.is_due(*row)).count());
+        let error = Error::input(path, problem, fix).in_column(column);
+        first_line.map_or(error.clone(), |first| error.at_line(first + rows_before))
     }
 
     /// From the first row to the last (s).
     pub fn duration_s(&self) -> f64 {
         self.t_s.last().zip(self.t_s.first()).map_or(0.0, |(last, first)| last - first)
-    }
-
-    /// The middle one of the row lengths (s); zero for fewer than two rows.
-    pub fn median_step_s(&self) -> f64 {
-        let mut steps: Vec<f64> = self.t_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let middle = steps.len() / 2;
-        if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 }
     }
 
     /// Every signal that is there, under its column name in the contract, in the contract's order.
@@ -252,13 +149,33 @@ impl Run {
             all.extend(per_wheel(stem, unit, group));
         }
         if let Some(pose) = &self.pose {
-            all.extend(["x_m", "y_m", "theta_rad"].iter().zip(&pose.channels).map(|(n, c)| (n.to_string(), c)));
+            all.extend(POSE.iter().zip(&pose.channels).map(|(n, c)| (n.to_string(), c)));
         }
         all.extend(per_wheel("wset", "rad_s", &self.wset));
-        all.extend(self.vbat.iter().map(|c| ("vbat_V".to_string(), c)));
-        all.extend(self.gyro.iter().map(|c| ("gyro_rad_s".to_string(), c)));
-        all.extend(self.enable.iter().map(|c| ("enable".to_string(), c)));
+        all.extend(self.vbat.iter().map(|c| (VBAT.to_string(), c)));
+        all.extend(self.gyro.iter().map(|c| (GYRO.to_string(), c)));
+        all.extend(self.enable.iter().map(|c| (ENABLE.to_string(), c)));
         all
+    }
+
+    /// The same recording with each channel, of which `f` gets the name in the contract, made anew; a group that lacks one
+    /// is left out.
+    pub fn with_channels(&self, mut f: impl FnMut(&str, &Channel) -> Option<Channel>) -> Run {
+        let mut group = |names: &dyn Fn(usize) -> String, group: &Option<Group>| {
+            let group = group.as_ref()?;
+            let channels = group.channels.iter().enumerate().map(|(k, channel)| f(&names(k), channel));
+            Some(Group { channels: channels.collect::<Option<_>>()?, ..*group })
+        };
+        let [u, i, w, wset] =
+            [("u", "V", &self.u), ("i", "A", &self.i), ("w", "rad_s", &self.w), ("wset", "rad_s", &self.wset)]
+                .map(|(stem, unit, of)| group(&|wheel| format!("{stem}{wheel}_{unit}"), of));
+        let pose = group(&|axis| POSE[axis].to_owned(), &self.pose);
+        let mut one = |name: &str, channel: &Option<Channel>| f(name, channel.as_ref()?);
+        let (vbat, gyro) = (one(VBAT, &self.vbat), one(GYRO, &self.gyro));
+        let enable = one(ENABLE, &self.enable);
+        let (name, path, files, t_s) = (self.name.clone(), self.path.clone(), self.files.clone(), self.t_s.clone());
+        let (first_line, currents_sampled) = (self.first_line, self.currents_sampled);
+        Run { name, path, first_line, files, t_s, u, i, w, wset, pose, vbat, gyro, enable, currents_sampled }
     }
 
     /// Writes the run in the contract's layout; a hole becomes an empty field.
@@ -300,32 +217,7 @@ fn per_wheel<'a>(stem: &str, unit: &str, group: &'a Option<Group>) -> Vec<(Strin
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_hole_keeps_its_reason_and_a_number_that_is_none_becomes_one() {
-        let mut channel = Channel::from_values([1.0, f64::NAN]);
-        channel.push_missing(Missing::BadCrc);
-        channel.push(2.0);
-        let all: Vec<_> = channel.iter().collect();
-        assert_eq!(all, [Ok(1.0), Err(Missing::Lost), Err(Missing::BadCrc), Ok(2.0)]);
-        assert_eq!(channel.present().collect::<Vec<_>>(), [(0, 1.0), (3, 2.0)]);
-        assert!(!channel.is_whole() && !channel.is_blank());
-    }
-
-    #[test]
-    fn a_wrapped_heading_is_unwrapped_across_a_hole() {
-        let mut channel = Channel::from_values([3.0]);
-        channel.push_missing(Missing::Blank);
-        channel.push(-3.1);
-        let after = channel.unwrapped().get(2).unwrap();
-        assert!((after - (std::f64::consts::TAU - 3.1)).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_heading_of_many_turns_is_left_alone() {
-        let channel = Channel::from_values([0.0, 4.0, 8.0, 12.0]);
-        assert_eq!(channel.unwrapped(), channel);
-    }
+    use crate::log::Missing;
 
     #[test]
     fn a_run_is_written_with_empty_fields_for_holes() {

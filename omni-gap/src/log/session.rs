@@ -4,6 +4,7 @@ use super::catalogue::Catalogue;
 use super::columns::Columns;
 use super::robot_file::RobotFile;
 use super::run::Run;
+use super::source::is_log;
 use super::toml_walk::read_text;
 use crate::error::{Error, InputKind, Result};
 use std::path::{Path, PathBuf};
@@ -51,13 +52,14 @@ impl Session {
         Ok(session)
     }
 
-    /// Reads a session whose parts lie anywhere; a run path may be a file or a folder of them.
+    /// Reads a session whose parts lie anywhere; a run path may be a file, a folder of
+    /// files that make a run, or a folder of runs.
     pub fn load_from(robot: &Path, columns: Option<&Path>, runs: &[PathBuf], catalogue: &Catalogue) -> Result<Session> {
         let columns = columns.map(Columns::load).transpose()?;
         let mut session = Session::of_robot(robot, catalogue)?;
         let mut paths = Vec::new();
         for path in runs {
-            match path.is_dir() {
+            match path.is_dir() && !columns.as_ref().is_some_and(|columns| columns.is_run(path)) {
                 true => paths.extend(session.files_in(path, columns.as_ref())?),
                 false => paths.push(path.clone()),
             }
@@ -72,7 +74,8 @@ impl Session {
         Ok(Session { robot, robot_text, runs: Vec::new(), heldout: Vec::new(), notices: Vec::new() })
     }
 
-    /// The run logs in a folder, by name. Without a mapping they are the `.csv` files.
+    /// The run logs in a folder, by name. Without a mapping they are the `.csv` and `.rec` files; with one that has `[[file]]` tables
+    /// folders are runs too.
     fn files_in(&mut self, folder: &Path, columns: Option<&Columns>) -> Result<Vec<PathBuf>> {
         let told = |reason: std::io::Error| {
             Error::input(folder, format!("cannot be read: {reason}"), "Check its permissions")
@@ -85,11 +88,16 @@ impl Session {
             if name.starts_with('.') {
                 continue;
             }
-            let fits =
-                columns.map_or_else(|| name.to_ascii_lowercase().ends_with(".csv"), |columns| columns.takes(&name));
-            match fits && !path.is_dir() {
-                true => paths.push(path),
-                false => self.notices.push(format!("{}: not a run log, left out", path.display())),
+            let fits = columns.map_or_else(|| is_log(&name), |columns| columns.takes(&name));
+            let is_run = columns.is_some_and(|columns| !columns.parts.is_empty());
+            match path.is_dir() {
+                false if fits => paths.push(path),
+                true if fits && is_run => paths.push(path),
+                true if !is_run => self.notices.push(format!(
+                    "{}: a folder is a run only where columns.toml has [[file]] tables, left out",
+                    path.display()
+                )),
+                _ => self.notices.push(format!("{}: not a run log, left out", path.display())),
             }
         }
         self.notices.sort();
@@ -98,7 +106,7 @@ impl Session {
             true => Err(Error::input(
                 folder,
                 "there is no run log in the folder",
-                "Put run logs into it, named *.csv or mapped in columns.toml",
+                "Put run logs into it, named *.csv or *.rec or mapped in columns.toml",
             )
             .of_kind(InputKind::Missing)),
             false => Ok(paths),
@@ -108,7 +116,7 @@ impl Session {
     fn read(&mut self, paths: &[PathBuf], columns: Option<&Columns>) -> Result<Vec<Run>> {
         let mut runs = Vec::with_capacity(paths.len());
         for path in paths {
-            let (run, notices) = Run::load(path, self.robot.wheel.len(), columns)?;
+            let (run, notices) = Run::open(path, &self.robot, columns)?;
             runs.push(run);
             for notice in notices {
                 if !self.notices.contains(&notice) {

@@ -106,7 +106,7 @@ pub struct Fault {
     pub file: Option<String>,
     /// Column, as the contract names it.
     pub column: Option<String>,
-    /// First and last line of the file concerned, counted from 1.
+    /// First and last line of the file concerned, counted from 1; rows, where the file is not text.
     pub rows: Option<[usize; 2]>,
     /// What is wrong.
     pub what: String,
@@ -119,7 +119,7 @@ impl From<&check::Fault> for Fault {
     fn from(fault: &check::Fault) -> Fault {
         Fault {
             code: fault.code.to_owned(),
-            file: Some(fault.run.clone()),
+            file: Some(fault.place()),
             column: (!fault.signal.is_empty()).then(|| fault.signal.clone()),
             rows: Some([fault.lines.0, fault.lines.1]),
             what: fault.sentence.trim_end_matches('.').to_owned(),

@@ -1,4 +1,7 @@
 //! A recording, laid out row by row for the plant: what drives the model, and what it is compared with.
+//!
+//! A row is an instant at which something was commanded or measured. The input is held from one row of the driving signal
+//! to the next, and the plant stops at every instant between: a measurement is compared at its own time.
 
 use model_core::number::scalar::Real;
 use model_core::plant::Input;
@@ -7,7 +10,7 @@ use super::channels::{Channels, MAX_CHANNELS, Row, SignalGroup};
 use super::open_circuit::open_circuit_voltage;
 use super::row_passed::RowPassed;
 use super::white_noise::white_sigma;
-use crate::log::{Channel, Group, RobotFile, Run, Sampled};
+use crate::log::{Chain, Channel, Group, RobotFile, Run, Sampled};
 
 /// The longest step that the plant takes [s]; longer rows are cut into equal ones.
 pub(super) const LONGEST_STEP_S: f64 = 0.0026;
@@ -19,22 +22,6 @@ const MOST_STEPS: usize = 10_000;
 const LEAST_GYRO_RAD_S: f64 = 1e-3;
 const LEAST_BATTERY_V: f64 = 5e-3;
 
-/// A quantum above this share of a signal's RMS is too coarse to drive a model with.
-const COARSE: f64 = 0.05;
-
-/// The signal that drives the model: the first of the chain that is there and good enough.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Chain {
-    /// Commanded voltages.
-    Voltage,
-    /// Measured currents.
-    Current,
-    /// Measured wheel speeds.
-    WheelSpeed,
-    /// Commanded wheel speeds.
-    SetSpeed,
-}
-
 /// A recording of a robot with `N` wheels, ready to be compared with a model.
 #[derive(Clone, Debug)]
 pub struct AlignedRun<const N: usize> {
@@ -42,12 +29,14 @@ pub struct AlignedRun<const N: usize> {
     pub name: String,
     /// Time of each row since the first [s]
     pub t: Vec<f64>,
-    /// Length of each row's hold [s]; the last row's is the median
+    /// Time from each row to the next [s]; the last row's is what is left of its hold, whose length is the median
     pub dt: Vec<f64>,
     /// What drives the model.
     pub chain: Chain,
     /// The driving signal, row by row [V], [A] or [rad/s]; holes hold the last value
     pub input: Vec<[f64; N]>,
+    /// Whether the row is one of the driving signal's clock; on others something was measured by another clock
+    pub driven: Vec<bool>,
     /// Whether the bridges are open, row by row: then no current flows, whatever the driving signal says
     pub open: Vec<bool>,
     /// What was measured; only where [`AlignedRun::has`] says so
@@ -64,21 +53,6 @@ pub struct AlignedRun<const N: usize> {
     pub largest_voltage: f64,
 }
 
-fn good_enough(group: &Group) -> bool {
-    if group.unsigned {
-        return false;
-    }
-    let Some(quantum) = group.quantum else { return true };
-    let (mut sum, mut n) = (0.0, 0.0);
-    for channel in &group.channels {
-        for (_, x) in channel.present() {
-            sum += x * x;
-            n += 1.0;
-        }
-    }
-    n > 0.0 && quantum <= COARSE * f64::sqrt(sum / n)
-}
-
 fn signals_of(group: &Option<Group>) -> &[Channel] {
     group.as_ref().map_or(&[], |group| &group.channels)
 }
@@ -93,67 +67,67 @@ pub fn supply_seen<'a, const N: usize>(runs: impl IntoIterator<Item = &'a Aligne
 impl<const N: usize> AlignedRun<N> {
     /// Lays a run out; `None` where nothing in it can drive a model.
     pub fn new(run: &Run, robot: &RobotFile) -> Option<Self> {
-        // what a simulator gets is the command; a measurement drives only where there is none
-        let good = |group: &Option<Group>| group.as_ref().is_some_and(good_enough);
-        let (chain, driving) = if good(&run.u) {
-            (Chain::Voltage, run.u.as_ref()?)
-        } else if good(&run.wset) {
-            (Chain::SetSpeed, run.wset.as_ref()?)
-        } else if good(&run.i) {
-            (Chain::Current, run.i.as_ref()?)
-        } else if good(&run.w) {
-            (Chain::WheelSpeed, run.w.as_ref()?)
-        } else {
-            (Chain::SetSpeed, run.wset.as_ref()?)
-        };
-        let rows = run.rows();
+        let (chain, driving) = run.driving()?;
+        let span = run.driven_span();
+        let rows = span.len();
         let battery = run.vbat.as_ref().map(|vbat| {
             let unloaded = open_circuit_voltage(run, vbat);
             vbat.map(|_, volts| volts - unloaded)
         });
         let step = run.median_step_s();
-        let start = *run.t_s.first()?;
-        let t: Vec<f64> = run.t_s.iter().map(|t| t - start).collect();
-        let dt = (0..rows).map(|k| t.get(k + 1).map_or(step, |next| next - t[k])).collect();
+        let start = *run.t_s.get(span.start)?;
+        let t: Vec<f64> = run.t_s[span.clone()].iter().map(|t| t - start).collect();
+        let mut driven = vec![false; rows];
+        let driving_rows: Vec<usize> = run.driving_rows().into_iter().map(|row| row - span.start).collect();
+        driving_rows.iter().for_each(|row| driven[*row] = true);
+        let last_hold = driving_rows.last().zip(t.last()).map_or(step, |(row, last)| step - (last - t[*row]));
+        let dt = (0..rows).map(|k| t.get(k + 1).map_or(last_hold, |next| next - t[k])).collect();
 
         let mut input = vec![[0.0; N]; rows];
         for (j, channel) in driving.channels.iter().enumerate().take(N) {
             let mut held = 0.0;
             for (row, value) in input.iter_mut().enumerate() {
-                held = channel.get(row).unwrap_or(held);
+                held = channel.get(span.start + row).unwrap_or(held);
                 value[j] = held;
             }
         }
         if chain == Chain::WheelSpeed {
             // a measured speed changes evenly between its rows: hold the middle
-            for k in 0..rows.saturating_sub(1) {
-                input[k] = std::array::from_fn(|j| 0.5 * (input[k][j] + input[k + 1][j]));
+            for pair in driving_rows.windows(2) {
+                let middle = std::array::from_fn(|j| 0.5 * (input[pair[0]][j] + input[pair[1]][j]));
+                input[pair[0]..pair[1]].fill(middle);
             }
         }
 
         let channels = Self::channels();
         let mut measured = vec![[0.0; MAX_CHANNELS]; rows];
         let mut has = vec![0_u16; rows];
-        let mut put = |of: SignalGroup, signals: &[Channel], shift: usize| {
+        let mut put = |of: SignalGroup, signals: &[Channel], at: &dyn Fn(usize) -> Option<usize>| {
             for (c, channel) in channels.of(of).zip(signals) {
-                for (row, value) in channel.present().filter(|(row, _)| *row >= shift) {
-                    measured[row - shift][c] = value;
-                    has[row - shift] |= 1 << c;
+                for (row, value) in channel.present().filter(|(row, _)| span.contains(row)) {
+                    let Some(row) = at(row - span.start) else { continue };
+                    measured[row][c] = value;
+                    has[row] |= 1 << c;
                 }
             }
         };
+        let here = |row: usize| Some(row);
         // a current sampled before its row's voltage answers to the voltage of the row above
-        let shift = usize::from(run.currents_sampled == Sampled::Before);
+        let row_above = |row: usize| driving_rows[..driving_rows.partition_point(|k| *k < row)].last().copied();
+        let late = run.currents_sampled == Sampled::Before;
+        let answered = |channel: Option<&Channel>| -> &dyn Fn(usize) -> Option<usize> {
+            if late && channel.is_some_and(|channel| run.is_on_driving_clock(channel)) { &row_above } else { &here }
+        };
         // a model driven by speeds says nothing of the currents, one driven by currents nothing of the battery
         if chain == Chain::Voltage {
-            put(SignalGroup::Current, signals_of(&run.i), shift);
-            put(SignalGroup::Battery, battery.as_slice(), shift);
+            put(SignalGroup::Current, signals_of(&run.i), answered(signals_of(&run.i).first()));
+            put(SignalGroup::Battery, battery.as_slice(), answered(run.vbat.as_ref()));
         }
         if chain != Chain::WheelSpeed {
-            put(SignalGroup::WheelSpeed, signals_of(&run.w), 0);
+            put(SignalGroup::WheelSpeed, signals_of(&run.w), &here);
         }
-        put(SignalGroup::Pose, signals_of(&run.pose), 0);
-        put(SignalGroup::Gyro, run.gyro.as_slice(), 0);
+        put(SignalGroup::Pose, signals_of(&run.pose), &here);
+        put(SignalGroup::Gyro, run.gyro.as_slice(), &here);
 
         // quantisation adds its own variance, q²/12
         let noisy = |sigma: f64, group: &Option<Group>| {
@@ -186,7 +160,8 @@ impl<const N: usize> AlignedRun<N> {
             dt,
             chain,
             input,
-            open: (0..rows).map(|row| run.is_open(row)).collect(),
+            open: run.open_rows()[span].to_vec(),
+            driven,
             measured,
             has,
             sigma,
@@ -196,11 +171,12 @@ impl<const N: usize> AlignedRun<N> {
         })
     }
 
-    /// The run cut into `parts` of equal length.
+    /// The run cut into `parts` of equal length, each beginning on a row of the driving signal.
     pub fn cut(&self, parts: usize) -> Vec<Self> {
         let rows = self.rows();
+        let driven_from = |row: usize| (row..rows).find(|row| self.driven[*row]).unwrap_or(rows);
         (0..parts)
-            .map(|k| (k * rows / parts, (k + 1) * rows / parts))
+            .map(|k| (driven_from(k * rows / parts), driven_from((k + 1) * rows / parts)))
             .filter(|(first, end)| end > first)
             .map(|(first, end)| Self {
                 name: format!("{} (rows {first} to {})", self.name, end - 1),
@@ -208,6 +184,7 @@ impl<const N: usize> AlignedRun<N> {
                 dt: self.dt[first..end].to_vec(),
                 input: self.input[first..end].to_vec(),
                 open: self.open[first..end].to_vec(),
+                driven: self.driven[first..end].to_vec(),
                 measured: self.measured[first..end].to_vec(),
                 has: self.has[first..end].to_vec(),
                 ..self.without_rows()
@@ -222,6 +199,7 @@ impl<const N: usize> AlignedRun<N> {
             dt: Vec::new(),
             input: Vec::new(),
             open: Vec::new(),
+            driven: Vec::new(),
             measured: Vec::new(),
             has: Vec::new(),
             ..*self
@@ -231,6 +209,12 @@ impl<const N: usize> AlignedRun<N> {
     /// The channels' order.
     pub const fn channels() -> Channels {
         Channels { wheels: N }
+    }
+
+    /// The rows at which windows of `horizon` [s] begin: the first of the driving signal at or after each t₀ + k·H.
+    pub fn restart_rows(&self, horizon: f64) -> Vec<usize> {
+        let driven = (0..self.rows()).filter(|row| self.driven[*row]);
+        starts_of_windows(driven.map(|row| (row, self.t[row])), horizon)
     }
 
     /// How many rows it has.
@@ -294,5 +278,28 @@ impl<const N: usize> AlignedRun<N> {
             error -= std::f64::consts::TAU * (error / std::f64::consts::TAU).round();
         }
         error / self.sigma[channel]
+    }
+}
+
+fn starts_of_windows(rows: impl Iterator<Item = (usize, f64)>, horizon: f64) -> Vec<usize> {
+    let mut starts = Vec::new();
+    let mut next = 0.0;
+    for (row, time) in rows {
+        if time >= next - 1e-9 {
+            starts.push(row);
+            next = ((time + 1e-9) / horizon).floor() * horizon + horizon;
+        }
+    }
+    starts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_restart_row_belongs_to_the_new_window_and_a_late_row_does_not_shift_the_grid() {
+        let t = [0.0, 0.2, 0.4, 0.5, 0.9, 1.1, 1.4, 1.5];
+        assert_eq!(starts_of_windows(t.into_iter().enumerate(), 0.5), [0, 3, 5, 7]);
     }
 }

@@ -28,7 +28,8 @@ mod start;
 mod terms;
 mod white_noise;
 
-pub use aligned_run::{AlignedRun, Chain, supply_seen};
+pub use crate::log::Chain;
+pub use aligned_run::{AlignedRun, supply_seen};
 pub use channels::{Channels, MAX_CHANNELS, PerGroup, Row, SignalGroup};
 pub use drivable::drivable;
 pub use effort::steps_taken;
@@ -38,7 +39,7 @@ pub use free_run::{FreeRun, free_run};
 pub use keys::{NOMINAL_KEYS, NominalKey};
 pub use limits::{Allowed, Lowered, USUAL_FIELD, allowed, usual_voltage};
 pub use model::{EffectInstance, Model, ROOM_FOR_CAUSES, Slot, robot_of};
-pub use predict::{HORIZON_S, Prediction, predict, restart_rows};
+pub use predict::{HORIZON_S, Prediction, predict};
 pub use record::{SensorSetup, SpeedSensor, record};
 pub use row_passed::RowPassed;
 pub use script::{AXES, Experiment, Plan, Script, along, scripts};

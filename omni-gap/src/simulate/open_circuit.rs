@@ -7,17 +7,18 @@
 //! Where no currents are logged Σ u_j² stands for the power; where neither is, the mean is all there is.
 
 use crate::log::{Channel, Group, Run};
+use std::borrow::Cow;
 
 /// V_oc of a run (V).
 pub(super) fn open_circuit_voltage(run: &Run, vbat: &Channel) -> f64 {
-    let sample = |group: &Option<Group>, j: usize, row: usize| {
-        group.as_ref().and_then(|group| group.channels.get(j)).and_then(|channel| channel.get(row).ok())
-    };
+    // at an instant of another clock the last current and voltage stand for those that nobody measured
+    let (volts, amps) = (held(&run.u), held(&run.i));
+    let sample = |group: &[Cow<Channel>], j: usize, row: usize| group.get(j).and_then(|channel| channel.get(row).ok());
     let wheels = run.u.as_ref().map_or(0, |group| group.channels.len());
     let power = |row: usize| -> f64 {
         let of = |j: usize| {
-            let u = sample(&run.u, j, row).unwrap_or(0.0);
-            u * if run.i.is_some() { sample(&run.i, j, row).unwrap_or(0.0) } else { u }
+            let u = sample(&volts, j, row).unwrap_or(0.0);
+            u * if run.i.is_some() { sample(&amps, j, row).unwrap_or(0.0) } else { u }
         };
         (0..wheels).map(of).sum()
     };
@@ -33,6 +34,10 @@ pub(super) fn open_circuit_voltage(run: &Run, vbat: &Channel) -> f64 {
     }
     // vbat = mean + slope·(P − P̄), read at P = 0
     if spread > 0.0 { mean - shared / spread * mean_drawn } else { mean }
+}
+
+fn held(group: &Option<Group>) -> Vec<Cow<'_, Channel>> {
+    group.iter().flat_map(|group| &group.channels).map(Channel::held).collect()
 }
 
 #[cfg(test)]

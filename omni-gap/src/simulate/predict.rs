@@ -22,22 +22,9 @@ pub struct Prediction {
     pub restarts: Vec<usize>,
 }
 
-/// The rows at which windows of `horizon` [s] begin: the first at or after each t₀ + k·H.
-pub fn restart_rows(t: &[f64], horizon: f64) -> Vec<usize> {
-    let mut rows = Vec::new();
-    let mut next = 0.0;
-    for (row, time) in t.iter().enumerate() {
-        if *time >= next - 1e-9 {
-            rows.push(row);
-            next = ((time + 1e-9) / horizon).floor() * horizon + horizon;
-        }
-    }
-    rows
-}
-
 /// Lets the plant run freely along a recording, restarted every `horizon` [s].
 pub fn predict<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horizon: f64) -> Prediction {
-    let restarts = restart_rows(&run.t, horizon);
+    let restarts = run.restart_rows(horizon);
     let mut rows = Vec::with_capacity(run.rows());
     let mut bus = Vec::with_capacity(run.rows());
     free_run(
@@ -66,16 +53,5 @@ impl Prediction {
             }
         }
         sums
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_restart_row_belongs_to_the_new_window_and_a_late_row_does_not_shift_the_grid() {
-        let t = [0.0, 0.2, 0.4, 0.5, 0.9, 1.1, 1.4, 1.5];
-        assert_eq!(restart_rows(&t, 0.5), [0, 3, 5, 7]);
     }
 }

@@ -11,9 +11,11 @@ use crate::log::Channel;
 /// One sigma, in the channel's unit; none where too few samples stand side by side.
 pub(super) fn white_sigma(channel: &Channel) -> Option<f64> {
     const FEWEST: usize = 8;
+    // side by side on the channel's own clock
+    let due: Vec<usize> = (0..channel.len()).filter(|row| channel.is_due(*row)).collect();
     let at = |row: usize| channel.get(row).ok();
-    let second = |row: usize| Some((at(row + 1)? - 2.0 * at(row)? + at(row - 1)?).abs());
-    let mut differences: Vec<f64> = (1..channel.len().saturating_sub(1)).filter_map(second).collect();
+    let second = |rows: &[usize]| Some((at(rows[2])? - 2.0 * at(rows[1])? + at(rows[0])?).abs());
+    let mut differences: Vec<f64> = due.windows(3).filter_map(second).collect();
     let middle = differences.len() / 2;
     (differences.len() >= FEWEST)
         .then(|| 1.4826 * *differences.select_nth_unstable_by(middle, f64::total_cmp).1 / 6f64.sqrt())

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::error::{Error, InputKind, Result};
+use crate::log::records::capture::Progress;
 
 /// A place that bytes come from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,17 +18,6 @@ pub enum Source {
     Tcp(String),
     /// A serial line.
     Serial(PathBuf),
-}
-
-/// What a reader made of some bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Progress {
-    /// Nothing yet.
-    Nothing,
-    /// Whole frames.
-    Frames,
-    /// All that was wanted.
-    Enough,
 }
 
 /// How long a robot may be silent before a recording ends [s]

@@ -49,7 +49,7 @@ fn scripts_read_back_as_runs_and_the_page_says_what_to_do() {
         assert_eq!(notices, Vec::<String>::new(), "{}", path.display());
         let volts = run.u.iter().flat_map(|u| &u.channels).flat_map(|c| c.present());
         assert!(volts.into_iter().all(|(_, u)| u.abs() <= 8.0), "{}", path.display());
-        let opened = (0..run.rows()).any(|row| run.is_open(row));
+        let opened = run.open_rows().contains(&true);
         assert_eq!(opened, run.name.starts_with("coast"), "{}", run.name);
     }
     assert_eq!(bench.read("morning/session/robot.toml"), ROBOT);

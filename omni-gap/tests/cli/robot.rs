@@ -68,16 +68,22 @@ fn frames_become_a_session_that_is_checked_like_any_other() {
     let bench = bench();
     let said =
         bench.done(&["record", "--from", "frames.bin", "--robot", "robot.toml", "--out", "session", "--name", "slow"]);
-    assert!(said.out.starts_with("399 rows, 0.398 s, written to session/runs/slow.csv\n"), "{}", said.out);
+    assert!(said.out.starts_with("399 rows, 0.398 s, written to session/runs/slow.rec\n"), "{}", said.out);
     assert!(said.out.contains("other parameters than `omni-gap export robot.toml` writes"), "{}", said.out);
     assert_eq!(bench.read("session/robot.toml"), ROBOT);
-    let text = bench.read("session/runs/slow.csv");
+    assert_eq!(std::fs::read(bench.at("session/runs/slow.rec")).unwrap(), frames(0..400), "as they came");
+    let said = bench.done(&["convert", "robot.toml", "session/runs/slow.rec", "--out", "slow.csv"]);
+    assert!(said.out.contains("\"before\""), "{}", said.out);
+    let text = bench.read("slow.csv");
     let (names, rows) = table(&text);
     let column = |name: &str| names.iter().position(|other| *other == name).unwrap();
     let speeds: Vec<f64> = rows.iter().filter_map(|row| row[column("w2_rad_s")].parse().ok()).collect();
     assert!(speeds.len() > 80 && speeds.iter().all(|w| (w - 6.545).abs() < 0.01), "{speeds:?}");
     assert!(rows.iter().all(|row| row[column("u1_V")] == "1" && row[column("enable")] == "1"));
-    bench.run(&["check", "session"]);
+    bench.done(&["predict", "robot.toml", "session/runs/slow.rec", "--out", "predicted.csv"]);
+    assert_eq!(table(&bench.read("predicted.csv")).1.len(), 399);
+    let said = bench.run(&["check", "session"]);
+    assert!(said.out.contains("slow.rec, rows 1 to 399") && !said.out.contains("line"), "{}", said.out);
 
     // another run joins; the same name does not, nor does another robot
     let more = ["record", "--from", "frames.bin", "--robot", "robot.toml", "--out", "session"];
@@ -101,7 +107,8 @@ fn only_so_many_seconds_are_taken_and_what_got_lost_is_told() {
         bench.done(&["record", "--from", "frames.bin", "--seconds", "0.1", "--robot", "robot.toml", "--out", "s"]);
     assert!(said.out.contains("100 rows, 0.099 s"), "{}", said.out);
     assert!(said.out.contains("3 records were lost on the way"), "{}", said.out);
-    assert_eq!(bench.read("s/runs/run.csv").lines().filter(|line| line.ends_with(",,,,,,,")).count(), 3);
+    bench.done(&["convert", "robot.toml", "s/runs/run.rec", "--out", "run.csv"]);
+    assert_eq!(bench.read("run.csv").lines().filter(|line| line.ends_with(",,,,,,,")).count(), 3);
 }
 
 #[test]

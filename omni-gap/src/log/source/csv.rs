@@ -1,10 +1,12 @@
-//! # Rows of numbers, fast, and a place for every mistake
+//! # Tables as text: rows of numbers, fast, and a place for every mistake
 //!
 //! A field is a number or empty. A number that is not finite, or text, is refused with line and column.
 
-use super::run::{Channel, Missing};
-use super::toml_walk::read_bytes;
+use super::opened::Source;
 use crate::error::{Error, InputKind, Result};
+use crate::log::channel::{Channel, Missing};
+use crate::log::run::Sampled;
+use crate::log::toml_walk::read_bytes;
 use std::path::{Path, PathBuf};
 
 /// How the text is laid out.
@@ -25,12 +27,12 @@ impl Default for Layout {
 
 /// An opened log: its text, and the names of its columns.
 #[derive(Debug)]
-pub(crate) struct Table {
-    pub path: PathBuf,
-    /// Column names; empty where the layout has no header.
-    pub names: Vec<String>,
-    /// How many columns there are, an empty last one not counted.
-    pub width: usize,
+pub(super) struct Table {
+    path: PathBuf,
+    // empty where the layout has no header
+    names: Vec<String>,
+    // an empty last column not counted
+    width: usize,
     bytes: Vec<u8>,
     start: usize,
     lines_before: usize,
@@ -118,13 +120,45 @@ impl Table {
             .from_reader(&self.bytes[self.start..])
     }
 
-    /// What a column is called in messages: its name, or its position counted from 1.
-    pub fn title(&self, column: usize) -> String {
-        self.names.get(column).cloned().unwrap_or_else(|| format!("{}", column + 1))
+    fn not_a_number(&self, record: &csv::ByteRecord, column: usize) -> Error {
+        let field = String::from_utf8_lossy(record[column].trim_ascii());
+        let problem = format!("found `{field}`, expected a finite number");
+        Error::input(&self.path, problem, "Correct the field, or leave it empty where the sample is missing")
+            .at_line(self.line(record))
+            .in_column(self.title(column))
     }
 
-    /// Reads the wanted columns.
-    pub fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>> {
+    fn first_row_length(&self) -> usize {
+        line_end(&self.bytes[self.start..])
+    }
+
+    fn line(&self, record: &csv::ByteRecord) -> usize {
+        // the position may lie before line ends that the reader has yet to skip
+        let byte = self.start + record.position().map_or(0, |at| at.byte() as usize);
+        let ends = self.bytes[byte..].iter().take_while(|b| b"\r\n".contains(b)).count();
+        1 + count_lines(&self.bytes[..byte + ends])
+    }
+
+    fn broken(&self, reason: &csv::Error) -> Error {
+        Error::input(&self.path, format!("cannot be read as a table: {reason}"), "Check separators and quotes")
+            .of_kind(InputKind::Malformed)
+    }
+}
+
+impl Source for Table {
+    fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    fn width(&self) -> usize {
+        self.width
+    }
+
+    fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>> {
         let rows = self.bytes.len() / (self.first_row_length() + 1) + 16;
         let mut columns: Vec<Channel> = wanted.iter().map(|_| Channel::with_capacity(rows)).collect();
         let mut reader = self.reader();
@@ -153,38 +187,21 @@ impl Table {
         Ok(columns)
     }
 
-    fn not_a_number(&self, record: &csv::ByteRecord, column: usize) -> Error {
-        let field = String::from_utf8_lossy(record[column].trim_ascii());
-        let problem = format!("found `{field}`, expected a finite number");
-        Error::input(&self.path, problem, "Correct the field, or leave it empty where the sample is missing")
-            .at_line(self.line(record))
-            .in_column(self.title(column))
-    }
-
-    fn first_row_length(&self) -> usize {
-        line_end(&self.bytes[self.start..])
-    }
-
-    fn line(&self, record: &csv::ByteRecord) -> usize {
-        // the position may lie before line ends that the reader has yet to skip
-        let byte = self.start + record.position().map_or(0, |at| at.byte() as usize);
-        let ends = self.bytes[byte..].iter().take_while(|b| b"\r\n".contains(b)).count();
-        1 + count_lines(&self.bytes[..byte + ends])
-    }
-
-    /// The line, counted from 1, of a data row counted from 0.
-    pub fn line_of(&self, row: usize) -> usize {
+    fn line_of(&self, row: usize) -> Option<usize> {
         let mut reader = self.reader();
         let mut record = csv::ByteRecord::new();
         for _ in 0..=row {
             let _ = reader.read_byte_record(&mut record);
         }
-        self.line(&record)
+        Some(self.line(&record))
     }
 
-    fn broken(&self, reason: &csv::Error) -> Error {
-        Error::input(&self.path, format!("cannot be read as a table: {reason}"), "Check separators and quotes")
-            .of_kind(InputKind::Malformed)
+    fn currents_sampled(&self) -> Option<Sampled> {
+        None
+    }
+
+    fn notices(&self) -> Vec<String> {
+        Vec::new()
     }
 }
 

@@ -4,12 +4,13 @@
 //! row k   t      when the codes of record k were sampled
 //!         u      the mean of record k + 1: it says what was applied over the turn that ended with it
 //!         i, vbat  the codes of record k, sampled before the voltage of the row was applied
-//!         w      from the edges, see [`speeds`](super::speeds)
+//!         w      from the edges, see `speeds.rs`
 //!         enable what record k says of the bridges from then on
 //! ```
 //!
-//! A record that did not arrive leaves a row without any value, and so no voltage in the row before it. A voltage is
-//! blank too where a bridge was opened within the row.
+//! A record that did not arrive leaves a row without any value, and so no voltage in the row before it: the telegram failed
+//! its checksum where as many broken frames came as records are missing, else it was lost. A voltage is blank too where a
+//! bridge was opened within the row.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -21,25 +22,18 @@ use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
 use model_core::link::record::{OperatingState, TelemetryRecord};
 
 use super::capture::Capture;
-use super::source::Source;
 use super::speeds::{edges_per_turn, intervals};
-use crate::error::{InputKind, Result};
-use crate::log::{Channel, Group, Missing, Run, Sampled, speeds_on_rows};
+use crate::error::{Error, InputKind, Result};
+use crate::log::channel::{Channel, Missing};
+use crate::log::edges::speeds_on_rows;
+use crate::log::run::{Group, Run, Sampled};
+use std::path::Path;
 
 /// A longer gap is left as it is, without rows in it [rows]
 const LONGEST_GAP: u32 = 10_000;
 
-/// The mapping that a session of such runs needs beside them: currents were sampled before the voltage of their row.
-pub fn columns(wheels: usize) -> String {
-    let per_wheel = |stem: &str, unit: &str| (0..wheels).map(|j| format!("{stem}{j}_{unit}")).collect::<Vec<_>>();
-    let names = [vec!["t_s".to_owned()], per_wheel("u", "V"), per_wheel("i", "A"), per_wheel("w", "rad_s")].concat();
-    let others = ["vbat_V", "enable"].map(str::to_owned);
-    let lines = names.iter().chain(&others).map(|name| format!("{name} = {{ from = \"{name}\" }}\n"));
-    format!("currents_sampled = \"before\"\n\n[columns]\n{}", lines.collect::<String>())
-}
-
 /// Faults that the records tell, each with the time of the run when it was first told [s].
-pub fn faults(capture: &Capture) -> Vec<(Fault, f64)> {
+fn faults(capture: &Capture) -> Vec<(Fault, f64)> {
     let records = &capture.records;
     let Some(clock) = capture.hello(0).map(clock) else { return Vec::new() };
     let first = |fault: Fault| {
@@ -49,35 +43,58 @@ pub fn faults(capture: &Capture) -> Vec<(Fault, f64)> {
     Fault::ALL.into_iter().filter_map(first).collect()
 }
 
+/// What a person should know of what was captured: what got lost, what was broken, what the robot complained of.
+pub fn notices(capture: &Capture) -> Vec<String> {
+    let mut all = Vec::new();
+    let (on_the_way, no_room) = capture.lost();
+    if on_the_way + no_room > 0 {
+        all.push(format!(
+            "{on_the_way} records were lost on the way and {no_room} for lack of room on the robot; their rows are empty"
+        ));
+    }
+    if capture.bad_frames() > 0 {
+        all.push(format!("{} frames came broken (checksum or form)", capture.bad_frames()));
+    }
+    if capture.strange > 0 {
+        all.push(format!("{} frames say nothing to this program; is the firmware newer?", capture.strange));
+    }
+    if capture.restarted {
+        all.push("the robot started again; what followed is left out".to_owned());
+    }
+    all.extend(faults(capture).into_iter().map(|(fault, at)| format!("fault at {at:.3} s: {}", fault.text())));
+    all
+}
+
 fn turns_since(records: &[TelemetryRecord], at: usize) -> f64 {
     f64::from(records[at].time.wrapping_sub(records[0].time))
 }
 
-/// One recording of what was captured, for a robot with so many wheels.
+/// One recording of what was captured at a place, for a robot with so many wheels; for the robot that sent it, where none
+/// are told.
 ///
 /// # Errors
 /// Where there is nothing to make a run of, or it is another robot's.
-pub fn run(capture: &Capture, source: &Source, name: &str, wheels: usize) -> Result<Run> {
+pub fn run(capture: &Capture, place: &Path, name: &str, wheels: Option<usize>) -> Result<Run> {
     let records = &capture.records;
+    let refused = |problem: String, fix: &str, kind| Err(Error::input(place, problem, fix).of_kind(kind));
     if capture.good_frames() == 0 {
         let fix = "Check that it is a robot's link, and --baud for a serial line";
         let found = if capture.bad_frames() == 0 { "nothing came" } else { "bytes came, but no whole frame" };
-        return Err(source.error(found, fix).of_kind(InputKind::TooLittle));
+        return refused(found.into(), fix, InputKind::TooLittle);
     }
     let Some(hello) = capture.hello(0) else {
         let problem =
             "no frame says how to read the records: a robot says so once a second, once its sensors' zeros are known";
-        return Err(source
-            .error(problem, "Record two seconds or more, with the robot awake")
-            .of_kind(InputKind::TooLittle));
+        return refused(problem.into(), "Record two seconds or more, with the robot awake", InputKind::TooLittle);
     };
+    let wheels = wheels.unwrap_or(usize::from(hello.wheels));
     if let Some((_, other)) = capture.hellos.iter().find(|(_, hello)| usize::from(hello.wheels) != wheels) {
         let problem = format!("the robot has {} wheels, the robot file {wheels}", other.wheels);
-        return Err(source.error(problem, "Name the robot's own file with --robot").of_kind(InputKind::Conflict));
+        return refused(problem, "Name the robot's own file with --robot", InputKind::Conflict);
     }
     if records.len() < 3 {
         let problem = format!("{} records came, expected three at least", records.len());
-        return Err(source.error(problem, "Record for longer").of_kind(InputKind::TooLittle));
+        return refused(problem, "Record for longer", InputKind::TooLittle);
     }
     let clock = clock(hello);
     let t: Vec<f64> = (0..records.len()).map(|k| turns_since(records, k) * clock).collect();
@@ -86,7 +103,10 @@ pub fn run(capture: &Capture, source: &Source, name: &str, wheels: usize) -> Res
     let mut next = 0;
     // the last record only ends the row before it
     for (k, row) in rows.iter().enumerate().take(records.len() - 1) {
-        (next..*row).for_each(|_| channels.lost());
+        let missing = row - next;
+        // of more missing records than broken frames nobody knows which were broken
+        let broken = missing > 0 && capture.broken_before(k) as usize >= missing && records[k].dropped == 0;
+        (next..*row).for_each(|_| channels.lost(if broken { Missing::BadCrc } else { Missing::Lost }));
         let Some(hello) = capture.hello(k) else { break };
         let after = records.get(k + 1).filter(|after| after.sequence == records[k].sequence.wrapping_add(1));
         channels.note_events(hello, &records[k], after);
@@ -146,9 +166,9 @@ impl Channels {
     }
 
     /// A row whose record did not arrive.
-    fn lost(&mut self) {
+    fn lost(&mut self, why: Missing) {
         let all = self.u.iter_mut().chain(&mut self.i).chain([&mut self.vbat, &mut self.enable]);
-        all.for_each(|channel| channel.push_missing(Missing::Lost));
+        all.for_each(|channel| channel.push_missing(why));
     }
 
     /// A row: its record, and the one that follows at once.

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 
 use model_core::link::record::TelemetryRecord;
 
-use crate::log::EdgeInterval;
+use crate::log::edges::EdgeInterval;
 
 /// The shortest interval that is told [s]
 const SHORTEST_S: f64 = 4e-3;
@@ -82,7 +82,7 @@ pub fn intervals(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::log::speeds_on_rows;
+    use crate::log::edges::speeds_on_rows;
 
     const PERIOD: f64 = 50e-6;
     const EDGES: f64 = 240.0;

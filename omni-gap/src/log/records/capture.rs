@@ -4,7 +4,16 @@ use model_core::link::framing::{FrameDecoder, FrameKind};
 use model_core::link::hello::Hello;
 use model_core::link::record::TelemetryRecord;
 
-use super::source::Progress;
+/// What a reader made of some bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// Nothing yet.
+    Nothing,
+    /// Whole frames.
+    Frames,
+    /// All that was wanted.
+    Enough,
+}
 
 /// What a robot sent.
 #[derive(Clone, Debug, Default)]
@@ -12,6 +21,10 @@ pub struct Capture {
     decoder: FrameDecoder,
     /// The records, in their order.
     pub records: Vec<TelemetryRecord>,
+    /// Bytes that were taken: all, up to where there was enough.
+    pub bytes_taken: usize,
+    // the record that followed broken frames, and how many they were
+    broken_before: Vec<(usize, u32)>,
     /// What explains them: each with the number of records that came before it.
     pub hellos: Vec<(usize, Hello)>,
     /// Whole frames that mean nothing to this program.
@@ -32,7 +45,14 @@ impl Capture {
     pub fn take(&mut self, bytes: &[u8]) -> Progress {
         let mut progress = Progress::Nothing;
         for byte in bytes {
-            let Some(frame) = self.decoder.push(*byte) else { continue };
+            let broken = self.decoder.bad();
+            self.bytes_taken += 1;
+            let Some(frame) = self.decoder.push(*byte) else {
+                if self.decoder.bad() != broken {
+                    self.note_broken();
+                }
+                continue;
+            };
             progress = Progress::Frames;
             let (kind, payload) = (FrameKind::from_code(frame.kind), frame.payload);
             match kind {
@@ -66,6 +86,20 @@ impl Capture {
             }
         }
         self.records.push(record);
+    }
+
+    fn note_broken(&mut self) {
+        let next = self.records.len();
+        match self.broken_before.last_mut() {
+            Some((record, count)) if *record == next => *count += 1,
+            _ => self.broken_before.push((next, 1)),
+        }
+    }
+
+    /// How many broken frames came between a record and the one before it.
+    pub fn broken_before(&self, record: usize) -> u32 {
+        let at = self.broken_before.binary_search_by_key(&record, |(next, _)| *next);
+        at.ok().and_then(|at| self.broken_before.get(at)).map_or(0, |(_, count)| *count)
     }
 
     fn is_enough(&self) -> bool {

@@ -1,5 +1,5 @@
+use super::super::capture::Progress;
 use super::*;
-use crate::wire::source::Progress;
 use model_core::control::phases::q_current;
 use model_core::link::framing::{FrameKind, MAX_FRAME, encode_frame};
 
@@ -60,10 +60,6 @@ fn sent(wheels: u8, records: &[TelemetryRecord]) -> Vec<u8> {
     bytes
 }
 
-fn source() -> Source {
-    Source::named("frames.bin")
-}
-
 fn captured(bytes: &[u8]) -> Capture {
     let mut capture = Capture::new(None);
     capture.take(bytes);
@@ -71,7 +67,7 @@ fn captured(bytes: &[u8]) -> Capture {
 }
 
 fn run_of(records: &[TelemetryRecord]) -> Run {
-    run(&captured(&sent(4, records)), &source(), "run", 4).unwrap()
+    run(&captured(&sent(4, records)), Path::new("frames.bin"), "run", Some(4)).unwrap()
 }
 
 fn at(group: &Option<Group>, wheel: usize, row: usize) -> std::result::Result<f64, Missing> {
@@ -124,6 +120,14 @@ fn a_broken_frame_is_counted_and_costs_its_row() {
     bytes[hello_len + 5 * (TelemetryRecord::BYTES + 5) + 30] ^= 0x10;
     let capture = captured(&bytes);
     assert_eq!((capture.bad_frames(), capture.lost(), capture.records.len()), (1, (1, 0), 19));
+    let run = run(&capture, Path::new("frames.bin"), "run", Some(4)).unwrap();
+    assert_eq!((at(&run.i, 2, 5), at(&run.i, 2, 6).is_ok()), (Err(Missing::BadCrc), true));
+    // nobody knows which of two missing records was the broken frame
+    let without = hello_len + 6 * (TelemetryRecord::BYTES + 5);
+    let gone: Vec<u8> =
+        bytes[..without].iter().chain(&bytes[without + TelemetryRecord::BYTES + 5..]).copied().collect();
+    let run = super::run(&captured(&gone), Path::new("frames.bin"), "run", Some(4)).unwrap();
+    assert_eq!((at(&run.i, 2, 5), at(&run.i, 2, 6)), (Err(Missing::Lost), Err(Missing::Lost)));
 }
 
 #[test]
@@ -177,7 +181,7 @@ fn a_recording_ends_when_there_is_enough() {
 #[test]
 fn what_is_no_recording_is_told() {
     let records: Vec<TelemetryRecord> = (0..50).map(record).collect();
-    let told = |bytes: &[u8]| run(&captured(bytes), &source(), "run", 4).unwrap_err().to_string();
+    let told = |bytes: &[u8]| run(&captured(bytes), Path::new("frames.bin"), "run", Some(4)).unwrap_err().to_string();
     assert!(told(&[]).contains("frames.bin: nothing came"));
     assert!(told(&[1, 2, 3, 0, 9, 9, 0, 9, 0]).contains("no whole frame"));
     assert!(told(&sent(4, &records)[sent(4, &[]).len()..]).contains("no frame says how to read the records"));
@@ -186,14 +190,25 @@ fn what_is_no_recording_is_told() {
 }
 
 #[test]
-fn its_mapping_is_one_that_the_reader_of_logs_takes() {
+fn a_file_of_records_is_read_with_the_reason_of_every_hole() {
+    let mut records: Vec<TelemetryRecord> = (0..60).map(record).filter(|r| r.sequence != 40).collect();
+    records[10].enabled = 0b1101;
+    records[20].phases[3][0] = AdcCode(0);
+    let mut bytes = sent(4, &records);
+    let frame = sent(4, &[]).len() + 30 * (TelemetryRecord::BYTES + 5);
+    bytes[frame + 30] ^= 0x10;
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.csv");
-    let before = run_of(&(0..30).map(record).collect::<Vec<_>>());
-    before.write_csv(std::fs::File::create(&path).unwrap()).unwrap();
-    let columns = crate::log::Columns::parse(&columns(4), std::path::Path::new("columns.toml")).unwrap();
-    let (after, notices) = Run::load(&path, 4, Some(&columns)).unwrap();
-    assert_eq!((after.t_s.len(), after.currents_sampled), (29, Sampled::Before));
-    assert_eq!((&after.u, &after.i, &after.enable), (&before.u, &before.i, &before.enable));
-    assert!(notices.iter().all(|notice| notice.contains("group `w`")), "{notices:?}");
+    let path = folder.path().join("drive.REC");
+    std::fs::write(&path, bytes).unwrap();
+    let (run, notices) = Run::load(&path, 4, None).unwrap();
+    let why = |wheel: usize, row: usize| at(&run.u, wheel, row).or_else(|_| at(&run.i, wheel, row)).err();
+    assert_eq!(
+        (why(0, 30), why(0, 40), at(&run.u, 1, 10)),
+        (Some(Missing::BadCrc), Some(Missing::Lost), Err(Missing::Blank))
+    );
+    assert_eq!(at(&run.i, 3, 20), Err(Missing::Saturated));
+    assert_eq!((run.name.as_str(), run.currents_sampled, run.first_line), ("drive", Sampled::Before, None));
+    assert!(notices.iter().any(|notice| notice.contains("2 records were lost on the way")), "{notices:?}");
+    let told = Run::load(&path, 3, None).unwrap_err().to_string();
+    assert!(told.contains("a column for a wheel that the robot file does not have; it has 3 wheels"), "{told}");
 }

@@ -1,0 +1,174 @@
+//! # A run that is a folder: its files, and how their clocks lie to each other
+
+use super::align::{Part, aligned};
+use super::clock_offset::{REACH_S, estimate};
+use super::columns::{Columns, fits};
+use super::file_table::{FileTable, Offset};
+use super::motion::Motion;
+use super::read::{Needs, open_bridges_apply_nothing, read};
+use super::robot_file::RobotFile;
+use super::run::Run;
+use crate::error::{Error, InputKind, Result};
+use std::path::{Path, PathBuf};
+
+impl Run {
+    /// Reads a run: a file in the contract's layout or through a mapping, or a folder of files that the mapping names.
+    ///
+    /// The second value holds notices: what was left out, and offsets between clocks that were estimated.
+    ///
+    /// # Errors
+    /// Where a file cannot be read or is no log of this robot, and where the files of a folder are not one run.
+    pub fn open(path: &Path, robot: &RobotFile, columns: Option<&Columns>) -> Result<(Run, Vec<String>)> {
+        match columns {
+            _ if !path.is_dir() => Run::load(path, robot.wheel.len(), columns),
+            Some(columns) if !columns.parts.is_empty() => of_folder(path, robot, &columns.parts),
+            _ => {
+                let problem =
+                    "this is a folder, expected a run log, or a mapping with a [[file]] table for each file in it";
+                let fix = "Name a file inside it, or give the mapping, columns.toml";
+                Err(Error::input(path, problem, fix).of_kind(InputKind::Unreadable))
+            }
+        }
+    }
+}
+
+fn of_folder(folder: &Path, robot: &RobotFile, tables: &[FileTable]) -> Result<(Run, Vec<String>)> {
+    let mut notices = Vec::new();
+    let mut parts: Vec<Part> = Vec::new();
+    for (table, path) in found(folder, tables, &mut notices)? {
+        let needs = Needs { wheels: robot.wheel.len(), motion: false };
+        let run = read(&path, Some(&table.mapping), needs, &mut notices)?;
+        refuse_twice(&parts, &run)?;
+        let offset_s = match table.offset {
+            Offset::Known(offset_s) => offset_s,
+            Offset::Estimate => estimated(&parts, &run, robot, &mut notices)?,
+        };
+        parts.push(Part { run, offset_s });
+        refuse_apart(&parts)?;
+    }
+    if !parts.iter().any(|part| tells_motion(&part.run)) {
+        let problem =
+            "found no signal in its files, expected at least one of u<j>_V, i<j>_A, w<j>_rad_s or x_m, y_m, theta_rad";
+        return Err(Error::input(folder, problem, "Map the columns in columns.toml").of_kind(InputKind::Missing));
+    }
+    let mut run = aligned(folder, parts);
+    open_bridges_apply_nothing(&mut run)?;
+    Ok((run, notices))
+}
+
+fn tells_motion(run: &Run) -> bool {
+    [&run.u, &run.i, &run.w, &run.wset, &run.pose].into_iter().any(Option::is_some)
+}
+
+/// The file of each table, in the tables' order.
+fn found<'a>(
+    folder: &Path,
+    tables: &'a [FileTable],
+    notices: &mut Vec<String>,
+) -> Result<Vec<(&'a FileTable, PathBuf)>> {
+    let unreadable = |reason: std::io::Error| {
+        Error::input(folder, format!("cannot be read: {reason}"), "Check its permissions")
+            .of_kind(InputKind::Unreadable)
+    };
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if !name.starts_with('.') && !path.is_dir() {
+            names.push(name);
+        }
+    }
+    names.sort();
+    let mut all = Vec::new();
+    for table in tables {
+        let fitting: Vec<&String> = names.iter().filter(|name| fits(&table.name, name)).collect();
+        match fitting.as_slice() {
+            [name] => all.push((table, folder.join(name))),
+            [] if table.optional => notices.push(format!("{}: no file `{}`", folder.display(), table.name)),
+            [] => {
+                let there =
+                    if names.is_empty() { "it is empty".into() } else { format!("it has {}", names.join(", ")) };
+                let problem = format!("the run has no file `{}`; {there}", table.name);
+                let fix = "Correct `name` in columns.toml, put the file there, or set optional = true";
+                return Err(Error::input(folder, problem, fix).of_kind(InputKind::Missing));
+            }
+            [first, second, ..] => {
+                let problem = format!("`{first}` and `{second}` both fit `{}`, expected one file", table.name);
+                let fix = "Name one of them in columns.toml, or move the other out of the run";
+                return Err(Error::input(folder, problem, fix).of_kind(InputKind::Conflict));
+            }
+        }
+    }
+    let path_of = |name: &String| folder.join(name);
+    for (k, (table, path)) in all.iter().enumerate() {
+        if let Some((other, _)) = all[..k].iter().find(|(_, other)| other == path) {
+            let problem = format!("the file fits `{}` and `{}`, expected one [[file]] table", other.name, table.name);
+            let fix = "Name the two files apart in columns.toml";
+            return Err(Error::input(path, problem, fix).of_kind(InputKind::Conflict));
+        }
+    }
+    let unused = names.iter().map(path_of).filter(|path| all.iter().all(|(_, used)| used != path));
+    notices.extend(unused.map(|path| format!("{}: no [[file]] names it, left out", path.display())));
+    Ok(all)
+}
+
+/// Refuses a signal that an earlier file of the run has too.
+fn refuse_twice(parts: &[Part], run: &Run) -> Result<()> {
+    for part in parts {
+        let there = part.run.signals();
+        let twice = run.signals().into_iter().find(|(name, _)| there.iter().any(|(other, _)| other == name));
+        if let Some((name, _)) = twice {
+            let problem = format!("{} of the same run has the signal too", part.run.path.display());
+            let fix = "Map only the columns that you want from each file, under [file.columns]";
+            return Err(Error::input(&run.path, problem, fix).of_kind(InputKind::Conflict).in_column(name));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a file that was recorded at another time than the first.
+fn refuse_apart(parts: &[Part]) -> Result<()> {
+    let [first, .., last] = parts else { return Ok(()) };
+    let ((a, a_end), (b, b_end)) = (first.span(), last.span());
+    if b <= a_end && a <= b_end {
+        return Ok(());
+    }
+    let problem = format!(
+        "its times, {b} s to {b_end} s, have nothing in common with {a} s to {a_end} s of {}",
+        first.run.path.display()
+    );
+    let fix = "Say in columns.toml how its clock lies to the first file\'s: offset_s, in seconds or \"estimate\"";
+    Err(Error::input(&last.run.path, problem, fix).of_kind(InputKind::Conflict).in_column("t_s"))
+}
+
+/// The offset of a run's clock to the first part's, from the files that are placed already.
+fn estimated(parts: &[Part], run: &Run, robot: &RobotFile, notices: &mut Vec<String>) -> Result<f64> {
+    let told = |problem: String| {
+        let fix = format!(
+            "Give offset_s in seconds, or record a stretch in which the robot starts, stops and turns; {REACH_S} s are \
+             searched around the times as they stand"
+        );
+        Error::input(&run.path, format!("its clock\'s offset cannot be estimated: {problem}"), fix)
+            .of_kind(InputKind::TooLittle)
+            .in_column("offset_s")
+    };
+    let Some(own) = Motion::of(run, robot) else {
+        return Err(told("nothing in it tells how the robot moves; wheel speeds, a pose or a gyro would".into()));
+    };
+    let placed = parts.iter().filter_map(|part| Some((part, Motion::of(&part.run, robot)?.later(part.offset_s))));
+    let Some((part, reference)) = placed.max_by_key(|(_, motion)| motion.axes()) else {
+        let before = "no file before it tells how the robot moves; wheel speeds, a pose or a gyro would";
+        return Err(told(before.into()));
+    };
+    let found = estimate(&reference, &own).map_err(told)?;
+    notices.push(format!(
+        "{}: clock offset {:.4} ± {:.4} s, estimated by {} and {} of {}; latency of either is in it",
+        run.path.display(),
+        found.offset_s,
+        found.std_s,
+        own.told_by,
+        reference.told_by,
+        part.run.path.file_name().unwrap_or_default().to_string_lossy(),
+    ));
+    Ok(found.offset_s)
+}

@@ -1,0 +1,43 @@
+//! What every opened file of samples can tell, whatever its format.
+
+use crate::error::{Error, Result};
+use crate::log::channel::Channel;
+use crate::log::run::Sampled;
+use std::path::Path;
+
+/// An opened file of samples.
+pub(crate) trait Source {
+    /// The file.
+    fn path(&self) -> &Path;
+
+    /// Column names; empty where the format has none.
+    fn names(&self) -> &[String];
+
+    /// How many columns there are.
+    fn width(&self) -> usize;
+
+    /// Reads the wanted columns.
+    fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>>;
+
+    /// The line of the file, counted from 1, on which a row stands, counted from 0; none where the file is not text.
+    fn line_of(&self, row: usize) -> Option<usize>;
+
+    /// When the currents were sampled, where the format itself says so.
+    fn currents_sampled(&self) -> Option<Sampled>;
+
+    /// What a person should know of the file, one sentence each.
+    fn notices(&self) -> Vec<String>;
+
+    /// What a column is called in messages: its name, or its position counted from 1.
+    fn title(&self, column: usize) -> String {
+        self.names().get(column).cloned().unwrap_or_else(|| format!("{}", column + 1))
+    }
+
+    /// A mistake on a row.
+    fn error_on(&self, row: usize, problem: String, fix: &str) -> Error {
+        match self.line_of(row) {
+            Some(line) => Error::input(self.path(), problem, fix).at_line(line),
+            None => Error::input(self.path(), format!("row {}: {problem}", row + 1), fix),
+        }
+    }
+}
