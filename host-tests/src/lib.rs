@@ -19,6 +19,7 @@
 //! - [`golden`]: pages that a program makes and is held to;
 //! - [`costs`]: instructions of the control path, as the emulator counts them;
 //! - [`in_loop`]: the robot's program, a robot that is not what it believes, and somebody who commands it;
+//! - [`plant_cases`] and [`fit_case`]: what step and fit are timed with;
 //! - [`image`]: sizes, symbols, reach and stack of the firmware's image.
 //!
 //! The paper is Oliveira, Sousa, Moreira and Costa, *Dynamical Models for Omni-directional Robots with 3 and 4 Wheels*
@@ -32,6 +33,7 @@ pub mod catalogue;
 pub mod costs;
 pub mod emulator;
 pub mod excitation;
+pub mod fit_case;
 pub mod flow;
 pub mod frozen;
 pub mod generic_robot;
@@ -42,6 +44,7 @@ pub mod in_loop;
 pub mod matrices;
 pub mod paper;
 pub mod paper_source;
+pub mod plant_cases;
 pub mod printed;
 pub mod real;
 pub mod reference;
