@@ -16,13 +16,18 @@ pub fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(name)
 }
 
+/// True if pages are to be written: `BLESS=1`.
+pub fn blessed() -> bool {
+    std::env::var_os("BLESS").is_some_and(|bless| bless == "1")
+}
+
 /// Writes a page if it is to be blessed; otherwise tells what `differences` finds in the one that stands there. True if
 /// the page is as it should be.
 ///
 /// # Errors
 /// Where the page cannot be written.
 pub fn check_page(name: &str, page: &str, differences: impl FnOnce(&str) -> Vec<String>) -> Result<bool> {
-    if std::env::var_os("BLESS").is_some_and(|bless| bless == "1") {
+    if blessed() {
         write_whole(&path(name), page.as_bytes())?;
         println!("written: host-tests/golden/{name}; read the difference before you commit it: git diff");
         return Ok(true);

@@ -20,6 +20,7 @@
 //! - [`costs`]: instructions of the control path, as the emulator counts them;
 //! - [`in_loop`]: the robot's program, a robot that is not what it believes, and somebody who commands it;
 //! - [`plant_cases`] and [`fit_case`]: what step and fit are timed with;
+//! - [`mod@mujoco`]: both beside MuJoCo's, in one run;
 //! - [`image`]: sizes, symbols, reach and stack of the firmware's image.
 //!
 //! The paper is Oliveira, Sousa, Moreira and Costa, *Dynamical Models for Omni-directional Robots with 3 and 4 Wheels*
@@ -42,6 +43,7 @@ pub mod identification;
 pub mod image;
 pub mod in_loop;
 pub mod matrices;
+pub mod mujoco;
 pub mod paper;
 pub mod paper_source;
 pub mod plant_cases;
