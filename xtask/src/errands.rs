@@ -5,6 +5,7 @@
 use std::ffi::OsString;
 
 use crate::line::Line;
+use crate::python::Environment;
 use crate::{invented, real, steps, tool};
 
 /// One thing to ask for.
@@ -35,6 +36,12 @@ pub const ERRANDS: &[Errand] = &[
         takes: "",
         does: "identify robots whose truth is known by the thousand and rewrite the golden page (most of an hour)",
         run: identification,
+    },
+    Errand {
+        name: "mujoco",
+        takes: "",
+        does: "time step and fit beside MuJoCo's, which it installs under target/ (BLESS=1: rewrite the golden page)",
+        run: mujoco,
     },
     Errand {
         name: "pil",
@@ -74,6 +81,10 @@ pub const ERRANDS: &[Errand] = &[
     },
     Errand { name: "help", takes: "", does: "print this list", run: help },
 ];
+
+/// What the comparison with MuJoCo runs on.
+const MUJOCO: Environment =
+    Environment { folder: "target/mujoco-venv", requirements: "host-tests/mujoco/requirements.txt" };
 
 /// Why an errand was not done.
 #[derive(Debug, PartialEq, Eq)]
@@ -135,6 +146,11 @@ fn benchmark(_: Option<OsString>) -> Result<(), String> {
 
 fn identification(_: Option<OsString>) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin identification"))
+}
+
+fn mujoco(_: Option<OsString>) -> Result<(), String> {
+    let python = MUJOCO.ensure()?;
+    announced(Line::of("cargo run --release -p host-tests --bin mujoco --").word(python))
 }
 
 fn pil(_: Option<OsString>) -> Result<(), String> {

@@ -6,6 +6,7 @@ mod errands;
 mod install;
 mod invented;
 mod line;
+mod python;
 mod real;
 mod steps;
 mod tool;
