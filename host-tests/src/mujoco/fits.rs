@@ -15,7 +15,7 @@ use omni_gap::simulate::{AXES, AlignedRun, Excitation, SensorSetup, excite, reco
 use omni_gap::synthesize::{Scenario, synthesize};
 use serde_json::{Value, json};
 
-use super::median;
+use super::median::median;
 use super::worker::{Worker, array, number, numbers};
 use crate::catalogue::sessions::truth;
 use crate::fit_case::{COUNT, FitCase, WITHIN, WRONG, astray, found, scenario};

@@ -12,6 +12,7 @@
 use std::path::Path;
 
 mod fits;
+mod median;
 mod motion;
 mod page;
 mod steps;
@@ -32,10 +33,4 @@ pub fn compared(python: &Path) -> Result<String, String> {
     println!("fits, turn by turn");
     let fits = fits::measured(&mut worker)?;
     Ok(page::page(&versions, &motions, &steps, &fits))
-}
-
-/// The middle one; of an even count, the upper of the two.
-fn median(mut of: Vec<f64>) -> f64 {
-    of.sort_by(f64::total_cmp);
-    of[of.len() / 2]
 }

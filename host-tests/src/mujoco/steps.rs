@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use super::median;
+use super::median::median;
 use super::motion::drive;
 use super::worker::{Worker, number};
 use crate::plant_cases::{PLANT_CASES, PlantCase, STEPS, command, model, run, with_derivatives};
