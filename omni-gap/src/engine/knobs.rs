@@ -55,6 +55,9 @@ pub struct LayoutKnobs {
 pub struct ScreenKnobs {
     /// Runs that the screen looks at, at the most [runs]: four tell candidates apart, and more only take time.
     pub runs: usize,
+    /// Rows of these that it looks at, at the most [rows]: what tells candidates apart shows in a minute, and the matrices of
+    /// every window are kept.
+    pub rows: usize,
     /// A promise below this is not worth a fit [σ²]: three sigma of one number.
     pub promising: f64,
     /// Beyond the best `always_fitted`, a promise below this share of the best is not worth a fit [1]. By trial.
@@ -214,6 +217,7 @@ impl Default for ScreenKnobs {
     fn default() -> Self {
         Self {
             runs: 4,
+            rows: 20_000,
             promising: 9.0,
             worth_a_fit: 0.25,
             always_fitted: 2,

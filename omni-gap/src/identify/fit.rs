@@ -46,6 +46,8 @@ pub struct Fit<const N: usize> {
     pub spread: f64,
     /// Covariance of the free numbers, robust against errors that go on through a window.
     pub covariance: DMatrix<f64>,
+    /// The reduced equations of what was measured, at this fit and for errors as they are.
+    pub equations: Reduced,
 }
 
 impl<const N: usize> Fit<N> {
@@ -131,13 +133,15 @@ pub fn fit<const N: usize>(
             break;
         }
     }
-    let data = linear.reduced().with_dispersion(dispersion);
+    let equations = linear.reduced();
+    let data = equations.clone().with_dispersion(dispersion);
     let reduced = with_prior(data.clone(), &model, free, prior);
     let (cost, samples) = linear.cost();
-    let spread = spread(&reduced, &linear.reduced()).max(cost / samples.max(1) as f64).max(1.0);
+    let spread = spread(&reduced, &equations).max(cost / samples.max(1) as f64).max(1.0);
     Fit {
         spread,
         covariance: covariance(&reduced, data, free.len()),
+        equations,
         dispersion,
         prior_cost: prior.cost(&model),
         model,
@@ -328,9 +332,9 @@ impl<const N: usize> Fit<N> {
         linearise(&self.model, shots, &self.starts, &slots, true)
     }
 
-    /// The reduced equations with what was stated, at this fit.
-    pub fn reduced(&self, linear: &Linearised, prior: &Prior) -> Reduced {
-        with_prior(linear.reduced().with_dispersion(self.dispersion), &self.model, &self.free, prior)
+    /// Reduced equations at this fit, such as its own, weighted down as its errors are and with what was stated.
+    pub fn stated(&self, equations: Reduced, prior: &Prior) -> Reduced {
+        with_prior(equations.with_dispersion(self.dispersion), &self.model, &self.free, prior)
     }
 }
 

@@ -54,6 +54,20 @@ impl Windows {
     }
 }
 
+/// Runs, and those of their windows with which they begin.
+#[derive(Debug)]
+pub struct Shortened<'a, const N: usize> {
+    runs: &'a [&'a AlignedRun<N>],
+    windows: Vec<Windows>,
+}
+
+impl<const N: usize> Shortened<'_, N> {
+    /// What a model is compared with.
+    pub fn shots(&self) -> Shots<'_, N> {
+        Shots { runs: self.runs, windows: &self.windows }
+    }
+}
+
 /// Runs and their windows: what a model is compared with.
 #[derive(Clone, Copy, Debug)]
 pub struct Shots<'a, const N: usize> {
@@ -63,11 +77,22 @@ pub struct Shots<'a, const N: usize> {
     pub windows: &'a [Windows],
 }
 
-impl<const N: usize> Shots<'_, N> {
+impl<'a, const N: usize> Shots<'a, N> {
     /// The first `count` runs alone.
     pub fn first(&self, count: usize) -> Self {
         let count = count.min(self.runs.len());
         Self { runs: &self.runs[..count], windows: &self.windows[..count] }
+    }
+
+    /// With no more than so many rows, each run giving the same share: whole windows from its beginning, at least one.
+    pub fn shortened(&self, rows: usize) -> Shortened<'a, N> {
+        let all: usize = self.runs.iter().map(|run| run.rows()).sum();
+        let windows = self.windows.iter().zip(self.runs).map(|(windows, run)| {
+            let most = if all > rows { rows * run.rows() / all } else { run.rows() };
+            let whole = windows.0.iter().skip(1).take_while(|end| **end <= most).count();
+            Windows(windows.0[..=whole.max(1)].to_vec())
+        });
+        Shortened { runs: self.runs, windows: windows.collect() }
     }
 
     /// The pieces that a model can be taken along side by side, run by run. Effects carry on from one window to the

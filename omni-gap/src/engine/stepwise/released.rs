@@ -3,7 +3,7 @@
 use model_core::plant::robot::Nominal;
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::{Fit, FitSettings, FreedPrior, Linearised, Prior};
+use crate::identify::{Fit, FitSettings, FreedPrior, Prior};
 use crate::simulate::Slot;
 
 /// A parameter cause and what the screen says of it.
@@ -39,19 +39,18 @@ impl OneStep {
 /// Screens parameter causes at a fit.
 pub fn screen_releases<const N: usize>(
     fit: &Fit<N>,
-    linear: &Linearised,
     prior: &Prior,
     causes: &[FreedPrior],
     settings: &FitSettings,
 ) -> Vec<ScreenedRelease> {
-    let step = |release| one_step(fit, linear, &prior.without(release, settings.released_sigma));
-    let gains = gains(fit, linear, prior, causes);
+    let step = |release| one_step(fit, &prior.without(release, settings.released_sigma));
+    let gains = gains(fit, prior, causes);
     gains.into_iter().map(|(release, gain)| ScreenedRelease { release, gain, step: step(release) }).collect()
 }
 
 /// Δp = S⁻¹·g with other statements than those of the fit, and S⁻¹.
-fn one_step<const N: usize>(fit: &Fit<N>, linear: &Linearised, prior: &Prior) -> Option<OneStep> {
-    let reduced = fit.reduced(linear, prior);
+fn one_step<const N: usize>(fit: &Fit<N>, prior: &Prior) -> Option<OneStep> {
+    let reduced = fit.stated(fit.equations.clone(), prior);
     let hess = reduced.hess.cholesky()?;
     let step = hess.solve(&reduced.grad);
     let mut factors = fit.model.factor;
@@ -68,11 +67,10 @@ fn one_step<const N: usize>(fit: &Fit<N>, linear: &Linearised, prior: &Prior) ->
 /// With v the violations of the statements in question and K their leverage, the drop is vᵀ(1 − K)⁻¹v.
 fn gains<const N: usize>(
     fit: &Fit<N>,
-    linear: &Linearised,
     prior: &Prior,
     causes: &[FreedPrior],
 ) -> Vec<(FreedPrior, f64)> {
-    let reduced = fit.reduced(linear, prior);
+    let reduced = fit.stated(fit.equations.clone(), prior);
     let Some(hess) = reduced.hess.cholesky() else { return Vec::new() };
     let violations = prior.violations(&fit.model);
     let n = fit.free.len();

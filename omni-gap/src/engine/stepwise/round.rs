@@ -61,16 +61,15 @@ fn worth_a_fit<'a>(screened: &'a [Screened], knobs: &ScreenKnobs) -> Vec<&'a Scr
 /// Tries every cause on top of a fitted model. `released` are the statements already struck out.
 pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prior) -> Ranking<N> {
     let knobs = &data.knobs.screen;
-    let few = data.to_fit().first(knobs.runs);
+    let shortened = data.to_fit().first(knobs.runs).shortened(knobs.rows);
+    let few = shortened.shots();
     let linear = base.fit.linearised(few);
     let all = candidates::<N>(&base.fit.model.effects, knobs);
     let mut screened = screen(&base.fit, &linear, prior, few, all, knobs);
     screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     drop(linear);
-    let whole = base.fit.linearised(data.to_fit());
-    let mut released = screen_releases(&base.fit, &whole, prior, &freed_priors(), &data.knobs.fit);
+    let mut released = screen_releases(&base.fit, prior, &freed_priors(), &data.knobs.fit);
     released.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    drop(whole);
 
     let effects = worth_a_fit(&screened, knobs)
         .into_iter()

@@ -44,7 +44,7 @@ pub fn screen<const N: usize>(
     candidates: Vec<Candidate>,
     knobs: &ScreenKnobs,
 ) -> Vec<Screened> {
-    let reduced = fit.reduced(linear, prior);
+    let reduced = fit.stated(linear.reduced(), prior);
     let Some(hess) = reduced.hess.clone().cholesky() else { return Vec::new() };
     let toward: DVector<f64> = hess.solve(&reduced.grad);
     let plain = predictions(&fit.model.plant(), shots, &fit.starts, linear);
