@@ -89,9 +89,10 @@ impl<T: Real> Pose<T> {
     #[inline]
     pub fn moved(self, twist: BodyTwist<T>, dt: T) -> Self {
         // θ½ = θ + ½·ω·Δt,  Δ(x, y) = R(θ½)·(v, vn)·Δt,  Δθ = ω·Δt
-        let middle = Self { theta: self.theta + T::lit(0.5) * twist.w * dt, ..self };
+        let turn = twist.w * dt;
+        let middle = Self { theta: self.theta + turn.times(T::Plain::lit(0.5)), ..self };
         let world = middle.to_world(twist);
-        Self { x: self.x + world.x * dt, y: self.y + world.y * dt, theta: self.theta + twist.w * dt }
+        Self { x: self.x + world.x * dt, y: self.y + world.y * dt, theta: self.theta + turn }
     }
 }
 

@@ -221,6 +221,15 @@ impl<const K: usize> Real for Dual<K> {
     fn from_plain(x: f64) -> Self {
         Self::constant(x)
     }
+    #[inline(always)]
+    fn times(mut self, factor: f64) -> Self {
+        // (x·k)˙ = ẋ·k
+        self.re *= factor;
+        for e in &mut self.eps {
+            *e *= factor;
+        }
+        self
+    }
     #[inline]
     fn index(self) -> usize {
         self.re.index()

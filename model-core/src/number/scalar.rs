@@ -41,6 +41,11 @@ pub trait Real:
     fn plain(self) -> Self::Plain;
     /// A number without derivatives.
     fn from_plain(x: Self::Plain) -> Self;
+    /// The product with a number without derivatives.
+    #[inline(always)]
+    fn times(self, factor: Self::Plain) -> Self {
+        self * Self::from_plain(factor)
+    }
     /// The value without its derivatives; the number itself for `f32` and `f64`.
     #[inline]
     fn value(self) -> Self {

@@ -34,23 +34,21 @@ pub enum Mobility<T> {
 }
 
 impl<T: Real> Mobility<T> {
-    /// The inverse of H = M + ½·Δt·A, in body axes.
-    ///
-    /// An off-diagonal entry below 10⁻⁹ of its diagonal entries' geometric mean is rounding (a symmetric layout's
-    /// cosines cancel) and counts as zero.
+    /// The inverse of H = M + ½·Δt·A in body axes, whose entries `h` gives by row and column, and `plain` without
+    /// derivatives.
     #[inline]
-    pub fn new(h: &[[T; 3]; 3]) -> Self {
-        let small = T::Plain::lit(1e-18);
-        let h_plain = |a: usize, b: usize| h[a][b].plain();
-        let couples = |a: usize, b: usize| {
-            let bound = small * h_plain(a, a) * h_plain(b, b);
-            h_plain(a, b) * h_plain(a, b) > bound || h_plain(b, a) * h_plain(b, a) > bound
-        };
-        if couples(0, 1) || couples(0, 2) || couples(1, 2) {
-            Self::Full(inverse3(h))
+    pub fn new(plain: impl Fn(usize, usize) -> T::Plain, h: impl Fn(usize, usize) -> T) -> Self {
+        if couples(plain) {
+            Self::Full(inverse3(&core::array::from_fn(|a| core::array::from_fn(|b| h(a, b)))))
         } else {
-            Self::Diagonal([T::one() / h[0][0], T::one() / h[1][1], T::one() / h[2][2]])
+            Self::Diagonal(core::array::from_fn(|axis| Self::along(h(axis, axis))))
         }
+    }
+
+    /// The inverse of an entry on the diagonal.
+    #[inline(always)]
+    pub fn along(h: T) -> T {
+        T::one() / h
     }
 
     /// The same without derivatives.
@@ -69,6 +67,30 @@ impl<T: Real> Mobility<T> {
             Self::Full(m) => mul_mat_vec(m, f),
         }
     }
+}
+
+/// True if a matrix couples its axes.
+///
+/// An off-diagonal entry below 10⁻⁹ of its diagonal entries' geometric mean is rounding (a symmetric layout's cosines
+/// cancel) and counts as zero.
+#[inline]
+pub fn couples<P: Real>(h: impl Fn(usize, usize) -> P) -> bool {
+    let small = P::lit(1e-18);
+    let pair = |a: usize, b: usize| {
+        let bound = small * h(a, a) * h(b, b);
+        h(a, b) * h(a, b) > bound || h(b, a) * h(b, a) > bound
+    };
+    pair(0, 1) || pair(0, 2) || pair(1, 2)
+}
+
+/// The speed along an axis that couples with no other, after a step: `x` is that before it, `impulse` what all forces but
+/// dry friction give, `budget` what dry friction holds at the most.
+#[inline(always)]
+pub fn spend_along<T: Real>(x: T, impulse: T, mobility: T, budget: T, dt: T) -> T {
+    // x⁺ = x_free − clamp(x_free, ±H⁻¹·b·Δt)
+    let free = x + mobility * impulse;
+    let most = (mobility * budget).times(dt.plain());
+    free - free.clamp(-most, most)
 }
 
 /// A direction in which dry friction holds, and the most that it can hold.
@@ -123,12 +145,7 @@ impl<const N: usize, T: Real> DryFriction<'_, N, T> {
             && self.shafts.is_none()
             && self.rollers.is_none()
         {
-            return core::array::from_fn(|axis| {
-                // x⁺ = x_free − clamp(x_free, ±H⁻¹·b·Δt)
-                let free = x[axis] + d[axis] * impulse[axis];
-                let most = d[axis] * self.axes[axis] * dt;
-                free - free.clamp(-most, most)
-            });
+            return core::array::from_fn(|axis| spend_along(x[axis], impulse[axis], d[axis], self.axes[axis], dt));
         }
         let free = || {
             let change = mobility.of(impulse);
@@ -264,7 +281,7 @@ mod tests {
     fn spent(free: [f64; 3], h: [[f64; 3]; 3], axes: [f64; 3], wheels: Option<[([f64; 3], f64); 4]>) -> [f64; 3] {
         let shafts = wheels.map(|all| all.map(|(direction, budget)| Hold { direction, budget }));
         let dry = DryFriction { axes, shafts: shafts.as_ref(), rollers: None };
-        dry.spend(free, [0.0; 3], &Mobility::new(&h), 1e-3)
+        dry.spend(free, [0.0; 3], &Mobility::new(|a, b| h[a][b], |a, b| h[a][b]), 1e-3)
     }
 
     #[test]

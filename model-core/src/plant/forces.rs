@@ -8,7 +8,8 @@ use crate::effects::card::Seam;
 use crate::effects::seams::{Body, EffectContext};
 use crate::number::linalg::Mat3;
 use crate::number::scalar::Real;
-use crate::plant::body::{DryFriction, Mobility};
+use crate::plant::body::{DryFriction, Mobility, spend_along};
+use crate::plant::robot::Friction;
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// Everything that acts on the body, and the twist at the end of the step.
@@ -44,9 +45,21 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// The same of a robot without effects.
     #[inline(always)]
     pub(super) fn move_plain(&self, x: [T; 3], force: [T; 3], dt: T) -> [T; 3] {
-        let body = self.bare_body(x);
-        let dry = DryFriction::<N, T> { axes: body.budget, shafts: None, rollers: None };
-        solve_motion(x, &body.mass, [(force, &self.plain_rate), (body.force, &body.rate)], &dry, dt)
+        if !self.plain_decoupled {
+            let body = self.bare_body(x);
+            let dry = DryFriction::<N, T> { axes: body.budget, shafts: None, rollers: None };
+            return solve_motion(x, &body.mass, [(force, &self.plain_rate), (body.force, &body.rate)], &dry, dt);
+        }
+        let Friction { viscous, coulomb } = &self.robot.friction;
+        let mass = [&self.robot.mass, &self.robot.mass, &self.robot.inertia];
+        let half = dt.plain() * T::Plain::lit(0.5);
+        core::array::from_fn(|axis| {
+            // H = M + ½·Δt·A, on its diagonal
+            let h = *mass[axis] + (self.plain_rate[axis][axis] + viscous[axis]).times(half);
+            let mobility = Mobility::along(h);
+            let impulse = (force[axis] - viscous[axis] * x[axis]).times(dt.plain());
+            spend_along(x[axis], impulse, mobility, coulomb[axis], dt)
+        })
     }
 
     /// The body as the robot's parameters describe it.
@@ -76,11 +89,14 @@ fn solve_motion<const N: usize, T: Real>(
 ) -> [T; 3] {
     let [(push, push_rate), (own, own_rate)] = forces;
     // H = M + ½·Δt·A
-    let half = T::lit(0.5) * dt;
-    let h = core::array::from_fn(|row| {
-        core::array::from_fn(|column| mass[row][column] + half * (push_rate[row][column] + own_rate[row][column]))
-    });
+    let half = dt.plain() * T::Plain::lit(0.5);
+    let h = |row: usize, column: usize| {
+        mass[row][column] + (push_rate[row][column] + own_rate[row][column]).times(half)
+    };
+    let plain = |row: usize, column: usize| {
+        mass[row][column].plain() + (push_rate[row][column].plain() + own_rate[row][column].plain()) * half
+    };
     // Δt·F
-    let impulse = core::array::from_fn(|axis| dt * (push[axis] + own[axis]));
-    dry.spend(x, impulse, &Mobility::new(&h), dt)
+    let impulse = core::array::from_fn(|axis| (push[axis] + own[axis]).times(dt.plain()));
+    dry.spend(x, impulse, &Mobility::new(plain, h), dt)
 }

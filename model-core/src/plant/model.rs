@@ -9,6 +9,7 @@ use crate::effects::{Effect, EffectSet};
 use crate::geometry::frames::{BodyTwist, Pose};
 use crate::number::linalg::{accumulate_outer, dot};
 use crate::number::scalar::Real;
+use crate::plant::body::couples;
 
 /// A model ready to run: a robot and the effects that it carries.
 #[derive(Clone, Copy, Debug)]
@@ -38,8 +39,12 @@ pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     pub(super) settled: Option<[Contact<T>; N]>,
     /// Each wheel's share of the body's Coulomb friction, as a torque at its shaft [N·m]
     pub(super) coulomb_share: [T; N],
-    /// Damping of the plain model in body axes: back-EMF and viscous friction
+    /// Damping of the plain model's motors in body axes
     pub(super) plain_rate: [[T; 3]; 3],
+    /// True if it couples no axes
+    pub(super) plain_decoupled: bool,
+    /// Each wheel's rolling direction, without derivatives
+    pub(super) direction: [[T::Plain; 2]; N],
 }
 
 /// The shafts as effects describe them, which depends on nothing but their parameters.
@@ -112,6 +117,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             shafts,
             settled,
             coulomb_share,
+            plain_decoupled: !couples(|a, b| plain_rate[a][b].plain()),
+            direction: rows.map(|[cos, sin, _]| [cos.plain(), sin.plain()]),
             plain_rate,
         }
     }

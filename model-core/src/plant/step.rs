@@ -148,11 +148,15 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let mut force = [zero; 3];
         for j in 0..N {
             let c = &self.contact[j];
-            let rolling = dot(c.row, x) * c.per_radius;
+            let ([cos, sin], [.., distance]) = (self.direction[j], c.row);
+            let rolling = (x[0].times(cos) + x[1].times(sin) + distance * x[2]) * c.per_radius;
             let (current, torque) = self.plain_motor(command[j], rolling);
             (truth.current[j], truth.wheel_speed[j]) = (current, rolling);
             // f = τ/r
-            force = add_scaled(force, torque * c.per_radius, c.row);
+            let push = torque * c.per_radius;
+            force[0] += push.times(cos);
+            force[1] += push.times(sin);
+            force[2] += push * distance;
         }
         (state.current, state.wheel_speed) = (truth.current, truth.wheel_speed);
         if self.effects.is_empty() {
