@@ -176,6 +176,7 @@ pub struct WheelWitness;
 
 impl Hooks<f64> for WheelWitness {
     type State = ();
+    const NEEDS_HEAT: bool = true;
 
     fn gear(&self, _: &(), at: &EffectContext<f64>, _: &mut Gear<f64>) {
         TOLD.with_borrow_mut(|told| told.push(*at));

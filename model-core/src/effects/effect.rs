@@ -52,6 +52,8 @@ pub trait Hooks<T: Real>: Copy + Debug {
 
     /// True if [`Hooks::contact`] needs the parameters alone: the plant then asks it once, and not in every step.
     const SETTLES_CONTACT: bool = false;
+    /// True if it looks at heat ([`EffectContext::heat`], [`StepOutcome::heat`]), which is kept up only then.
+    const NEEDS_HEAT: bool = false;
 
     /// Battery: bus current → bus voltage.
     #[inline]
@@ -134,6 +136,10 @@ pub trait EffectSet<T: Real>: Copy + Debug {
     fn start(&self) -> Option<Self::State>;
     /// [`Hooks::SETTLES_CONTACT`]
     fn settles_contact(&self) -> bool {
+        false
+    }
+    /// [`Hooks::NEEDS_HEAT`]
+    fn needs_heat(&self) -> bool {
         false
     }
     /// [`Hooks::supply`]

@@ -45,6 +45,10 @@ macro_rules! effect_set {
                 match self { $($Set::$Variant(_) => <$Type as $crate::effects::Hooks<$n>>::SETTLES_CONTACT),* }
             }
 
+            fn needs_heat(&self) -> bool {
+                match self { $($Set::$Variant(_) => <$Type as $crate::effects::Hooks<$n>>::NEEDS_HEAT),* }
+            }
+
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], supply, Supply);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], bridge, Bridge);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], winding, Winding);

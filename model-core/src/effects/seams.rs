@@ -6,6 +6,7 @@
 //! which other effects are there.
 
 use crate::geometry::frames::{BodyTwist, Pose};
+use crate::number::linalg::{accumulate_outer, add_scaled, dot};
 use crate::number::scalar::Real;
 
 /// Standard gravity [m/s²].
@@ -32,7 +33,8 @@ pub struct EffectContext<T> {
     pub rotor_speed: T,
     /// Speed of that wheel's rim over the floor if it rolls [m/s]
     pub rim_speed: T,
-    /// Heat that the current has made in that wheel's winding since the start of the run [J]
+    /// Heat that the current has made in that wheel's winding since the start of the run [J]; see
+    /// [`Hooks::NEEDS_HEAT`](crate::effects::Hooks::NEEDS_HEAT)
     pub heat: T,
     /// l, motor speed over wheel speed [1]
     pub gear_ratio: T,
@@ -150,6 +152,8 @@ pub struct Gear<T> {
 pub struct Contact<T> {
     /// Rim speed over body twist: (cos α, sin α, d) [1, 1, m]
     pub row: [T; 3],
+    /// True if the direction (cos α, sin α) has no derivatives; the plant works it out again after the effects
+    pub fixed_direction: bool,
     /// Where the wheel touches the floor, in the body's axes (v, vn) [m]
     pub position: [T; 2],
     /// Wheel radius [m]
@@ -177,6 +181,59 @@ impl<T: Real> Contact<T> {
     #[inline]
     pub fn rolls(&self) -> bool {
         self.grip <= T::zero() && self.creep <= T::zero()
+    }
+
+    /// Speed of the rim over the floor if the wheel rolls, at a body twist [m/s].
+    #[inline(always)]
+    pub fn rim_speed(&self, twist: [T; 3]) -> T {
+        // cos α·v + sin α·vn + d·ω
+        if self.fixed_direction {
+            let [cos, sin, distance] = self.row;
+            return twist[0].times(cos.plain()) + twist[1].times(sin.plain()) + distance * twist[2];
+        }
+        dot(self.row, twist)
+    }
+
+    /// Adds a force of the rim to one on the body, in the body's axes.
+    #[inline(always)]
+    pub fn add_force(&self, body: &mut [T; 3], force: T) {
+        if self.fixed_direction {
+            let [cos, sin, distance] = self.row;
+            body[0] += force.times(cos.plain());
+            body[1] += force.times(sin.plain());
+            body[2] += force * distance;
+        } else {
+            *body = add_scaled(*body, force, self.row);
+        }
+    }
+
+    /// Adds something in proportion to the rim's speed, such as −∂force/∂speed or an inertia, to one of the body.
+    #[inline(always)]
+    pub fn add_rate(&self, body: &mut [[T; 3]; 3], rate: T) {
+        if !self.fixed_direction {
+            return accumulate_outer(body, rate, self.row);
+        }
+        let [cos, sin, distance] = self.row;
+        let (cos, sin) = (cos.plain(), sin.plain());
+        // rate·row·rowᵀ
+        let (along, across, about) = (rate.times(cos), rate.times(sin), rate * distance);
+        body[0][0] += along.times(cos);
+        body[1][1] += across.times(sin);
+        body[2][2] += about * distance;
+        let mut both = |a: usize, b: usize, x: T| {
+            body[a][b] += x;
+            body[b][a] += x;
+        };
+        both(0, 1, along.times(sin));
+        both(0, 2, along * distance);
+        both(1, 2, across * distance);
+    }
+
+    /// Works out what follows from what effects may have changed.
+    #[inline]
+    pub(crate) fn complete(&mut self) {
+        self.per_radius = T::one() / self.radius;
+        self.fixed_direction = self.row[0].is_constant() && self.row[1].is_constant();
     }
 
     /// How fast the contact moves along the wheel's axle, over body twist [1, 1, m]; there the rollers turn.
@@ -239,7 +296,8 @@ pub struct StepOutcome<T> {
     pub current: T,
     /// Wheel speed at the wheel shaft [rad/s]
     pub wheel_speed: T,
-    /// Heat that the current made in this wheel's winding [J]
+    /// Heat that the current made in this wheel's winding [J]; see
+    /// [`Hooks::NEEDS_HEAT`](crate::effects::Hooks::NEEDS_HEAT)
     pub heat: T,
     /// Current drawn from the battery [A]
     pub bus_current: T,

@@ -115,7 +115,7 @@ impl<const K: usize> PartialOrd for Dual<K> {
 
 impl<const K: usize> Add for Dual<K> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(mut self, other: Self) -> Self {
         self += other;
         self
@@ -124,7 +124,7 @@ impl<const K: usize> Add for Dual<K> {
 
 impl<const K: usize> Sub for Dual<K> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(mut self, other: Self) -> Self {
         self -= other;
         self
@@ -133,7 +133,7 @@ impl<const K: usize> Sub for Dual<K> {
 
 impl<const K: usize> Mul for Dual<K> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(mut self, other: Self) -> Self {
         self *= other;
         self
@@ -142,7 +142,7 @@ impl<const K: usize> Mul for Dual<K> {
 
 impl<const K: usize> Div for Dual<K> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn div(mut self, other: Self) -> Self {
         self /= other;
         self
@@ -151,7 +151,7 @@ impl<const K: usize> Div for Dual<K> {
 
 impl<const K: usize> Neg for Dual<K> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn neg(mut self) -> Self {
         self.re = -self.re;
         for e in &mut self.eps {
@@ -162,7 +162,7 @@ impl<const K: usize> Neg for Dual<K> {
 }
 
 impl<const K: usize> AddAssign for Dual<K> {
-    #[inline]
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         // (x + y)˙ = ẋ + ẏ
         self.re += other.re;
@@ -173,7 +173,7 @@ impl<const K: usize> AddAssign for Dual<K> {
 }
 
 impl<const K: usize> SubAssign for Dual<K> {
-    #[inline]
+    #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         // (x − y)˙ = ẋ − ẏ
         self.re -= other.re;
@@ -184,7 +184,7 @@ impl<const K: usize> SubAssign for Dual<K> {
 }
 
 impl<const K: usize> MulAssign for Dual<K> {
-    #[inline]
+    #[inline(always)]
     fn mul_assign(&mut self, other: Self) {
         // (x·y)˙ = ẋ·y + x·ẏ
         for (e, o) in self.eps.iter_mut().zip(&other.eps) {
@@ -195,7 +195,7 @@ impl<const K: usize> MulAssign for Dual<K> {
 }
 
 impl<const K: usize> DivAssign for Dual<K> {
-    #[inline]
+    #[inline(always)]
     fn div_assign(&mut self, other: Self) {
         // q = x/y,  q̇ = (ẋ − q·ẏ)/y
         self.re /= other.re;
@@ -220,6 +220,10 @@ impl<const K: usize> Real for Dual<K> {
     #[inline]
     fn from_plain(x: f64) -> Self {
         Self::constant(x)
+    }
+    #[inline]
+    fn is_constant(self) -> bool {
+        self.eps.iter().all(|e| *e == 0.0)
     }
     #[inline(always)]
     fn times(mut self, factor: f64) -> Self {

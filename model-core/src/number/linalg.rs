@@ -57,8 +57,14 @@ pub fn mul_mat_vec<T: Real>(m: &Mat3<T>, a: Vec3<T>) -> Vec3<T> {
 #[inline]
 pub fn accumulate_outer<T: Real>(m: &mut Mat3<T>, k: T, row: Vec3<T>) {
     // m_ij += k·row_i·row_j
-    for (line, factor) in m.iter_mut().zip(scaled(k, row)) {
-        *line = add_scaled(*line, factor, row);
+    let factor = scaled(k, row);
+    for i in 0..3 {
+        m[i][i] += factor[i] * row[i];
+        for j in i + 1..3 {
+            let both = factor[i] * row[j];
+            m[i][j] += both;
+            m[j][i] += both;
+        }
     }
 }
 

@@ -41,6 +41,11 @@ pub trait Real:
     fn plain(self) -> Self::Plain;
     /// A number without derivatives.
     fn from_plain(x: Self::Plain) -> Self;
+    /// True if no derivative of it differs from zero.
+    #[inline]
+    fn is_constant(self) -> bool {
+        true
+    }
     /// The product with a number without derivatives.
     #[inline(always)]
     fn times(self, factor: Self::Plain) -> Self {

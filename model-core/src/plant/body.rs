@@ -15,7 +15,7 @@
 //!
 //! Every single update brings the kinetic energy ½·xᵀHx down, so friction never creates any, however few the sweeps.
 
-use crate::number::linalg::{add_scaled, dot, inverse3, mul_mat_vec};
+use crate::number::linalg::{Mat3, add_scaled, dot, inverse3, mul_mat_vec};
 use crate::number::scalar::Real;
 
 /// Sweeps at the most; sliding and single sticking directions need one.
@@ -26,11 +26,11 @@ const RESOLUTION: f64 = 1e-3;
 
 /// The inverse of H, which is usually diagonal: then the axes do not couple.
 #[derive(Clone, Copy, Debug)]
-pub enum Mobility<T> {
+pub enum Mobility<T: Real> {
     /// 1/H on the diagonal
     Diagonal([T; 3]),
-    /// H⁻¹
-    Full([[T; 3]; 3]),
+    /// H⁻¹ without derivatives, and H
+    Full(Mat3<T::Plain>, Mat3<T>),
 }
 
 impl<T: Real> Mobility<T> {
@@ -38,8 +38,10 @@ impl<T: Real> Mobility<T> {
     /// derivatives.
     #[inline]
     pub fn new(plain: impl Fn(usize, usize) -> T::Plain, h: impl Fn(usize, usize) -> T) -> Self {
-        if couples(plain) {
-            Self::Full(inverse3(&core::array::from_fn(|a| core::array::from_fn(|b| h(a, b)))))
+        if couples(&plain) {
+            let matrix = |row: usize| core::array::from_fn(|column| plain(row, column));
+            let inverse = inverse3(&core::array::from_fn(matrix));
+            Self::Full(inverse, core::array::from_fn(|row| core::array::from_fn(|column| h(row, column))))
         } else {
             Self::Diagonal(core::array::from_fn(|axis| Self::along(h(axis, axis))))
         }
@@ -55,17 +57,28 @@ impl<T: Real> Mobility<T> {
     fn plain(&self) -> Mobility<T::Plain> {
         match self {
             Self::Diagonal(d) => Mobility::Diagonal(d.map(T::plain)),
-            Self::Full(m) => Mobility::Full(m.map(|row| row.map(T::plain))),
+            Self::Full(inverse, h) => Mobility::Full(*inverse, h.map(|row| row.map(T::plain))),
         }
     }
 
     /// H⁻¹·f.
     #[inline(always)]
     pub fn of(&self, f: [T; 3]) -> [T; 3] {
-        match self {
-            Self::Diagonal(d) => [d[0] * f[0], d[1] * f[1], d[2] * f[2]],
-            Self::Full(m) => mul_mat_vec(m, f),
+        let (inverse, h) = match self {
+            Self::Diagonal(d) => return [d[0] * f[0], d[1] * f[1], d[2] * f[2]],
+            Self::Full(inverse, h) => (inverse, h),
+        };
+        let x = mul_mat_vec(inverse, f.map(T::plain));
+        if !T::DERIVATIVES {
+            return x.map(T::from_plain);
         }
+        // ẋ = H⁻¹·(ḟ − Ḣ·x)
+        let times = |row: &[T; 3], x: [T::Plain; 3]| row[0].times(x[0]) + row[1].times(x[1]) + row[2].times(x[2]);
+        let left: [T; 3] = core::array::from_fn(|row| f[row] - times(&h[row], x));
+        core::array::from_fn(|row| {
+            let change = times(&left, inverse[row]);
+            T::from_plain(x[row]) + (change - change.value())
+        })
     }
 }
 
@@ -125,15 +138,23 @@ const MOST: usize = 3 + 2 * 4;
 
 /// A direction as the sweeps see it.
 #[derive(Clone, Copy)]
-struct Held<T> {
+struct Held<P> {
+    place: Place,
     /// d
-    direction: [T; 3],
+    direction: [P; 3],
     /// H⁻¹·d
-    pushed: [T; 3],
+    pushed: [P; 3],
     /// 1/(dᵀH⁻¹d)
-    stiffness: T,
+    stiffness: P,
     /// The most impulse
-    most: T,
+    most: P,
+}
+
+impl<P: Real> Held<P> {
+    /// True if an impulse is all that it can give.
+    fn slides(&self, impulse: P) -> bool {
+        impulse.abs() >= self.most
+    }
 }
 
 impl<const N: usize, T: Real> DryFriction<'_, N, T> {
@@ -185,48 +206,89 @@ impl<const N: usize, T: Real> DryFriction<'_, N, T> {
         (axes && wheels).then_some(after)
     }
 
+    /// A direction, and the most that it holds [N].
+    #[inline]
+    fn hold(&self, place: Place) -> ([T; 3], T) {
+        let of_wheel = |holds: Option<&[Hold<T>; N]>, j: usize| {
+            holds.map_or_else(|| ([T::zero(); 3], T::zero()), |holds| (holds[j].direction, holds[j].budget))
+        };
+        match place {
+            Place::Axis(axis) => {
+                let mut direction = [T::zero(); 3];
+                direction[axis] = T::one();
+                (direction, self.axes[axis])
+            }
+            Place::Shaft(j) => of_wheel(self.shafts, j),
+            Place::Rollers(j) => of_wheel(self.rollers, j),
+        }
+    }
+
+    /// All directions that hold anything, without derivatives, and how many.
+    #[inline]
+    fn held(&self, mobility: &Mobility<T::Plain>, dt: T::Plain) -> ([Held<T::Plain>; MOST], usize) {
+        let zero = T::Plain::zero();
+        let mut all =
+            [Held { place: Place::Axis(0), direction: [zero; 3], pushed: [zero; 3], stiffness: zero, most: zero };
+                MOST];
+        let mut count = 0;
+        let mut add = |place: Place, direction: [T::Plain; 3], budget: T::Plain| {
+            if budget > zero {
+                let pushed = mobility.of(direction);
+                let stiffness = T::Plain::one() / dot(direction, pushed);
+                all[count] = Held { place, direction, pushed, stiffness, most: budget * dt };
+                count += 1;
+            }
+        };
+        for (axis, budget) in self.axes.iter().enumerate() {
+            let mut direction = [zero; 3];
+            direction[axis] = T::Plain::one();
+            add(Place::Axis(axis), direction, budget.plain());
+        }
+        for (j, hold) in self.shafts.into_iter().flatten().enumerate() {
+            add(Place::Shaft(j), hold.direction.map(T::plain), hold.budget.plain());
+        }
+        for (j, hold) in self.rollers.into_iter().flatten().enumerate() {
+            add(Place::Rollers(j), hold.direction.map(T::plain), hold.budget.plain());
+        }
+        (all, count)
+    }
+
     /// The twist where some directions stick: which ones is found in plain numbers; the twist then follows at once.
     #[inline(never)]
     fn stick(&self, free: [T; 3], mobility: &Mobility<T>, dt: T) -> [T; 3] {
         let (zero, one) = (T::zero(), T::one());
-        let axes = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
-        let of_body = axes.into_iter().zip(self.axes).map(|(direction, budget)| Hold { direction, budget });
-        let plain = mobility.plain();
-        let mut holds = [(Hold::<T>::none(), Held::<T::Plain>::none()); MOST];
-        let mut count = 0;
-        for hold in of_body.chain(self.of_wheels().copied()).filter(|hold| hold.budget > zero) {
-            holds[count] = (hold, Held::new(&hold, &plain, dt.plain()));
-            count += 1;
-        }
-        let holds = &holds[..count];
+        let (all, count) = self.held(&mobility.plain(), dt.plain());
+        let holds = &all[..count];
         let (resting, impulse) = projected_gauss_seidel(free.map(T::plain), holds, dt.plain());
-        let slips = |held: &Held<T::Plain>, impulse: T::Plain| impulse.abs() >= held.most;
 
         // what slides spends all it has
         let mut x = free;
-        for ((hold, _), impulse) in holds.iter().zip(impulse).filter(|((_, held), impulse)| slips(held, *impulse)) {
-            let spent = if impulse > Real::zero() { hold.budget * dt } else { -(hold.budget * dt) };
-            x = add_scaled(x, spent, mobility.of(hold.direction));
+        for (held, impulse) in holds.iter().zip(impulse).filter(|(held, impulse)| held.slides(*impulse)) {
+            let (direction, budget) = self.hold(held.place);
+            let spent = budget.times(dt.plain());
+            let spent = if impulse > Real::zero() { spent } else { -spent };
+            x = add_scaled(x, spent, mobility.of(direction));
         }
         // what sticks takes the motion along it: x ← x − p·(d·x)/(d·p), p = H⁻¹d made orthogonal to those before
         let mut taken = [([zero; 3], [zero; 3], zero); 3];
         let mut rank = 0;
-        for ((hold, held), impulse) in holds.iter().zip(impulse) {
-            if slips(held, impulse) || rank == 3 {
+        for (held, impulse) in holds.iter().zip(impulse) {
+            if held.slides(impulse) || rank == 3 {
                 continue;
             }
-            let mut p = mobility.of(hold.direction);
-            for (direction, pushed, per) in &taken[..rank] {
-                p = add_scaled(p, -(dot(*direction, p) * *per), *pushed);
+            let (direction, _) = self.hold(held.place);
+            let mut p = mobility.of(direction);
+            for (other, pushed, per) in &taken[..rank] {
+                p = add_scaled(p, -(dot(*other, p) * *per), *pushed);
             }
-            let gives = dot(hold.direction, p);
+            let gives = dot(direction, p);
             // a direction that the others hold already
             if gives.plain() * held.stiffness < T::Plain::lit(1e-9) {
                 continue;
             }
             let per = one / gives;
-            x = add_scaled(x, -(dot(hold.direction, x) * per), p);
-            taken[rank] = (hold.direction, p, per);
+            x = add_scaled(x, -(dot(direction, x) * per), p);
+            taken[rank] = (direction, p, per);
             rank += 1;
         }
         if rank == 3 {
@@ -239,26 +301,24 @@ impl<const N: usize, T: Real> DryFriction<'_, N, T> {
     }
 }
 
-impl<P: Real> Held<P> {
-    fn none() -> Self {
-        let zero = P::zero();
-        Self { direction: [zero; 3], pushed: [zero; 3], stiffness: zero, most: zero }
-    }
-
-    fn new<T: Real<Plain = P>>(hold: &Hold<T>, mobility: &Mobility<P>, dt: P) -> Self {
-        let direction = hold.direction.map(T::plain);
-        let pushed = mobility.of(direction);
-        Self { direction, pushed, stiffness: P::one() / dot(direction, pushed), most: hold.budget.plain() * dt }
-    }
+/// Where a direction comes from.
+#[derive(Clone, Copy)]
+enum Place {
+    /// The body's axis
+    Axis(usize),
+    /// A wheel's shaft
+    Shaft(usize),
+    /// A wheel's rollers
+    Rollers(usize),
 }
 
 /// Projected Gauss–Seidel: the twist, and the impulse along every direction.
-fn projected_gauss_seidel<T, P: Real>(free: [P; 3], holds: &[(T, Held<P>)], dt: P) -> ([P; 3], [P; MOST]) {
+fn projected_gauss_seidel<P: Real>(free: [P; 3], holds: &[Held<P>], dt: P) -> ([P; 3], [P; MOST]) {
     let mut x = free;
     let mut impulse = [P::zero(); MOST];
     for _ in 0..SWEEPS {
         let mut moved = P::zero();
-        for ((_, held), impulse) in holds.iter().zip(&mut impulse) {
+        for (held, impulse) in holds.iter().zip(&mut impulse) {
             // λ ← clamp(λ − d·x / (dᵀH⁻¹d), ±b·Δt)
             let given = (*impulse - dot(held.direction, x) * held.stiffness).clamp(-held.most, held.most);
             let change = given - *impulse;

@@ -43,10 +43,10 @@ impl<T: Real> Electric<T> {
     /// Goes to another speed of the rotor, by `gained` [rad/s]; of a motor that is straight.
     #[inline]
     pub fn go_along(&mut self, gained: T) {
-        self.torque = self.torque - self.slope * gained;
+        self.torque -= self.slope * gained;
         let current = self.current_slope * gained;
         for i in [&mut self.sampled, &mut self.mean, &mut self.after] {
-            *i = *i - current;
+            *i -= current;
         }
     }
 
@@ -103,14 +103,15 @@ impl<T: Real> Look<T> {
 }
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
-    /// The motor of the wheel that `at` has entered, at its rotor's speed; `gain` is bus voltage over nominal.
+    /// The motor of the wheel that `at` has entered, at its rotor's speed; `gain` is bus voltage over nominal, one where
+    /// none is given.
     #[inline]
     pub(super) fn electric(
         &self,
         at: &EffectContext<T>,
         state: &State<N, T>,
         memory: &[E::State],
-        (source, gain): (&Source<'_, N, T>, T),
+        (source, gain): (&Source<'_, N, T>, Option<T>),
         motor: &mut Electric<T>,
     ) {
         let zero = T::zero();
@@ -133,14 +134,14 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 motor.resistance = winding.resistance;
             }
             Source::Voltage(command) => {
-                let u = command[j] * gain;
+                let u = gain.map_or(command[j], |gain| command[j] * gain);
                 if self.effects.none_on(&[Seam::Bridge, Seam::Winding], j) {
                     let (current, torque) = self.plain_motor(u, at.rotor_speed);
                     motor.put(torque, self.plain_slope, current, self.plain_current_slope);
                     return;
                 }
                 let turned = !self.effects.none_on(&[Seam::Winding], j);
-                let bus = self.robot.supply * gain;
+                let bus = gain.map_or(self.robot.supply, |gain| self.robot.supply * gain);
                 let drive = Bridge { command: command[j], bus, voltage: u, sampled: u, ..Bridge::default() };
                 let look = |current: T| {
                     let mut bridge = Bridge { current, ..drive };
@@ -237,7 +238,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         }
         let mut motor = Electric::default();
         let supplied = |voltage: T| {
-            let gain = voltage / nominal;
+            let gain = Some(voltage / nominal);
             let mut drawn = T::zero();
             for j in 0..N {
                 let speed = if contact[j].rolls() { rim[j] * contact[j].per_radius } else { state.wheel_speed[j] };

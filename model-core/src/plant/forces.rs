@@ -90,9 +90,8 @@ fn solve_motion<const N: usize, T: Real>(
     let [(push, push_rate), (own, own_rate)] = forces;
     // H = M + ½·Δt·A
     let half = dt.plain() * T::Plain::lit(0.5);
-    let h = |row: usize, column: usize| {
-        mass[row][column] + (push_rate[row][column] + own_rate[row][column]).times(half)
-    };
+    let h =
+        |row: usize, column: usize| mass[row][column] + (push_rate[row][column] + own_rate[row][column]).times(half);
     let plain = |row: usize, column: usize| {
         mass[row][column].plain() + (push_rate[row][column].plain() + own_rate[row][column].plain()) * half
     };

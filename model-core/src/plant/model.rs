@@ -2,12 +2,12 @@
 
 use super::robot::Robot;
 use super::state::State;
+use super::traction::Floor;
 use crate::effects::active::Effects;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Contact, EffectContext, STANDARD_GRAVITY, Shaft};
 use crate::effects::{Effect, EffectSet};
 use crate::geometry::frames::{BodyTwist, Pose};
-use crate::number::linalg::{accumulate_outer, dot};
 use crate::number::scalar::Real;
 use crate::plant::body::couples;
 
@@ -29,22 +29,29 @@ pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     /// −∂current/∂(wheel speed) and −∂torque/∂(wheel speed) of the plain motor [A·s] [N·m·s]
     pub(super) plain_current_slope: T,
     pub(super) plain_slope: T,
+    /// True if an effect looks at the windings' heat
+    pub(super) heats: bool,
     /// True if a shaft yields
     pub(super) yields: bool,
     /// The contacts as the robot's parameters describe them.
     pub(super) contact: [Contact<T>; N],
     /// The shafts with what the effects make of them
     pub(super) shafts: [Shaft<T>; N],
-    /// The contacts with what the effects make of them, where that is the same in every step
-    pub(super) settled: Option<[Contact<T>; N]>,
+    /// The contacts with what the effects make of them, and what they take, where that is the same in every step
+    pub(super) settled: Option<Settled<N, T>>,
     /// Each wheel's share of the body's Coulomb friction, as a torque at its shaft [N·m]
     pub(super) coulomb_share: [T; N],
     /// Damping of the plain model's motors in body axes
     pub(super) plain_rate: [[T; 3]; 3],
     /// True if it couples no axes
     pub(super) plain_decoupled: bool,
-    /// Each wheel's rolling direction, without derivatives
-    pub(super) direction: [[T::Plain; 2]; N],
+}
+
+/// The contacts of a model in which they are the same in every step, and what they take.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Settled<const N: usize, T> {
+    pub contact: [Contact<T>; N],
+    pub floors: [Floor<T>; N],
 }
 
 /// The shafts as effects describe them, which depends on nothing but their parameters.
@@ -61,17 +68,18 @@ fn shafts<const N: usize, T: Real, E: EffectSet<T>>(effects: &Effects<N, T, E>) 
 fn settled<const N: usize, T: Real, E: EffectSet<T>>(
     effects: &Effects<N, T, E>,
     mut contact: [Contact<T>; N],
-) -> Option<[Contact<T>; N]> {
+) -> Option<Settled<N, T>> {
     if !effects.at(Seam::Contact).all(|active| active.effect.settles_contact()) {
         return None;
     }
     for active in effects.at(Seam::Contact) {
         for (j, contact) in contact.iter_mut().enumerate().filter(|(j, _)| active.on(*j)) {
             active.effect.contact(&[], &EffectContext { wheel: j, ..EffectContext::default() }, contact);
-            contact.per_radius = T::one() / contact.radius;
+            contact.complete();
         }
     }
-    Some(contact)
+    let floors = core::array::from_fn(|j| Floor::of(&contact[j]));
+    Some(Settled { contact, floors })
 }
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
@@ -91,16 +99,17 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             contact[j].position = wheel.contact_point().into();
             let radius = wheel.radius;
             contact[j].radius = radius;
-            contact[j].per_radius = T::one() / radius;
+            contact[j].complete();
             // k = (l²·K_t·K_v/R)/r²
             let per_radius = contact[j].per_radius;
-            accumulate_outer(&mut plain_rate, electric * (per_radius * per_radius), rows[j]);
+            contact[j].add_rate(&mut plain_rate, electric * (per_radius * per_radius));
         }
         let chain = [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Shaft, Seam::Gear, Seam::Contact];
         let plain = chain.into_iter().all(|seam| effects.none_at(seam));
         let turns = !effects.none_at(Seam::Shaft) || !effects.none_at(Seam::Gear);
         let settled = settled(&effects, contact);
         let shafts = shafts(&effects);
+        let heats = effects.iter().any(|active| active.effect.needs_heat());
         let yields = shafts.iter().any(|shaft| shaft.stiffness > T::zero());
         Self {
             robot,
@@ -112,13 +121,13 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             per_resistance,
             plain_current_slope: emf * per_resistance,
             plain_slope: electric,
+            heats,
             yields,
             contact,
             shafts,
             settled,
             coulomb_share,
             plain_decoupled: !couples(|a, b| plain_rate[a][b].plain()),
-            direction: rows.map(|[cos, sin, _]| [cos.plain(), sin.plain()]),
             plain_rate,
         }
     }
@@ -214,7 +223,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// How fast the rim of wheel `j` passes the floor if it rolls, by the robot's own geometry [m/s].
     #[inline]
     pub(super) fn rim_speed(&self, state: &State<N, T>, j: usize) -> T {
-        dot(self.contact[j].row, state.twist.to_array())
+        self.contact[j].rim_speed(state.twist.to_array())
     }
 
     /// Goes on to wheel `j`, which turns at this speed [rad/s] and whose rim would pass the floor at this one [m/s].

@@ -9,7 +9,6 @@ use super::step::{Done, Push, Source, Turned};
 use super::traction::Floor;
 use crate::effects::EffectSet;
 use crate::geometry::frames::BodyTwist;
-use crate::number::linalg::dot;
 use crate::number::scalar::Real;
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
@@ -34,9 +33,10 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             let x = state.twist.to_array();
             let mut push = Push::none();
             for (j, (c, speed)) in contact.iter().zip(speed).enumerate() {
-                let (force, slope) = Floor::of(c).force(*speed * c.radius - dot(c.row, x));
+                let (force, slope) = Floor::of(c).force(*speed * c.radius - c.rim_speed(x));
                 // twice the slope: the floor's force is stiff, and this makes the step implicit in it
-                push.add(c.row, force, T::lit(2.0) * slope);
+                c.add_force(&mut push.force, force);
+                c.add_rate(&mut push.rate, slope.times(T::Plain::lit(2.0)));
                 if c.rollers_drag() {
                     push.add_rollers(j, c, x);
                 }

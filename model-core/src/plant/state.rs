@@ -35,7 +35,7 @@ pub struct State<const N: usize, T> {
     pub rotor_speed: [T; N],
     /// By how much each rotor is ahead of its wheel, counted at the wheel's shaft [rad]
     pub shaft_twist: [T; N],
-    /// Heat that the current has made in each winding [J]
+    /// Heat that the current has made in each winding [J]; kept up only while an effect looks at it
     pub heat: [T; N],
     /// Current in each motor at the end of the last step [A]
     pub current: [T; N],

@@ -32,17 +32,11 @@ impl<const N: usize, T: Real> Push<N, T> {
         Self { force: [zero; 3], rate: [[zero; 3]; 3], mass: [[zero; 3]; 3], shafts: None, rollers: None }
     }
 
-    /// Adds a force along a direction of the body's axes, and by how much it falls with the speed along it.
-    #[inline]
-    pub fn add(&mut self, row: [T; 3], force: T, rate: T) {
-        self.force = add_scaled(self.force, force, row);
-        accumulate_outer(&mut self.rate, rate, row);
-    }
-
     /// Adds the friction of a wheel's rollers.
     pub fn add_rollers(&mut self, j: usize, c: &Contact<T>, x: [T; 3]) {
         let row = c.axle_row();
-        self.add(row, -(c.roller_damping * dot(row, x)), c.roller_damping);
+        self.force = add_scaled(self.force, -(c.roller_damping * dot(row, x)), row);
+        accumulate_outer(&mut self.rate, c.roller_damping, row);
         if c.roller_friction > T::zero() {
             self.rollers.get_or_insert([Hold::none(); N])[j] = Hold { direction: row, budget: c.roller_friction };
         }
@@ -92,16 +86,16 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let x = state.twist.to_array();
         let mut at = self.at(state, dt);
         let hooked;
-        let contact = match &self.settled {
-            Some(settled) => settled,
+        let (contact, floors) = match &self.settled {
+            Some(settled) => (&settled.contact, Some(&settled.floors)),
             None => {
                 hooked = self.contacts(&mut at, state, memory);
-                &hooked
+                (&hooked, None)
             }
         };
-        let rim: [T; N] = core::array::from_fn(|j| dot(contact[j].row, x));
+        let rim: [T; N] = core::array::from_fn(|j| contact[j].rim_speed(x));
         let bus = self.bus(&mut at, state, memory, &source, (contact, &rim));
-        let gain = bus / self.robot.supply;
+        let gain = (!self.effects.none_at(Seam::Supply)).then(|| bus / self.robot.supply);
 
         let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
         let mut push = Push::none();
@@ -111,20 +105,25 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             let c = &contact[j];
             let rolling = rim[j] * c.per_radius;
             self.enter_wheel(&mut at, state, j, (rolling, rim[j]));
-            let drive = Drive { source: &source, gain, contact: c, before: state.wheel_speed[j] };
+            let floor = floors.map(|floors| &floors[j]);
+            let drive = Drive { source: &source, gain, contact: c, floor, before: state.wheel_speed[j] };
             self.wheel(&mut at, state, memory, &drive, &mut wheel);
             truth.current[j] = wheel.motor.sampled;
             truth.wheel_speed[j] = wheel.starts;
             state.wheel_speed[j] = wheel.speed;
             state.current[j] = wheel.motor.after;
-            // R·i²·Δt
-            turned.heat[j] = wheel.motor.resistance * wheel.motor.mean * wheel.motor.mean * dt;
+            if self.heats {
+                // R·i²·Δt
+                turned.heat.get_or_insert([zero; N])[j] =
+                    wheel.motor.resistance * wheel.motor.mean * wheel.motor.mean * dt;
+            }
             if self.yields {
                 turned.rotors.get_or_insert([Rotor::default(); N])[j] = wheel.rotor;
             }
-            push.add(c.row, wheel.force, wheel.rate);
+            c.add_force(&mut push.force, wheel.force);
+            c.add_rate(&mut push.rate, wheel.rate);
             if self.turns {
-                accumulate_outer(&mut push.mass, wheel.inertia * (c.per_radius * c.per_radius), c.row);
+                c.add_rate(&mut push.mass, wheel.inertia * (c.per_radius * c.per_radius));
             }
             if wheel.budget > zero {
                 push.shafts.get_or_insert([Hold::none(); N])[j] =
@@ -146,17 +145,12 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let x = state.twist.to_array();
         let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
         let mut force = [zero; 3];
-        for j in 0..N {
-            let c = &self.contact[j];
-            let ([cos, sin], [.., distance]) = (self.direction[j], c.row);
-            let rolling = (x[0].times(cos) + x[1].times(sin) + distance * x[2]) * c.per_radius;
-            let (current, torque) = self.plain_motor(command[j], rolling);
+        for (j, (c, command)) in self.contact.iter().zip(command).enumerate() {
+            let rolling = c.rim_speed(x) * c.per_radius;
+            let (current, torque) = self.plain_motor(*command, rolling);
             (truth.current[j], truth.wheel_speed[j]) = (current, rolling);
             // f = τ/r
-            let push = torque * c.per_radius;
-            force[0] += push.times(cos);
-            force[1] += push.times(sin);
-            force[2] += push * distance;
+            c.add_force(&mut force, torque * c.per_radius);
         }
         (state.current, state.wheel_speed) = (truth.current, truth.wheel_speed);
         if self.effects.is_empty() {
@@ -209,12 +203,14 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     fn turn_wheels(&self, state: &mut State<N, T>, mean: BodyTwist<T>, done: &Done<'_, N, T>, dt: T) {
         for (j, c) in done.contact.iter().enumerate() {
             let mean_speed = if c.rolls() {
-                dot(c.row, mean.to_array()) * c.per_radius
+                c.rim_speed(mean.to_array()) * c.per_radius
             } else {
                 T::lit(0.5) * (done.truth.wheel_speed[j] + state.wheel_speed[j])
             };
             state.wheel_angle[j] += dt * mean_speed;
-            state.heat[j] += done.turned.heat[j];
+            if let Some(heat) = &done.turned.heat {
+                state.heat[j] += heat[j];
+            }
             if let Some(rotors) = &done.turned.rotors
                 && self.shafts[j].stiffness > T::zero()
             {
@@ -240,7 +236,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             }
         }
         for c in &mut contact {
-            c.per_radius = T::one() / c.radius;
+            c.complete();
         }
         contact
     }
@@ -248,15 +244,15 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
 
 /// What a step did to the wheels, for what is remembered.
 pub(super) struct Turned<const N: usize, T> {
-    /// Heat in each winding [J]
-    pub heat: [T; N],
+    /// Heat in each winding [J], where an effect looks at it
+    pub heat: Option<[T; N]>,
     /// The rotors, where a shaft yields
     pub rotors: Option<[Rotor<T>; N]>,
 }
 
 impl<const N: usize, T: Real> Default for Turned<N, T> {
     fn default() -> Self {
-        Self { heat: [T::zero(); N], rotors: None }
+        Self { heat: None, rotors: None }
     }
 }
 

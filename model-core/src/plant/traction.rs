@@ -17,7 +17,7 @@ use crate::number::scalar::Real;
 const FASTEST: f64 = 1e6;
 
 /// What the floor takes of a wheel that gives way.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Floor<T> {
     /// μ·N, the most that it takes; zero: any force [N]
     limit: T,

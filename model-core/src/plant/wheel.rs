@@ -14,9 +14,11 @@ use crate::number::scalar::Real;
 /// What drives a wheel.
 pub(super) struct Drive<'a, const N: usize, T> {
     pub source: &'a Source<'a, N, T>,
-    /// Bus voltage over nominal
-    pub gain: T,
+    /// Bus voltage over nominal, where it may differ
+    pub gain: Option<T>,
     pub contact: &'a Contact<T>,
+    /// What the floor takes at that contact, where it is known already
+    pub floor: Option<&'a Floor<T>>,
     /// Wheel speed as last solved for [rad/s]
     pub before: T,
 }
@@ -103,7 +105,14 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         wheel: &mut Wheel<T>,
     ) {
         let (c, before) = (drive.contact, drive.before);
-        let floor = Floor::of(c);
+        let own;
+        let floor = match drive.floor {
+            Some(floor) => floor,
+            None => {
+                own = Floor::of(c);
+                &own
+            }
+        };
         let mut line = Line {
             torque: T::zero(),
             speed: before,
@@ -118,7 +127,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             line.torque = wheel.gear.torque - wheel.gear.damping * at.wheel_speed;
             line.speed = at.wheel_speed;
             line.fall = wheel.fall + wheel.gear.damping;
-            (wheel.force, wheel.rate, wheel.speed) = cross(&line, &floor);
+            (wheel.force, wheel.rate, wheel.speed) = cross(&line, floor);
             let gained = wheel.speed - at.wheel_speed;
             at.wheel_speed = wheel.speed;
             if wheel.motor.straight && !self.yields {

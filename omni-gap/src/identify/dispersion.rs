@@ -5,7 +5,8 @@
 
 use model_core::plant::robot::Nominal;
 
-use super::fit::{Fit, FitOptions, Free, fit, profile};
+use super::fit::{Fit, FitOptions, Free, fit_on, profile, starts_of};
+use super::linear::linearise;
 use super::prior::Prior;
 use super::settings::FitSettings;
 use super::shoot::Shots;
@@ -26,16 +27,21 @@ pub fn fit_with_dispersion<const N: usize>(
     settings: &FitSettings,
 ) -> Fit<N> {
     let mut dispersion = from.map_or_else(|| settings.caution * misfit(&model, shots, settings), |f| f.spread);
-    let starts = from.map(|f| f.starts.clone());
     let options = |dispersion| FitOptions { free, prior, dispersion, rounds: settings.rounds, by_window: false };
-    let mut fitted = fit(model, shots, starts, options(dispersion));
+    let starts = match from {
+        Some(fit) => fit.starts.clone(),
+        None => starts_of(&model, shots),
+    };
+    let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
+    let linear = linearise(&model, shots, &starts, &slots, false);
+    let (mut fitted, mut linear) = fit_on((model, starts, linear), shots, options(dispersion));
     for _ in 0..settings.temperings {
         if (fitted.spread / dispersion).ln().abs() < settings.settled {
             break;
         }
         dispersion = fitted.spread;
         let Fit { model, starts, .. } = fitted;
-        fitted = fit(model, shots, Some(starts), options(dispersion));
+        (fitted, linear) = fit_on((model, starts, linear), shots, options(dispersion));
     }
     fitted
 }

@@ -85,19 +85,32 @@ pub struct FitOptions<'a> {
 
 /// Fits the free numbers of `model` to the runs; `starts` are where to begin, if known from a fit before.
 pub fn fit<const N: usize>(
-    mut model: Model<N>,
+    model: Model<N>,
     shots: Shots<'_, N>,
     starts: Option<Vec<Starts>>,
     options: FitOptions<'_>,
 ) -> Fit<N> {
+    let starts = starts.unwrap_or_else(|| starts_of(&model, shots));
+    let slots: Vec<Slot> = options.free.iter().map(|f| f.slot).collect();
+    let linear = linearise(&model, shots, &starts, &slots, false);
+    fit_on((model, starts, linear), shots, options).0
+}
+
+/// Starts from the smoothed measurements, for all windows of all runs.
+pub(super) fn starts_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -> Vec<Starts> {
+    let plant = model.plant();
+    shots.runs.iter().zip(shots.windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect()
+}
+
+/// The same from a model, its starts, and what they are linearised to; and what the fitted model is linearised to.
+pub(super) fn fit_on<const N: usize>(
+    (mut model, mut starts, mut linear): (Model<N>, Vec<Starts>, Linearised),
+    shots: Shots<'_, N>,
+    options: FitOptions<'_>,
+) -> (Fit<N>, Linearised) {
     let FitOptions { free, prior, dispersion, rounds, by_window } = options;
     let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
-    let mut starts = starts.unwrap_or_else(|| {
-        let plant = model.plant();
-        shots.runs.iter().zip(shots.windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect()
-    });
     let mut damping = 1e-7;
-    let mut linear = linearise(&model, shots, &starts, &slots, false);
     let mut total = linear.cost().0 / dispersion + prior.cost(&model);
     'rounds: for _ in 0..rounds {
         let reduced = with_prior(linear.reduced().with_dispersion(dispersion), &model, free, prior);
@@ -138,7 +151,7 @@ pub fn fit<const N: usize>(
     let reduced = with_prior(data.clone(), &model, free, prior);
     let (cost, samples) = linear.cost();
     let spread = spread(&reduced, &equations).max(cost / samples.max(1) as f64).max(1.0);
-    Fit {
+    let fitted = Fit {
         spread,
         covariance: covariance(&reduced, data, free.len()),
         equations,
@@ -149,7 +162,8 @@ pub fn fit<const N: usize>(
         starts,
         cost,
         samples,
-    }
+    };
+    (fitted, linear)
 }
 
 /// The best starts for a model as it is, and each window's Σ error² and count: how well whole runs are predicted.
@@ -159,9 +173,7 @@ pub fn profile<const N: usize>(
     settings: &FitSettings,
 ) -> (Vec<Starts>, Vec<Vec<(f64, usize)>>) {
     let none = DVector::zeros(0);
-    let plant = model.plant();
-    let mut starts: Vec<Starts> =
-        shots.runs.iter().zip(shots.windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect();
+    let mut starts = starts_of(model, shots);
     let mut linear = linearise(model, shots, &starts, &[], false);
     for _ in 0..settings.start_rounds {
         let moved = linear.starts_after(&starts, &none);

@@ -17,6 +17,9 @@ use crate::simulate::{AlignedRun, Model, SignalGroup, Slot};
 /// The most derivatives that one pass takes; more than these are taken in passes of [`KEPT`].
 const MOST: usize = 20;
 
+/// As many as all nominal values and two numbers of an effect take, with a twist.
+const USUAL: usize = 18;
+
 /// Derivatives of a pass with few parameters, and of each pass whose windows are kept.
 const KEPT: usize = 10;
 
@@ -84,6 +87,8 @@ pub fn linearise<const N: usize>(
                 summed::<N, KEPT>(course, piece)
             } else if lanes <= JOINT {
                 summed::<N, JOINT>(course, piece)
+            } else if lanes <= USUAL {
+                summed::<N, USUAL>(course, piece)
             } else {
                 summed::<N, MOST>(course, piece)
             };

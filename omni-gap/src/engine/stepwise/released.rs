@@ -65,11 +65,7 @@ fn one_step<const N: usize>(fit: &Fit<N>, prior: &Prior) -> Option<OneStep> {
 /// For every parameter cause, the drop of the whole cost that striking out its statement promises.
 ///
 /// With v the violations of the statements in question and K their leverage, the drop is vᵀ(1 − K)⁻¹v.
-fn gains<const N: usize>(
-    fit: &Fit<N>,
-    prior: &Prior,
-    causes: &[FreedPrior],
-) -> Vec<(FreedPrior, f64)> {
+fn gains<const N: usize>(fit: &Fit<N>, prior: &Prior, causes: &[FreedPrior]) -> Vec<(FreedPrior, f64)> {
     let reduced = fit.stated(fit.equations.clone(), prior);
     let Some(hess) = reduced.hess.cholesky() else { return Vec::new() };
     let violations = prior.violations(&fit.model);
