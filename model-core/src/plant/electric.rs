@@ -10,8 +10,8 @@
 //! its last step is taken in the full number type, so that a dual number carries the derivative of the solution.
 
 use super::model::Plant;
+use super::source::Source;
 use super::state::State;
-use super::step::Source;
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Bridge, Contact, EffectContext, Supply, Winding};

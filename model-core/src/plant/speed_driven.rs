@@ -4,8 +4,9 @@
 //! or slip, the floor's force follows from the slip, and the body moves by its dynamics.
 
 use super::model::Plant;
+use super::source::Source;
 use super::state::{Reading, State};
-use super::step::{Done, Push, Source, Turned};
+use super::step::{Done, Push, Turned};
 use super::traction::Floor;
 use crate::effects::EffectSet;
 use crate::geometry::frames::BodyTwist;

@@ -2,6 +2,7 @@
 
 use super::model::Plant;
 use super::shaft::Rotor;
+use super::source::Source;
 use super::state::{Input, Reading, State};
 use super::wheel::{Drive, Wheel};
 use crate::effects::EffectSet;
@@ -39,23 +40,6 @@ impl<const N: usize, T: Real> Push<N, T> {
         accumulate_outer(&mut self.rate, c.roller_damping, row);
         if c.roller_friction > T::zero() {
             self.rollers.get_or_insert([Hold::none(); N])[j] = Hold { direction: row, budget: c.roller_friction };
-        }
-    }
-}
-
-/// The input of a step in which forces move the body.
-#[derive(Clone, Copy)]
-pub(super) enum Source<'a, const N: usize, T> {
-    Voltage(&'a [T; N]),
-    Current(&'a [T; N]),
-    Speed,
-}
-
-impl<const N: usize, T: Real> Source<'_, N, T> {
-    pub(super) fn command(&self, wheel: usize) -> T {
-        match self {
-            Self::Voltage(u) => u[wheel],
-            Self::Current(_) | Self::Speed => T::zero(),
         }
     }
 }

@@ -3,8 +3,8 @@
 use super::electric::Electric;
 use super::model::Plant;
 use super::shaft::{Before, Rotor};
+use super::source::Source;
 use super::state::State;
-use super::step::Source;
 use super::traction::{Floor, Line, cross};
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
