@@ -171,13 +171,14 @@ pub const ALL: [Spoiled; 47] = [
             "[[effects.wheel_slip]]\nfriction_coefficient = 0.4\n[[effects.wheel_slip]]\nwheel = 1\nfriction_coefficient = 0.4\n",
         );
     }),
-    spoiled("twenty-one effects", Refused("room for 20 effects"), |f| {
+    spoiled("twenty-five effects", Refused("room for 24 effects"), |f| {
         for (id, size) in [
             ("wheel_slip", "friction_coefficient = 0.4"),
             ("motor_mismatch", "torque_constant_ratio = 0.9"),
             ("creep", "creep_m_s_per_N = 0.01"),
             ("gear_efficiency", "efficiency = 0.9"),
             ("dead_time", "voltage_loss_V = 0.2"),
+            ("rotor_inertia", "inertia_at_wheel_kg_m2 = 1e-5"),
         ] {
             for wheel in 0..4 {
                 append(f, &format!("[[effects.{id}]]\nwheel = {wheel}\n{size}\n"));

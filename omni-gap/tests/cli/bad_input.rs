@@ -131,8 +131,9 @@ fn an_effect_in_the_wrong_place_twice_or_one_too_many() {
     let creep = |wheel: usize| format!("[[effects.creep]]\nwheel = {wheel}\ncreep_m_s_per_N = 0.01\n");
     let gear = |wheel: usize| format!("[[effects.gear_efficiency]]\nwheel = {wheel}\nefficiency = 0.9\n");
     let dead = |wheel: usize| format!("[[effects.dead_time]]\nwheel = {wheel}\nvoltage_loss_V = 0.2\n");
+    let rotor = |wheel: usize| format!("[[effects.rotor_inertia]]\nwheel = {wheel}\ninertia_at_wheel_kg_m2 = 1e-5\n");
     let twenty = on_all(&slip) + &on_all(&weak) + &on_all(&creep) + &on_all(&gear) + &on_all(&dead);
-    let many = twenty + "[effects.coriolis]\n";
+    let many = twenty + &on_all(&rotor) + "[effects.coriolis]\n";
     for (effects, line, says) in [
         ("[effects.coriolis]\nwheel = 1\n".to_owned(), 2, "acts on the whole robot"),
         ("[effects.motor_mismatch]\ntorque_constant_ratio = 0.9\n".to_owned(), 1, "sits on one wheel"),
@@ -140,7 +141,7 @@ fn an_effect_in_the_wrong_place_twice_or_one_too_many() {
         (slip(1).replace("0.4", "1e200"), 3, "expected a value from"),
         (slip(1).replace("friction_coefficient", "friction_coeficient"), 3, "Did you mean `friction_coefficient`?"),
         (slip(1) + &slip(1), 4, "on wheel 1 stands twice"),
-        (many, 61, "a model has room for 20 effects"),
+        (many, 73, "a model has room for 24 effects"),
     ] {
         let bench = Bench::with_session();
         let text = bench.read("session/robot.toml");
