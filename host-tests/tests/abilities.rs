@@ -3,6 +3,9 @@
 //! Each ability of the plant that the catalogue does not use yet, shown by an effect that stands only here, against a
 //! reference that shares nothing with the core: a closed form, or equations integrated for themselves.
 
+#[path = "support/blank_card.rs"]
+mod blank_card;
+
 #[path = "abilities/effects.rs"]
 mod effects;
 

@@ -4,6 +4,8 @@
 //! the step's error, then the effects: what each may touch, that it can be absent, what the mechanism carries, and the
 //! page that is made from the cards.
 
+#[path = "support/blank_card.rs"]
+mod blank_card;
 #[path = "proof/fixture.rs"]
 mod fixture;
 #[path = "proof/golden.rs"]

@@ -5,32 +5,14 @@ use std::cell::RefCell;
 use model_core::effect_set;
 use model_core::effects::Hooks;
 use model_core::effects::active::Effects;
-use model_core::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use model_core::effects::card::{Card, Scope, Seam};
 use model_core::effects::seams::{Body, Contact, EffectContext, Gear, STANDARD_GRAVITY, Sense, Shaft};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::paper;
 use model_core::plant::robot::{Friction, Robot};
 use model_core::plant::{Input, Plant, Reading, State};
 
-const PARAM: Param =
-    Param { key: "x", symbol: "x", unit: "1", absent: 0.0, typical: 1.0, within: (0.0, 1e3), role: Role::Size };
-
-const BLANK: Card = Card {
-    id: "ability",
-    title: "",
-    summary: "",
-    equation: "",
-    source: "",
-    seams: &[],
-    scope: Scope::Wheels,
-    params: &[PARAM],
-    needs_current: false,
-    signature: "",
-    look_alikes: &[],
-    code: 0,
-    undone: Undone::No("it stands only here"),
-    physics: Physics::PASSIVE,
-};
+use crate::blank_card::BLANK;
 
 const fn at(seam: &'static [Seam], scope: Scope) -> Card {
     Card { seams: seam, scope, ..BLANK }

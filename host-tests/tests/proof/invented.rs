@@ -3,30 +3,12 @@
 use std::cell::RefCell;
 
 use model_core::effect_set;
-use model_core::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use model_core::effects::card::{Card, Scope, Seam};
 use model_core::effects::electrical::supply_sag::{self, SupplySag};
 use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
 use model_core::effects::{Hooks, Numbers, State};
 
-const PARAM: Param =
-    Param { key: "x", symbol: "x", unit: "1", absent: 0.0, typical: 1.0, within: (0.0, 1e3), role: Role::Size };
-
-const BLANK: Card = Card {
-    id: "invented",
-    title: "",
-    summary: "",
-    equation: "",
-    source: "",
-    seams: &[],
-    scope: Scope::Wheels,
-    params: &[PARAM],
-    needs_current: false,
-    signature: "",
-    look_alikes: &[],
-    code: 0,
-    undone: Undone::No("it is invented"),
-    physics: Physics::PASSIVE,
-};
+use crate::blank_card::BLANK;
 
 /// A number that is kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
