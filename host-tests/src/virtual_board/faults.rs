@@ -6,7 +6,7 @@ use model_core::effects::card::{Card, Physics, Scope, Seam, Undone};
 use model_core::effects::seams::{
     Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, StepOutcome, Supply, Winding,
 };
-use model_core::effects::{Effect, EffectSet, EffectState};
+use model_core::effects::{Effect, EffectSet, EffectState, Needs};
 
 /// Something that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,6 +99,20 @@ impl EffectSet<f64> for OnBoard {
         match self {
             OnBoard::Effect(effect) => effect.start(),
             OnBoard::BlockedWheel => None,
+        }
+    }
+
+    fn settles_contact(&self) -> bool {
+        match self {
+            OnBoard::Effect(effect) => effect.settles_contact(),
+            OnBoard::BlockedWheel => true,
+        }
+    }
+
+    fn needs(&self) -> Needs {
+        match self {
+            OnBoard::Effect(effect) => effect.needs(),
+            OnBoard::BlockedWheel => Needs::NOTHING,
         }
     }
 

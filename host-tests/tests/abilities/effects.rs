@@ -3,10 +3,10 @@
 use std::cell::RefCell;
 
 use model_core::effect_set;
-use model_core::effects::Hooks;
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Card, Scope, Seam};
 use model_core::effects::seams::{Body, Contact, EffectContext, Gear, STANDARD_GRAVITY, Sense, Shaft};
+use model_core::effects::{Hooks, Needs};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::paper;
 use model_core::plant::robot::{Friction, Robot};
@@ -125,6 +125,7 @@ pub struct LoadTransfer {
 
 impl Hooks<f64> for LoadTransfer {
     type State = ();
+    const NEEDS: Needs = Needs { acceleration: true, ..Needs::NOTHING };
 
     fn contact(&self, _: &(), at: &EffectContext<f64>, x: &mut Contact<f64>) {
         let [ax, ay, _] = at.acceleration;
@@ -158,7 +159,7 @@ pub struct WheelWitness;
 
 impl Hooks<f64> for WheelWitness {
     type State = ();
-    const NEEDS_HEAT: bool = true;
+    const NEEDS: Needs = Needs { angle: true, heat: true, acceleration: true };
 
     fn gear(&self, _: &(), at: &EffectContext<f64>, _: &mut Gear<f64>) {
         TOLD.with_borrow_mut(|told| told.push(*at));
@@ -171,6 +172,7 @@ pub struct BodyWitness;
 
 impl Hooks<f64> for BodyWitness {
     type State = ();
+    const NEEDS: Needs = Needs { angle: true, heat: true, acceleration: true };
 
     fn sense(&self, _: &(), at: &EffectContext<f64>, _: &mut Sense<f64>) {
         TOLD.with_borrow_mut(|told| told.push(*at));

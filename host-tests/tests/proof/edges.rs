@@ -31,9 +31,7 @@ fn finite<const N: usize, T: Real>(run: &Run<N, T>, reading: &Reading<N, T>) -> 
     all.extend(run.state.twist.to_array());
     all.extend(pose(run.state.pose));
     all.extend(pose(reading.pose));
-    for wheels in
-        [run.state.wheel_speed, run.state.wheel_angle, run.state.current, reading.current, reading.wheel_speed]
-    {
+    for wheels in [run.state.wheel_speed, run.state.current, reading.current, reading.wheel_speed] {
         all.extend(wheels);
     }
     for mut state in run.memory.iter().copied() {

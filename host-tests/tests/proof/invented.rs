@@ -6,7 +6,7 @@ use model_core::effect_set;
 use model_core::effects::card::{Card, Scope, Seam};
 use model_core::effects::electrical::supply_sag::{self, SupplySag};
 use model_core::effects::seams::{Body, Bridge, Contact, EffectContext, Gear, Sense, StepOutcome, Supply, Winding};
-use model_core::effects::{Hooks, Numbers, State};
+use model_core::effects::{Hooks, Needs, Numbers, State};
 
 use crate::blank_card::BLANK;
 
@@ -37,6 +37,7 @@ effect_set! {
         Emptying(Emptying, &const { Card { seams: &[Seam::Supply], scope: Scope::Robot, ..BLANK } }),
         Limit(Limit, &const { Card { seams: &[Seam::Bridge], ..BLANK } }),
         LargeWheel(LargeWheel, &const { Card { seams: &[Seam::Contact], ..BLANK } }),
+        Glass(Glass, &const { Card { seams: &[Seam::Contact], ..BLANK } }),
         Eccentric(Eccentric, &const { Card { seams: &[Seam::Sense], ..BLANK } }),
         GyroScale(GyroScale, &const { Card { seams: &[Seam::Sense], scope: Scope::Robot, ..BLANK } }),
         GyroOffset(GyroOffset, &const { Card { seams: &[Seam::Sense], scope: Scope::Robot, ..BLANK } }),
@@ -52,6 +53,7 @@ pub struct Cogging(pub f64);
 
 impl Hooks<f64> for Cogging {
     type State = ();
+    const NEEDS: Needs = Needs { angle: true, ..Needs::NOTHING };
 
     fn gear(&self, _: &(), at: &EffectContext<f64>, x: &mut Gear<f64>) {
         x.torque += self.0 * (18.0 * at.wheel_angle).sin_cos().0;
@@ -160,12 +162,26 @@ impl Hooks<f64> for LargeWheel {
     }
 }
 
+/// A floor so slippery that it holds the part x of a wheel's load; it looks at the wheel's angle, and finds nothing there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Glass(pub f64);
+
+impl Hooks<f64> for Glass {
+    type State = ();
+    const NEEDS: Needs = Needs { angle: true, ..Needs::NOTHING };
+
+    fn contact(&self, _: &(), _: &EffectContext<f64>, x: &mut Contact<f64>) {
+        (x.grip, x.stiffness, x.shape) = (self.0, 30.0, 1.0);
+    }
+}
+
 /// An encoder that reads x times the wheel's angle on top of its speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eccentric(pub f64);
 
 impl Hooks<f64> for Eccentric {
     type State = ();
+    const NEEDS: Needs = Needs { angle: true, ..Needs::NOTHING };
 
     fn sense(&self, _: &(), at: &EffectContext<f64>, x: &mut Sense<f64>) {
         x.wheel_speed += self.0 * at.wheel_angle;
@@ -217,6 +233,7 @@ pub struct WheelSpy;
 
 impl Hooks<f64> for WheelSpy {
     type State = Kept;
+    const NEEDS: Needs = Needs { angle: true, ..Needs::NOTHING };
 
     fn bridge(&self, _: &Kept, at: &EffectContext<f64>, _: &mut Bridge<f64>) {
         record_hook("drive", at);
@@ -244,6 +261,7 @@ pub struct RobotSpy;
 
 impl Hooks<f64> for RobotSpy {
     type State = Kept;
+    const NEEDS: Needs = Needs { angle: true, ..Needs::NOTHING };
 
     fn supply(&self, _: &Kept, at: &EffectContext<f64>, _: &mut Supply<f64>) {
         record_hook("supply", at);

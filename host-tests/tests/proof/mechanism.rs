@@ -9,8 +9,8 @@ use model_core::plant::{Input, Plant};
 
 use crate::fixture::{Run, effect, four, gap, larger, plain, three, with_effect, with_invented};
 use crate::invented::{
-    Carpet, Cogging, Eccentric, Emptying, GyroOffset, GyroScale, Heating, Inductance, Invented, InventedState, Kept,
-    LargeWheel, Limit, RobotSpy, SEEN, WheelSpy, Wind,
+    Carpet, Cogging, Eccentric, Emptying, Glass, GyroOffset, GyroScale, Heating, Inductance, Invented, InventedState,
+    Kept, LargeWheel, Limit, RobotSpy, SEEN, WheelSpy, Wind,
 };
 
 /// The paper's four wheels with so much friction that nothing moves: currents can then be told in closed form.
@@ -217,7 +217,7 @@ fn the_current_of_a_bridge_with_dead_time_is_that_of_the_closed_form() {
 
 #[test]
 fn the_angle_of_a_wheel_that_slips_is_that_of_the_wheel() {
-    let mut run = Run::new(with_effect(four::<f64>(), effect("wheel_slip"), None, &[0.1, 30.0, 1.0]));
+    let mut run = Run::new(with_invented(four::<f64>(), Invented::Glass(Glass(0.1)), None));
     let speed = [40.0, -40.0, -40.0, 40.0];
     for _ in 0..100 {
         run.step(&Input::Speed(speed), 1e-3);

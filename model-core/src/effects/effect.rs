@@ -8,6 +8,33 @@ use super::seams::{
 };
 use crate::number::scalar::Real;
 
+/// What the plant keeps up only while an effect looks at it. An effect that has not asked for it is told NaN, so that a law
+/// that forgot to ask shows at once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// The angles of wheel and rotor ([`EffectContext::wheel_angle`], [`EffectContext::rotor_angle`])
+    pub angle: bool,
+    /// The windings' heat ([`EffectContext::heat`], [`StepOutcome::heat`])
+    pub heat: bool,
+    /// The body's acceleration ([`EffectContext::acceleration`])
+    pub acceleration: bool,
+}
+
+impl Needs {
+    /// None of it.
+    pub const NOTHING: Self = Self { angle: false, heat: false, acceleration: false };
+
+    /// What either needs.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            angle: self.angle || other.angle,
+            heat: self.heat || other.heat,
+            acceleration: self.acceleration || other.acceleration,
+        }
+    }
+}
+
 /// Something that holds numbers, beside whatever else it counts with.
 pub trait Numbers<T>: Copy + Debug {
     /// Visits every number.
@@ -52,8 +79,8 @@ pub trait Hooks<T: Real>: Copy + Debug {
 
     /// True if [`Hooks::contact`] needs the parameters alone: the plant then asks it once, and not in every step.
     const SETTLES_CONTACT: bool = false;
-    /// True if it looks at heat ([`EffectContext::heat`], [`StepOutcome::heat`]), which is kept up only then.
-    const NEEDS_HEAT: bool = false;
+    /// What it looks at that the plant keeps up only for effects that need it.
+    const NEEDS: Needs = Needs::NOTHING;
 
     /// Battery: bus current → bus voltage.
     #[inline]
@@ -135,13 +162,9 @@ pub trait EffectSet<T: Real>: Copy + Debug {
     /// What it remembers before anything has happened; `None` if it never remembers anything.
     fn start(&self) -> Option<Self::State>;
     /// [`Hooks::SETTLES_CONTACT`]
-    fn settles_contact(&self) -> bool {
-        false
-    }
-    /// [`Hooks::NEEDS_HEAT`]
-    fn needs_heat(&self) -> bool {
-        false
-    }
+    fn settles_contact(&self) -> bool;
+    /// [`Hooks::NEEDS`]
+    fn needs(&self) -> Needs;
     /// [`Hooks::supply`]
     fn supply(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Supply<T>);
     /// [`Hooks::bridge`]

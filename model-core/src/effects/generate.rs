@@ -45,8 +45,8 @@ macro_rules! effect_set {
                 match self { $($Set::$Variant(_) => <$Type as $crate::effects::Hooks<$n>>::SETTLES_CONTACT),* }
             }
 
-            fn needs_heat(&self) -> bool {
-                match self { $($Set::$Variant(_) => <$Type as $crate::effects::Hooks<$n>>::NEEDS_HEAT),* }
+            fn needs(&self) -> $crate::effects::Needs {
+                match self { $($Set::$Variant(_) => <$Type as $crate::effects::Hooks<$n>>::NEEDS),* }
             }
 
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], supply, Supply);

@@ -13,7 +13,7 @@ pub mod card;
 pub mod seams;
 
 mod effect;
-pub use effect::{Catalogued, EffectSet, Hooks, Numbers, State};
+pub use effect::{Catalogued, EffectSet, Hooks, Needs, Numbers, State};
 
 #[macro_use]
 mod generate;

@@ -6,7 +6,7 @@
 //! which other effects are there.
 
 use crate::geometry::frames::{BodyTwist, Pose};
-use crate::number::linalg::{accumulate_outer, add_scaled, dot};
+use crate::number::linalg::{accumulate_upper, add_scaled, dot};
 use crate::number::scalar::Real;
 
 /// Standard gravity [m/s²].
@@ -21,7 +21,7 @@ pub struct EffectContext<T> {
     pub dt: T,
     /// The wheel, for an effect of wheels; 0 otherwise
     pub wheel: usize,
-    /// Angle of that wheel since the start of the run [rad]
+    /// Angle of that wheel since the start of the run [rad]; see [`Needs`](crate::effects::Needs), as for every angle
     pub wheel_angle: T,
     /// Speed of that wheel at the wheel shaft [rad/s]
     pub wheel_speed: T,
@@ -34,7 +34,7 @@ pub struct EffectContext<T> {
     /// Speed of that wheel's rim over the floor if it rolls [m/s]
     pub rim_speed: T,
     /// Heat that the current has made in that wheel's winding since the start of the run [J]; see
-    /// [`Hooks::NEEDS_HEAT`](crate::effects::Hooks::NEEDS_HEAT)
+    /// [`Needs`](crate::effects::Needs)
     pub heat: T,
     /// l, motor speed over wheel speed [1]
     pub gear_ratio: T,
@@ -43,7 +43,7 @@ pub struct EffectContext<T> {
     /// Velocity in the body frame
     pub twist: BodyTwist<T>,
     /// Acceleration of the body's centre in the last step, along the body's axes, the turning of the axes counted in:
-    /// (dv/dt − ω·vn, dvn/dt + ω·v, dω/dt) [m/s², m/s², rad/s²]
+    /// (dv/dt − ω·vn, dvn/dt + ω·v, dω/dt) [m/s², m/s², rad/s²]; see [`Needs`](crate::effects::Needs)
     pub acceleration: [T; 3],
     /// Bus voltage of the last step [V]
     pub bus: T,
@@ -185,48 +185,47 @@ impl<T: Real> Contact<T> {
 
     /// Speed of the rim over the floor if the wheel rolls, at a body twist [m/s].
     #[inline(always)]
-    pub fn rim_speed(&self, twist: [T; 3]) -> T {
-        // cos α·v + sin α·vn + d·ω
-        if self.fixed_direction {
-            let [cos, sin, distance] = self.row;
-            return twist[0].times(cos.plain()) + twist[1].times(sin.plain()) + distance * twist[2];
+    pub fn rim_speed(&self, twist: BodyTwist<T>) -> T {
+        let BodyTwist { v, vn, w } = &twist;
+        if !self.fixed_direction {
+            return dot(self.row, [*v, *vn, *w]);
         }
-        dot(self.row, twist)
+        let [cos, sin, distance] = self.row.each_ref().map(|x| x.plain());
+        // cos α·v + sin α·vn + d·ω
+        let speed = v.plain() * cos + vn.plain() * sin + distance * w.plain();
+        T::chain(speed, [(v, cos), (vn, sin), (w, distance), (&self.row[2], w.plain())])
     }
 
     /// Adds a force of the rim to one on the body, in the body's axes.
     #[inline(always)]
     pub fn add_force(&self, body: &mut [T; 3], force: T) {
-        if self.fixed_direction {
-            let [cos, sin, distance] = self.row;
-            body[0] += force.times(cos.plain());
-            body[1] += force.times(sin.plain());
-            body[2] += force * distance;
-        } else {
+        if !self.fixed_direction {
             *body = add_scaled(*body, force, self.row);
+            return;
         }
+        let [cos, sin, distance] = self.row.each_ref().map(|x| x.plain());
+        body[0].add_chain(force.plain() * cos, [(&force, cos)]);
+        body[1].add_chain(force.plain() * sin, [(&force, sin)]);
+        body[2].add_chain(force.plain() * distance, [(&force, distance), (&self.row[2], force.plain())]);
     }
 
-    /// Adds something in proportion to the rim's speed, such as −∂force/∂speed or an inertia, to one of the body.
+    /// Adds something in proportion to the rim's speed, such as −∂force/∂speed or an inertia, to one of the body, which is
+    /// symmetric: on its diagonal and above.
     #[inline(always)]
     pub fn add_rate(&self, body: &mut [[T; 3]; 3], rate: T) {
         if !self.fixed_direction {
-            return accumulate_outer(body, rate, self.row);
+            return accumulate_upper(body, rate, self.row);
         }
-        let [cos, sin, distance] = self.row;
-        let (cos, sin) = (cos.plain(), sin.plain());
+        let [cos, sin, distance] = self.row.each_ref().map(|x| x.plain());
+        let arm = &self.row[2];
         // rate·row·rowᵀ
-        let (along, across, about) = (rate.times(cos), rate.times(sin), rate * distance);
-        body[0][0] += along.times(cos);
-        body[1][1] += across.times(sin);
-        body[2][2] += about * distance;
-        let mut both = |a: usize, b: usize, x: T| {
-            body[a][b] += x;
-            body[b][a] += x;
-        };
-        both(0, 1, along.times(sin));
-        both(0, 2, along * distance);
-        both(1, 2, across * distance);
+        let (along, across, about) = (rate.plain() * cos, rate.plain() * sin, rate.plain() * distance);
+        body[0][0].add_chain(along * cos, [(&rate, cos * cos)]);
+        body[0][1].add_chain(along * sin, [(&rate, cos * sin)]);
+        body[1][1].add_chain(across * sin, [(&rate, sin * sin)]);
+        body[0][2].add_chain(along * distance, [(&rate, cos * distance), (arm, along)]);
+        body[1][2].add_chain(across * distance, [(&rate, sin * distance), (arm, across)]);
+        body[2][2].add_chain(about * distance, [(&rate, distance * distance), (arm, about + about)]);
     }
 
     /// Works out what follows from what effects may have changed.
@@ -257,7 +256,7 @@ impl<T: Real> Contact<T> {
 pub struct Body<T> {
     /// Mass matrix about the centre that poses and rows refer to, symmetric [kg, kg·m, kg·m²]
     pub mass: [[T; 3]; 3],
-    /// Force that is not friction and not from the wheels [N, N, N·m]
+    /// Force of the wheels and of all else but dry friction [N, N, N·m]
     pub force: [T; 3],
     /// −∂force/∂twist: damping, and the rate of turning forces
     pub rate: [[T; 3]; 3],
@@ -297,7 +296,7 @@ pub struct StepOutcome<T> {
     /// Wheel speed at the wheel shaft [rad/s]
     pub wheel_speed: T,
     /// Heat that the current made in this wheel's winding [J]; see
-    /// [`Hooks::NEEDS_HEAT`](crate::effects::Hooks::NEEDS_HEAT)
+    /// [`Needs`](crate::effects::Needs)
     pub heat: T,
     /// Current drawn from the battery [A]
     pub bus_current: T,

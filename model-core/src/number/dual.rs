@@ -33,6 +33,32 @@ pub struct Dual<const K: usize> {
     pub eps: [f64; K],
 }
 
+/// Derivatives, one after the other.
+#[inline(always)]
+fn each<const K: usize>(a: [f64; K], f: impl Fn(f64) -> f64) -> [f64; K] {
+    let mut out = [0.0; K];
+    for k in 0..K {
+        out[k] = f(a[k]);
+    }
+    out
+}
+
+/// The same of two numbers.
+#[inline(always)]
+fn both<const K: usize>(a: [f64; K], b: &[f64; K], f: impl Fn(f64, f64) -> f64) -> [f64; K] {
+    let mut out = [0.0; K];
+    for k in 0..K {
+        out[k] = f(a[k], b[k]);
+    }
+    out
+}
+
+/// A value, and the derivatives of two numbers, each so many times.
+#[inline(always)]
+fn weighed<const K: usize>(re: f64, (x, a): (&Dual<K>, f64), (y, b): (&Dual<K>, f64)) -> Dual<K> {
+    Dual { re, eps: both(x.eps, &y.eps, |x, y| x * a + y * b) }
+}
+
 impl<const K: usize> Dual<K> {
     /// A number that depends on no parameter; `x` in its own unit.
     #[inline]
@@ -52,27 +78,19 @@ impl<const K: usize> Dual<K> {
 
     /// A function of one number, of which the value and the slope at `self.re` are known.
     #[inline]
-    fn chain(self, value: f64, slope: f64) -> Self {
+    fn of_one(self, value: f64, slope: f64) -> Self {
         // f(x)˙ = f′(x)·ẋ;  no finite slope counts as none
         let slope = if f64::is_finite(slope) { slope } else { 0.0 };
-        let mut eps = self.eps;
-        for e in &mut eps {
-            *e *= slope;
-        }
-        Self { re: value, eps }
+        Self { re: value, eps: each(self.eps, |e| e * slope) }
     }
 
     /// A function of two numbers, of which the value and both slopes are known.
     #[inline]
-    fn chain2(self, other: Self, value: f64, slope: f64, other_slope: f64) -> Self {
+    fn of_two(self, other: Self, value: f64, slope: f64, other_slope: f64) -> Self {
         // f(x, y)˙ = ∂f/∂x·ẋ + ∂f/∂y·ẏ;  no finite slope counts as none
         let slope = if f64::is_finite(slope) { slope } else { 0.0 };
         let other_slope = if f64::is_finite(other_slope) { other_slope } else { 0.0 };
-        let mut eps = self.eps;
-        for (e, o) in eps.iter_mut().zip(&other.eps) {
-            *e = slope * *e + other_slope * o;
-        }
-        Self { re: value, eps }
+        weighed(value, (&self, slope), (&other, other_slope))
     }
 }
 
@@ -134,9 +152,10 @@ impl<const K: usize> Sub for Dual<K> {
 impl<const K: usize> Mul for Dual<K> {
     type Output = Self;
     #[inline(always)]
-    fn mul(mut self, other: Self) -> Self {
-        self *= other;
-        self
+    fn mul(self, other: Self) -> Self {
+        // (x·y)˙ = ẋ·y + x·ẏ
+        let (x, y) = (self.re, other.re);
+        weighed(x * y, (&self, y), (&other, x))
     }
 }
 
@@ -154,9 +173,7 @@ impl<const K: usize> Neg for Dual<K> {
     #[inline(always)]
     fn neg(mut self) -> Self {
         self.re = -self.re;
-        for e in &mut self.eps {
-            *e = -*e;
-        }
+        self.eps = each(self.eps, |e| -e);
         self
     }
 }
@@ -166,9 +183,7 @@ impl<const K: usize> AddAssign for Dual<K> {
     fn add_assign(&mut self, other: Self) {
         // (x + y)˙ = ẋ + ẏ
         self.re += other.re;
-        for (e, o) in self.eps.iter_mut().zip(&other.eps) {
-            *e += o;
-        }
+        self.eps = both(self.eps, &other.eps, |e, o| e + o);
     }
 }
 
@@ -177,20 +192,14 @@ impl<const K: usize> SubAssign for Dual<K> {
     fn sub_assign(&mut self, other: Self) {
         // (x − y)˙ = ẋ − ẏ
         self.re -= other.re;
-        for (e, o) in self.eps.iter_mut().zip(&other.eps) {
-            *e -= o;
-        }
+        self.eps = both(self.eps, &other.eps, |e, o| e - o);
     }
 }
 
 impl<const K: usize> MulAssign for Dual<K> {
     #[inline(always)]
     fn mul_assign(&mut self, other: Self) {
-        // (x·y)˙ = ẋ·y + x·ẏ
-        for (e, o) in self.eps.iter_mut().zip(&other.eps) {
-            *e = *e * other.re + self.re * o;
-        }
-        self.re *= other.re;
+        *self = *self * other;
     }
 }
 
@@ -199,10 +208,8 @@ impl<const K: usize> DivAssign for Dual<K> {
     fn div_assign(&mut self, other: Self) {
         // q = x/y,  q̇ = (ẋ − q·ẏ)/y
         self.re /= other.re;
-        let inverse = 1.0 / other.re;
-        for (e, o) in self.eps.iter_mut().zip(&other.eps) {
-            *e = (*e - self.re * o) * inverse;
-        }
+        let (q, inverse) = (self.re, 1.0 / other.re);
+        self.eps = both(self.eps, &other.eps, |e, o| (e - o * q) * inverse);
     }
 }
 
@@ -229,10 +236,24 @@ impl<const K: usize> Real for Dual<K> {
     fn times(mut self, factor: f64) -> Self {
         // (x·k)˙ = ẋ·k
         self.re *= factor;
-        for e in &mut self.eps {
-            *e *= factor;
-        }
+        self.eps = each(self.eps, |e| e * factor);
         self
+    }
+    #[inline(always)]
+    fn chain<const M: usize>(value: f64, slopes: [(&Self, f64); M]) -> Self {
+        // f(x)˙ = Σ ∂f/∂x_i·ẋ_i
+        let mut eps = [0.0; K];
+        for (x, slope) in slopes {
+            eps = both(eps, &x.eps, |sum, e| sum + e * slope);
+        }
+        Self { re: value, eps }
+    }
+    #[inline(always)]
+    fn add_chain<const M: usize>(&mut self, value: f64, slopes: [(&Self, f64); M]) {
+        self.re += value;
+        for (x, slope) in slopes {
+            self.eps = both(self.eps, &x.eps, |sum, e| sum + e * slope);
+        }
     }
     #[inline]
     fn index(self) -> usize {
@@ -245,35 +266,39 @@ impl<const K: usize> Real for Dual<K> {
     #[inline]
     fn sqrt(self) -> Self {
         // (√x)˙ = ẋ/(2·√x)
-        let root = self.re.sqrt();
-        self.chain(root, 0.5 / root)
+        let root = Real::sqrt(self.re);
+        self.of_one(root, 0.5 / root)
     }
     #[inline]
     fn exp(self) -> Self {
         // (eˣ)˙ = eˣ·ẋ
-        let power = self.re.exp();
-        self.chain(power, power)
+        let power = Real::exp(self.re);
+        self.of_one(power, power)
     }
     #[inline]
     fn pow(self, y: Self) -> Self {
-        let power = self.re.pow(y.re);
-        // (xʸ)˙ = y·xʸ⁻¹·ẋ + xʸ·ln x·ẏ;  at x = 0 both slopes count as 0
+        let power = Real::pow(self.re, y.re);
+        // (xʸ)˙ = y·xʸ/x·ẋ + xʸ·ln x·ẏ;  at x = 0 both slopes count as 0
         if self.re == 0.0 {
             return Self::constant(power);
         }
-        self.chain2(y, power, y.re * self.re.pow(y.re - 1.0), power * libm::log(self.re))
+        let slope = y.re * power / self.re;
+        if y.is_constant() {
+            return self.of_one(power, slope);
+        }
+        self.of_two(y, power, slope, power * libm::log(self.re))
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
         // (sin x)˙ = cos x·ẋ,  (cos x)˙ = −sin x·ẋ
-        let (sin, cos) = self.re.sin_cos();
-        (self.chain(sin, cos), self.chain(cos, -sin))
+        let (sin, cos) = Real::sin_cos(self.re);
+        (self.of_one(sin, cos), self.of_one(cos, -sin))
     }
     #[inline]
     fn atan2(self, x: Self) -> Self {
         // φ = atan2(y, x),  φ̇ = (x·ẏ − y·ẋ)/(x² + y²)
         let square = x.re * x.re + self.re * self.re;
-        self.chain2(x, self.re.atan2(x.re), x.re / square, -self.re / square)
+        self.of_two(x, Real::atan2(self.re, x.re), x.re / square, -self.re / square)
     }
 }
 

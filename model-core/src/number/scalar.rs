@@ -51,6 +51,16 @@ pub trait Real:
     fn times(self, factor: Self::Plain) -> Self {
         self * Self::from_plain(factor)
     }
+    /// A function of several numbers, of which the value and each partial derivative are known: f(x) + Σ ∂f/∂x_i·ẋ_i.
+    #[inline(always)]
+    fn chain<const M: usize>(value: Self::Plain, _: [(&Self, Self::Plain); M]) -> Self {
+        Self::from_plain(value)
+    }
+    /// The sum with such a function.
+    #[inline(always)]
+    fn add_chain<const M: usize>(&mut self, value: Self::Plain, _: [(&Self, Self::Plain); M]) {
+        *self += Self::from_plain(value);
+    }
     /// The value without its derivatives; the number itself for `f32` and `f64`.
     #[inline]
     fn value(self) -> Self {
@@ -239,7 +249,8 @@ impl Real for f64 {
     }
     #[inline]
     fn pow(self, y: Self) -> Self {
-        libm::pow(self, y)
+        // the square is the power that laws have, and libm takes as long for it as for any other
+        if y == 2.0 { self * self } else { libm::pow(self, y) }
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {

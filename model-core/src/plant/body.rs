@@ -6,88 +6,34 @@
 //! ```
 //!
 //! The first line is the linearly implicit midpoint rule: second order in Δt where F is smooth, stable for any damping.
-//! The second says what dry friction is: each direction d_k (a body axis, or a wheel's rolling direction) can give an
-//! impulse up to its budget, and gives as much of it as it takes to hold still. Wheels and body are coupled through H,
-//! so the impulses are resolved together: sweeps of projected Gauss–Seidel, in plain numbers, tell which directions stick
-//! and which slide; those that slide spend their whole budget, those that stick take the motion along them, which is a
-//! closed form in any number type. Where the axes are uncoupled and no wheel has a budget, all of it is the closed form
-//! −sign(F_stop)·min(|F_stop|, b), F_stop = H·x/Δt + F.
+//! The second says what dry friction is: each direction d_k (a body axis, a wheel's rolling direction or its axle) can give
+//! an impulse up to its budget, and gives as much of it as it takes to hold still. Wheels and body are coupled through H,
+//! so the impulses are resolved together. There is one x⁺ that fits, whatever way it is found:
 //!
-//! Every single update brings the kinetic energy ½·xᵀHx down, so friction never creates any, however few the sweeps.
+//! 1. Where the axes are uncoupled and no wheel has a budget, it is the closed form −sign(F_stop)·min(|F_stop|, b),
+//!    F_stop = H·x/Δt + F.
+//! 2. Otherwise axes that rest and axes that slide are guessed from the motion before, the linear equations that are left
+//!    are solved, and the guess is mended until it fits: at once in most steps.
+//! 3. Where that does not end, because a wheel's own friction holds while the body moves, sweeps do it
+//!    (`dry_friction.rs`).
+//!
+//! All of it in plain numbers. What derivatives x⁺ has then follows from the equations that hold at it (the implicit
+//! function theorem), without a look at how it was found.
 
+use super::dry_friction::{WheelHolds, stick};
+use crate::effects::seams::Body;
 use crate::number::linalg::{Mat3, add_scaled, dot, inverse3, mul_mat_vec};
 use crate::number::scalar::Real;
 
-/// Sweeps at the most; sliding and single sticking directions need one.
-const SWEEPS: usize = 40;
-
-/// Sweeps end once nothing changes any acceleration by more than this [m/s², rad/s²].
-const RESOLUTION: f64 = 1e-3;
-
-/// The inverse of H, which is usually diagonal: then the axes do not couple.
-#[derive(Clone, Copy, Debug)]
-pub enum Mobility<T: Real> {
-    /// 1/H on the diagonal
-    Diagonal([T; 3]),
-    /// H⁻¹ without derivatives, and H
-    Full(Mat3<T::Plain>, Mat3<T>),
-}
-
-impl<T: Real> Mobility<T> {
-    /// The inverse of H = M + ½·Δt·A in body axes, whose entries `h` gives by row and column, and `plain` without
-    /// derivatives.
-    #[inline]
-    pub fn new(plain: impl Fn(usize, usize) -> T::Plain, h: impl Fn(usize, usize) -> T) -> Self {
-        if couples(&plain) {
-            let matrix = |row: usize| core::array::from_fn(|column| plain(row, column));
-            let inverse = inverse3(&core::array::from_fn(matrix));
-            Self::Full(inverse, core::array::from_fn(|row| core::array::from_fn(|column| h(row, column))))
-        } else {
-            Self::Diagonal(core::array::from_fn(|axis| Self::along(h(axis, axis))))
-        }
-    }
-
-    /// The inverse of an entry on the diagonal.
-    #[inline(always)]
-    pub fn along(h: T) -> T {
-        T::one() / h
-    }
-
-    /// The same without derivatives.
-    fn plain(&self) -> Mobility<T::Plain> {
-        match self {
-            Self::Diagonal(d) => Mobility::Diagonal(d.map(T::plain)),
-            Self::Full(inverse, h) => Mobility::Full(*inverse, h.map(|row| row.map(T::plain))),
-        }
-    }
-
-    /// H⁻¹·f.
-    #[inline(always)]
-    pub fn of(&self, f: [T; 3]) -> [T; 3] {
-        let (inverse, h) = match self {
-            Self::Diagonal(d) => return [d[0] * f[0], d[1] * f[1], d[2] * f[2]],
-            Self::Full(inverse, h) => (inverse, h),
-        };
-        let x = mul_mat_vec(inverse, f.map(T::plain));
-        if !T::DERIVATIVES {
-            return x.map(T::from_plain);
-        }
-        // ẋ = H⁻¹·(ḟ − Ḣ·x)
-        let times = |row: &[T; 3], x: [T::Plain; 3]| row[0].times(x[0]) + row[1].times(x[1]) + row[2].times(x[2]);
-        let left: [T; 3] = core::array::from_fn(|row| f[row] - times(&h[row], x));
-        core::array::from_fn(|row| {
-            let change = times(&left, inverse[row]);
-            T::from_plain(x[row]) + (change - change.value())
-        })
-    }
-}
+/// How often the axes that rest are guessed.
+const GUESSES: usize = 6;
 
 /// True if a matrix couples its axes.
 ///
 /// An off-diagonal entry below 10⁻⁹ of its diagonal entries' geometric mean is rounding (a symmetric layout's cosines
 /// cancel) and counts as zero.
 #[inline]
-pub fn couples<P: Real>(h: impl Fn(usize, usize) -> P) -> bool {
+pub(super) fn couples<P: Real>(h: impl Fn(usize, usize) -> P) -> bool {
     let small = P::lit(1e-18);
     let pair = |a: usize, b: usize| {
         let bound = small * h(a, a) * h(b, b);
@@ -96,252 +42,241 @@ pub fn couples<P: Real>(h: impl Fn(usize, usize) -> P) -> bool {
     pair(0, 1) || pair(0, 2) || pair(1, 2)
 }
 
-/// The speed along an axis that couples with no other, after a step: `x` is that before it, `impulse` what all forces but
-/// dry friction give, `budget` what dry friction holds at the most.
-#[inline(always)]
-pub fn spend_along<T: Real>(x: T, impulse: T, mobility: T, budget: T, dt: T) -> T {
-    // x⁺ = x_free − clamp(x_free, ±H⁻¹·b·Δt)
-    let free = x + mobility * impulse;
-    let most = (mobility * budget).times(dt.plain());
-    free - free.clamp(-most, most)
+/// What moves the body along an axis that couples with no other.
+pub(super) struct Axis<'a, T> {
+    /// M [kg, kg·m²]
+    pub mass: &'a T,
+    /// A = −∂F/∂x [N·s/m, N·m·s]
+    pub rate: &'a T,
+    /// F, dry friction left out [N, N·m]
+    pub force: &'a T,
+    /// The most that dry friction holds [N, N·m]
+    pub budget: &'a T,
 }
 
-/// A direction in which dry friction holds, and the most that it can hold.
-#[derive(Clone, Copy, Debug)]
-pub struct Hold<T> {
-    /// Speed along it over body twist [1, 1, m]
-    pub direction: [T; 3],
-    /// The most that it holds [N]
-    pub budget: T,
-}
-
-impl<T: Real> Hold<T> {
-    /// Nothing is held.
-    pub fn none() -> Self {
-        Self { direction: [T::zero(); 3], budget: T::zero() }
+impl<T: Real> Axis<'_, T> {
+    /// The speed along it after a step [m/s, rad/s].
+    #[inline(always)]
+    pub fn after(&self, x: &T, dt: T::Plain) -> T {
+        let half = dt * T::Plain::lit(0.5);
+        // H = M + ½·Δt·A
+        let mobility = T::Plain::one() / (self.mass.plain() + self.rate.plain() * half);
+        // x⁺ = x_free − clamp(x_free, ±H⁻¹·b·Δt)
+        let free = x.plain() + mobility * (self.force.plain() * dt);
+        let most = mobility * self.budget.plain() * dt;
+        let held = free.clamp(-most, most);
+        let after = free - held;
+        if !T::DERIVATIVES {
+            return T::from_plain(after);
+        }
+        if most > Real::zero() && free.abs() <= most {
+            return T::zero();
+        }
+        // H·(x⁺ − x) = Δt·(F ∓ b), differentiated
+        let change = -(mobility * (after - x.plain()));
+        let spent = if held > Real::zero() { -(mobility * dt) } else { mobility * dt };
+        let forces = [(x, T::Plain::one()), (self.force, mobility * dt), (self.budget, spent)];
+        T::chain(after, [forces[0], forces[1], forces[2], (self.mass, change), (self.rate, change * half)])
     }
 }
 
-/// Everything dry in a step.
-#[derive(Clone, Copy, Debug)]
-pub struct DryFriction<'a, const N: usize, T> {
-    /// Of the body along its axes [N, N, N·m]
-    pub axes: [T; 3],
-    /// Of the shafts, along the wheels' rolling directions
-    pub shafts: Option<&'a [Hold<T>; N]>,
-    /// Of the rollers, along the wheels' axles
-    pub rollers: Option<&'a [Hold<T>; N]>,
+/// Everything that moves the body in a step.
+pub(super) struct Motion<'a, const N: usize, T: Real> {
+    pub body: &'a Body<T>,
+    /// Dry friction of shafts and rollers
+    pub holds: WheelHolds<'a, N, T>,
+    /// Δt [s]
+    pub dt: T::Plain,
 }
 
-/// The body's axes, and of each wheel its shaft and its rollers.
-const MOST: usize = 3 + 2 * 4;
-
-/// A direction as the sweeps see it.
+/// A guess of what dry friction does along the body's axes.
 #[derive(Clone, Copy)]
-struct Held<P> {
-    place: Place,
-    /// d
-    direction: [P; 3],
-    /// H⁻¹·d
-    pushed: [P; 3],
-    /// 1/(dᵀH⁻¹d)
-    stiffness: P,
-    /// The most impulse
-    most: P,
+struct Guess<P> {
+    rests: [bool; 3],
+    /// Which way it pushes, of an axis that slides; zero without a budget
+    against: [P; 3],
 }
 
-impl<P: Real> Held<P> {
-    /// True if an impulse is all that it can give.
-    fn slides(&self, impulse: P) -> bool {
-        impulse.abs() >= self.most
+/// A guess, and where it leads.
+struct Solved<P> {
+    guess: Guess<P>,
+    /// x⁺
+    after: [P; 3],
+    /// x⁺ − x
+    change: [P; 3],
+    /// (H with the rows of what rests given over to x⁺ = 0)⁻¹
+    inverse: Mat3<P>,
+}
+
+/// The same without derivatives.
+struct Plain<P> {
+    h: Mat3<P>,
+    x: [P; 3],
+    /// Δt·F, with what the wheels' dry friction gives
+    impulse: [P; 3],
+    /// b·Δt along the axes
+    most: [P; 3],
+}
+
+impl<P: Real> Plain<P> {
+    /// Everything goes on as it moved.
+    #[inline]
+    fn first_guess(&self) -> Guess<P> {
+        let budgets = |axis: usize| self.most[axis] > P::zero();
+        Guess {
+            rests: core::array::from_fn(|axis| budgets(axis) && self.x[axis] == P::zero()),
+            against: core::array::from_fn(|axis| if budgets(axis) { -self.x[axis].sign() } else { P::zero() }),
+        }
+    }
+
+    #[inline]
+    fn solve(&self, guess: Guess<P>) -> Solved<P> {
+        let (zero, one) = (P::zero(), P::one());
+        let (mut rows, mut right) = (self.h, self.impulse);
+        for axis in 0..3 {
+            if guess.rests[axis] {
+                rows[axis] = [zero; 3];
+                rows[axis][axis] = one;
+                right[axis] = -self.x[axis];
+            } else {
+                right[axis] += guess.against[axis] * self.most[axis];
+            }
+        }
+        let inverse = inverse3(&rows);
+        let change = mul_mat_vec(&inverse, right);
+        let after = core::array::from_fn(|axis| if guess.rests[axis] { zero } else { self.x[axis] + change[axis] });
+        Solved { guess, after, change, inverse }
+    }
+
+    /// The guess that follows from this one's failing; `None` where it fits.
+    #[inline]
+    fn mended(&self, solved: &Solved<P>) -> Option<Guess<P>> {
+        let zero = P::zero();
+        let mut next = solved.guess;
+        let mut fits = true;
+        for axis in 0..3 {
+            if solved.guess.rests[axis] {
+                // what it takes to hold still
+                let needed = dot(self.h[axis], solved.change) - self.impulse[axis];
+                if needed.abs() > self.most[axis] {
+                    (next.rests[axis], next.against[axis]) = (false, needed.sign());
+                    fits = false;
+                }
+            } else if self.most[axis] > zero && solved.after[axis] * solved.guess.against[axis] >= zero {
+                (next.rests[axis], next.against[axis]) = (true, zero);
+                fits = false;
+            }
+        }
+        (!fits).then_some(next)
     }
 }
 
-impl<const N: usize, T: Real> DryFriction<'_, N, T> {
-    /// The twist after a step: `x` is that before it [m/s, m/s, rad/s], `impulse` what all forces but dry friction give
-    /// [N·s, N·s, N·m·s].
+impl<const N: usize, T: Real> Motion<'_, N, T> {
+    /// The twist after a step from `x` [m/s, m/s, rad/s].
     #[inline]
-    pub fn spend(&self, x: [T; 3], impulse: [T; 3], mobility: &Mobility<T>, dt: T) -> [T; 3] {
-        if let Mobility::Diagonal(d) = mobility
-            && self.shafts.is_none()
-            && self.rollers.is_none()
-        {
-            return core::array::from_fn(|axis| spend_along(x[axis], impulse[axis], d[axis], self.axes[axis], dt));
-        }
-        let free = || {
-            let change = mobility.of(impulse);
-            [x[0] + change[0], x[1] + change[1], x[2] + change[2]]
-        };
-        self.slide(x, x, impulse, mobility, dt).unwrap_or_else(|| {
-            let free = free();
-            self.slide(free, x, impulse, mobility, dt).unwrap_or_else(|| self.stick(free, mobility, dt))
-        })
-    }
-
-    /// What the wheels hold.
-    #[inline]
-    fn of_wheels(&self) -> impl Iterator<Item = &Hold<T>> {
-        self.shafts.into_iter().flatten().chain(self.rollers.into_iter().flatten())
-    }
-
-    /// The twist if every direction slides as `along` does: the whole budget of each, against that motion. `None` if that
-    /// would stop one or turn it round.
-    #[inline]
-    fn slide(&self, along: [T; 3], x: [T; 3], impulse: [T; 3], mobility: &Mobility<T>, dt: T) -> Option<[T; 3]> {
-        // the directions of motion are a matter of values alone
-        let along = along.map(T::plain);
-        let speed = |hold: &Hold<T>, x| dot(hold.direction.map(T::plain), x);
-        let against = |speed: T::Plain, most: T| if speed > Real::zero() { -most } else { most };
-        let mut force: [T; 3] = core::array::from_fn(|axis| against(along[axis], self.axes[axis]));
-        for hold in self.of_wheels() {
-            force = add_scaled(force, against(speed(hold, along), hold.budget), hold.direction);
-        }
-        // x⁺ = x + H⁻¹·(Δt·F − Σ d_k·sign(d_k·x)·b_k·Δt)
-        let change = mobility.of(add_scaled(impulse, dt, force));
-        let after = [x[0] + change[0], x[1] + change[1], x[2] + change[2]];
-        let to = after.map(T::plain);
-        let goes_on = |before: T::Plain, after: T::Plain, most: T| most <= T::zero() || before * after > Real::zero();
-        let axes = (0..3).all(|axis| goes_on(along[axis], to[axis], self.axes[axis]));
-        let wheels = self.of_wheels().all(|hold| goes_on(speed(hold, along), speed(hold, to), hold.budget));
-        (axes && wheels).then_some(after)
-    }
-
-    /// A direction, and the most that it holds [N].
-    #[inline]
-    fn hold(&self, place: Place) -> ([T; 3], T) {
-        let of_wheel = |holds: Option<&[Hold<T>; N]>, j: usize| {
-            holds.map_or_else(|| ([T::zero(); 3], T::zero()), |holds| (holds[j].direction, holds[j].budget))
-        };
-        match place {
-            Place::Axis(axis) => {
-                let mut direction = [T::zero(); 3];
-                direction[axis] = T::one();
-                (direction, self.axes[axis])
+    pub fn after(&self, x: [T; 3]) -> [T; 3] {
+        let half = self.dt * T::Plain::lit(0.5);
+        let Body { mass, force, rate, budget } = self.body;
+        // H = M + ½·Δt·A
+        let h = |row: usize, column: usize| mass[row][column].plain() + rate[row][column].plain() * half;
+        if self.holds.are_none() && !couples(h) {
+            let mut next = [T::zero(); 3];
+            for (k, next) in next.iter_mut().enumerate() {
+                let axis = Axis { mass: &mass[k][k], rate: &rate[k][k], force: &force[k], budget: &budget[k] };
+                *next = axis.after(&x[k], self.dt);
             }
-            Place::Shaft(j) => of_wheel(self.shafts, j),
-            Place::Rollers(j) => of_wheel(self.rollers, j),
+            return next;
         }
-    }
-
-    /// All directions that hold anything, without derivatives, and how many.
-    #[inline]
-    fn held(&self, mobility: &Mobility<T::Plain>, dt: T::Plain) -> ([Held<T::Plain>; MOST], usize) {
-        let zero = T::Plain::zero();
-        let mut all =
-            [Held { place: Place::Axis(0), direction: [zero; 3], pushed: [zero; 3], stiffness: zero, most: zero };
-                MOST];
-        let mut count = 0;
-        let mut add = |place: Place, direction: [T::Plain; 3], budget: T::Plain| {
-            if budget > zero {
-                let pushed = mobility.of(direction);
-                let stiffness = T::Plain::one() / dot(direction, pushed);
-                all[count] = Held { place, direction, pushed, stiffness, most: budget * dt };
-                count += 1;
-            }
+        let free: [T::Plain; 3] = core::array::from_fn(|axis| force[axis].plain() * self.dt);
+        // the wheels turn on as they did
+        let mut along = x.map(T::plain);
+        let mut plain = Plain {
+            h: core::array::from_fn(|row| core::array::from_fn(|column| h(row, column))),
+            x: along,
+            impulse: self.less_wheels(free, along),
+            most: core::array::from_fn(|axis| budget[axis].plain() * self.dt),
         };
-        for (axis, budget) in self.axes.iter().enumerate() {
-            let mut direction = [zero; 3];
-            direction[axis] = T::Plain::one();
-            add(Place::Axis(axis), direction, budget.plain());
+        let mut guess = plain.first_guess();
+        for _ in 0..GUESSES {
+            let solved = plain.solve(guess);
+            match plain.mended(&solved) {
+                Some(next) => guess = next,
+                None if self.wheels_agree(along, solved.after) => return self.with_derivatives(&x, along, &solved),
+                None => {
+                    along = solved.after;
+                    plain.impulse = self.less_wheels(free, along);
+                }
+            }
         }
-        for (j, hold) in self.shafts.into_iter().flatten().enumerate() {
-            add(Place::Shaft(j), hold.direction.map(T::plain), hold.budget.plain());
-        }
-        for (j, hold) in self.rollers.into_iter().flatten().enumerate() {
-            add(Place::Rollers(j), hold.direction.map(T::plain), hold.budget.plain());
-        }
-        (all, count)
+        stick(self, x)
     }
 
-    /// The twist where some directions stick: which ones is found in plain numbers; the twist then follows at once.
-    #[inline(never)]
-    fn stick(&self, free: [T; 3], mobility: &Mobility<T>, dt: T) -> [T; 3] {
-        let (zero, one) = (T::zero(), T::one());
-        let (all, count) = self.held(&mobility.plain(), dt.plain());
-        let holds = &all[..count];
-        let (resting, impulse) = projected_gauss_seidel(free.map(T::plain), holds, dt.plain());
-
-        // what slides spends all it has
-        let mut x = free;
-        for (held, impulse) in holds.iter().zip(impulse).filter(|(held, impulse)| held.slides(*impulse)) {
-            let (direction, budget) = self.hold(held.place);
-            let spent = budget.times(dt.plain());
-            let spent = if impulse > Real::zero() { spent } else { -spent };
-            x = add_scaled(x, spent, mobility.of(direction));
+    /// An impulse, less what the wheels' dry friction takes while they turn along a twist.
+    #[inline]
+    fn less_wheels(&self, mut impulse: [T::Plain; 3], along: [T::Plain; 3]) -> [T::Plain; 3] {
+        for hold in self.holds.iter() {
+            let most = hold.budget.plain() * self.dt;
+            impulse = add_scaled(impulse, -(hold.speed(along).sign() * most), hold.direction.map(T::plain));
         }
-        // what sticks takes the motion along it: x ← x − p·(d·x)/(d·p), p = H⁻¹d made orthogonal to those before
-        let mut taken = [([zero; 3], [zero; 3], zero); 3];
-        let mut rank = 0;
-        for (held, impulse) in holds.iter().zip(impulse) {
-            if held.slides(impulse) || rank == 3 {
+        impulse
+    }
+
+    /// True if two twists turn every wheel the same way.
+    #[inline]
+    fn wheels_agree(&self, a: [T::Plain; 3], b: [T::Plain; 3]) -> bool {
+        self.holds.iter().all(|hold| hold.speed(a).sign() == hold.speed(b).sign())
+    }
+
+    /// x⁺ with its derivatives: those of H·(x⁺ − x) = Δt·F − Σ ±b·Δt·d along what slides, of x⁺ = 0 along what rests.
+    #[inline]
+    fn with_derivatives(&self, x: &[T; 3], along: [T::Plain; 3], solved: &Solved<T::Plain>) -> [T; 3] {
+        let Solved { guess, after, change, inverse } = solved;
+        if !T::DERIVATIVES {
+            return after.map(T::from_plain);
+        }
+        let (zero, one) = (T::Plain::zero(), T::Plain::one());
+        let Body { mass, force, rate, budget } = self.body;
+        let by_mass = change.map(|change| -change);
+        let by_rate = by_mass.map(|by_mass| by_mass * self.dt * T::Plain::lit(0.5));
+        let mut right = [T::zero(); 3];
+        for (row, right) in right.iter_mut().enumerate() {
+            if guess.rests[row] {
+                *right = -x[row];
                 continue;
             }
-            let (direction, _) = self.hold(held.place);
-            let mut p = mobility.of(direction);
-            for (other, pushed, per) in &taken[..rank] {
-                p = add_scaled(p, -(dot(*other, p) * *per), *pushed);
+            let (m, a) = (&mass[row], &rate[row]);
+            let forces = [(&force[row], self.dt), (&budget[row], guess.against[row] * self.dt)];
+            let masses = [(&m[0], by_mass[0]), (&m[1], by_mass[1]), (&m[2], by_mass[2])];
+            let rates = [(&a[0], by_rate[0]), (&a[1], by_rate[1]), (&a[2], by_rate[2])];
+            let all = [forces[0], forces[1], masses[0], masses[1], masses[2], rates[0], rates[1], rates[2]];
+            *right = T::chain(zero, all);
+            for hold in self.holds.iter() {
+                let against = -hold.speed(along).sign() * self.dt;
+                let (direction, most) = (&hold.direction[row], &hold.budget);
+                let spent = [(most, against * direction.plain()), (direction, against * most.plain())];
+                *right += T::chain(zero, spent);
             }
-            let gives = dot(direction, p);
-            // a direction that the others hold already
-            if gives.plain() * held.stiffness < T::Plain::lit(1e-9) {
-                continue;
-            }
-            let per = one / gives;
-            x = add_scaled(x, -(dot(direction, x) * per), p);
-            taken[rank] = (direction, p, per);
-            rank += 1;
         }
-        if rank == 3 {
-            x = [zero; 3];
+        let mut next = [T::zero(); 3];
+        for (row, next) in next.iter_mut().enumerate().filter(|(row, _)| !guess.rests[*row]) {
+            let k = inverse[row];
+            *next = T::chain(after[row], [(&x[row], one), (&right[0], k[0]), (&right[1], k[1]), (&right[2], k[2])]);
         }
-        // sweeps that ended early may have missed the set by one: then their twist stands, with these derivatives
-        let near = T::Plain::lit(10.0 * RESOLUTION) * dt.plain();
-        let agrees = (0..3).all(|axis| !(x[axis].plain() - resting[axis]).exceeds(near));
-        if agrees { x } else { core::array::from_fn(|k| T::from_plain(resting[k]) + (x[k] - x[k].value())) }
+        next
     }
-}
-
-/// Where a direction comes from.
-#[derive(Clone, Copy)]
-enum Place {
-    /// The body's axis
-    Axis(usize),
-    /// A wheel's shaft
-    Shaft(usize),
-    /// A wheel's rollers
-    Rollers(usize),
-}
-
-/// Projected Gauss–Seidel: the twist, and the impulse along every direction.
-fn projected_gauss_seidel<P: Real>(free: [P; 3], holds: &[Held<P>], dt: P) -> ([P; 3], [P; MOST]) {
-    let mut x = free;
-    let mut impulse = [P::zero(); MOST];
-    for _ in 0..SWEEPS {
-        let mut moved = P::zero();
-        for (held, impulse) in holds.iter().zip(&mut impulse) {
-            // λ ← clamp(λ − d·x / (dᵀH⁻¹d), ±b·Δt)
-            let given = (*impulse - dot(held.direction, x) * held.stiffness).clamp(-held.most, held.most);
-            let change = given - *impulse;
-            *impulse = given;
-            x = add_scaled(x, change, held.pushed);
-            moved = moved.max((change / held.stiffness).abs());
-        }
-        if moved < P::lit(RESOLUTION) * dt {
-            break;
-        }
-    }
-    (x, impulse)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::dry_friction::Hold;
     use super::*;
 
     /// The twist that friction on the body's axes, and on wheels (direction, budget), leaves in 1 ms.
     fn spent(free: [f64; 3], h: [[f64; 3]; 3], axes: [f64; 3], wheels: Option<[([f64; 3], f64); 4]>) -> [f64; 3] {
         let shafts = wheels.map(|all| all.map(|(direction, budget)| Hold { direction, budget }));
-        let dry = DryFriction { axes, shafts: shafts.as_ref(), rollers: None };
-        dry.spend(free, [0.0; 3], &Mobility::new(|a, b| h[a][b], |a, b| h[a][b]), 1e-3)
+        let body = Body { mass: h, budget: axes, ..Body::default() };
+        let holds = WheelHolds { shafts: shafts.as_ref(), rollers: None };
+        Motion { body: &body, holds, dt: 1e-3 }.after(free)
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! # Plant: the robot that the equations describe, and its motion
 //!
-//! A [`robot`] has a [`winding`] on every wheel and a [`body`]; the paper's own two are in [`paper`]. The [`Plant`]
+//! A [`robot`] has a [`winding`] on every wheel; the paper's own two are in [`paper`]. The [`Plant`]
 //! puts them together with the effects of [`effects`](crate::effects), and takes one step of Δt along the signal path:
 //!
 //! ```text
@@ -18,7 +18,7 @@
 //! 3. winding, shaft and gear: current, torque, and the dry friction that each shaft can hold; a rotor whose shaft yields
 //!    moves on its own (`shaft.rs`);
 //! 4. traction: a wheel that creeps or slips turns faster than the floor passes by (`traction.rs`);
-//! 5. body: all forces, one linearly implicit step, dry friction spent once ([`body`]);
+//! 5. body: all forces, one linearly implicit step, dry friction spent once (`body.rs`);
 //! 6. pose (eq. 1), reading, and the memory of effects.
 //!
 //! The command is held over the step. Error: second order in Δt while no effect switches; at a reversal, where friction
@@ -32,8 +32,6 @@ pub mod robot;
 
 pub mod paper;
 
-pub mod body;
-
 // Its step
 mod state;
 pub use state::{Input, Reading, State};
@@ -43,7 +41,13 @@ pub use model::Plant;
 
 mod source;
 
+mod body;
+
+mod dry_friction;
+
 mod step;
+
+mod fixed_point;
 
 mod electric;
 

@@ -1,15 +1,16 @@
 //! The plant: a robot, its effects, and what every step needs of them, worked out once.
 
+use super::body::couples;
 use super::robot::Robot;
 use super::state::State;
 use super::traction::Floor;
 use crate::effects::active::Effects;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Contact, EffectContext, STANDARD_GRAVITY, Shaft};
-use crate::effects::{Effect, EffectSet};
+use crate::effects::{Effect, EffectSet, Needs};
 use crate::geometry::frames::{BodyTwist, Pose};
+use crate::number::linalg::mirror;
 use crate::number::scalar::Real;
-use crate::plant::body::couples;
 
 /// A model ready to run: a robot and the effects that it carries.
 #[derive(Clone, Copy, Debug)]
@@ -29,8 +30,10 @@ pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     /// −∂current/∂(wheel speed) and −∂torque/∂(wheel speed) of the plain motor [A·s] [N·m·s]
     pub(super) plain_current_slope: T,
     pub(super) plain_slope: T,
-    /// True if an effect looks at the windings' heat
-    pub(super) heats: bool,
+    /// True if an effect is told anything in a step
+    pub(super) tells: bool,
+    /// What is kept up for the effects
+    pub(super) needs: Needs,
     /// True if a shaft yields
     pub(super) yields: bool,
     /// The contacts as the robot's parameters describe them.
@@ -41,7 +44,11 @@ pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     pub(super) settled: Option<Settled<N, T>>,
     /// Each wheel's share of the body's Coulomb friction, as a torque at its shaft [N·m]
     pub(super) coulomb_share: [T; N],
+    /// The body's mass matrix
+    pub(super) mass: [[T; 3]; 3],
     /// Damping of the plain model's motors in body axes
+    pub(super) motor_rate: [[T; 3]; 3],
+    /// The same with the body's viscous friction
     pub(super) plain_rate: [[T; 3]; 3],
     /// True if it couples no axes
     pub(super) plain_decoupled: bool,
@@ -89,7 +96,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let load = robot.mass * T::lit(STANDARD_GRAVITY) / T::lit(N as f64);
         let mut contact = [Contact { load, shape: T::one(), ..Contact::default() }; N];
         let coulomb_share = robot.coulomb_shares();
-        let mut plain_rate = [[T::zero(); 3]; 3];
+        let zero = T::zero();
+        let mut motor_rate = [[zero; 3]; 3];
         let (emf, kt) = (robot.motor.wheel_emf_constant(), robot.motor.wheel_torque_constant());
         let per_resistance = T::one() / robot.motor.resistance;
         let electric = kt * emf * per_resistance;
@@ -102,14 +110,24 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             contact[j].complete();
             // k = (l²·K_t·K_v/R)/r²
             let per_radius = contact[j].per_radius;
-            contact[j].add_rate(&mut plain_rate, electric * (per_radius * per_radius));
+            contact[j].add_rate(&mut motor_rate, electric * (per_radius * per_radius));
         }
+        mirror(&mut motor_rate);
+        let mut plain_rate = motor_rate;
+        for (axis, viscous) in robot.friction.viscous.into_iter().enumerate() {
+            plain_rate[axis][axis] += viscous;
+        }
+        let mass = [[robot.mass, zero, zero], [zero, robot.mass, zero], [zero, zero, robot.inertia]];
         let chain = [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Shaft, Seam::Gear, Seam::Contact];
         let plain = chain.into_iter().all(|seam| effects.none_at(seam));
         let turns = !effects.none_at(Seam::Shaft) || !effects.none_at(Seam::Gear);
         let settled = settled(&effects, contact);
         let shafts = shafts(&effects);
-        let heats = effects.iter().any(|active| active.effect.needs_heat());
+        let needs = effects.iter().fold(Needs::NOTHING, |all, active| all.or(active.effect.needs()));
+        let told = [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Body, Seam::Sense];
+        let tells = settled.is_none()
+            || !told.into_iter().all(|seam| effects.none_at(seam))
+            || effects.with_memory().next().is_some();
         let yields = shafts.iter().any(|shaft| shaft.stiffness > T::zero());
         Self {
             robot,
@@ -121,13 +139,16 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             per_resistance,
             plain_current_slope: emf * per_resistance,
             plain_slope: electric,
-            heats,
+            tells,
+            needs,
             yields,
             contact,
             shafts,
             settled,
             coulomb_share,
-            plain_decoupled: !couples(|a, b| plain_rate[a][b].plain()),
+            plain_decoupled: !couples(|a, b| motor_rate[a][b].plain()),
+            mass,
+            motor_rate,
             plain_rate,
         }
     }
@@ -155,16 +176,17 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// A state with this pose and velocity, the wheels rolling without slip and the motors without current.
     pub fn start(&self, time: T, pose: Pose<T>, twist: BodyTwist<T>) -> State<N, T> {
         let wheel_speed = self.robot.wheels.wheel_speeds(twist);
+        let kept = |needed| if needed { T::zero() } else { T::lit(f64::NAN) };
         State {
             time,
             pose,
             twist,
             wheel_speed,
-            acceleration: [T::zero(); 3],
-            wheel_angle: [T::zero(); N],
+            acceleration: [kept(self.needs.acceleration); 3],
+            wheel_angle: [kept(self.needs.angle); N],
             rotor_speed: wheel_speed,
             shaft_twist: [T::zero(); N],
-            heat: [T::zero(); N],
+            heat: [kept(self.needs.heat); N],
             current: [T::zero(); N],
             bus: self.robot.supply,
         }
@@ -175,8 +197,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     pub fn start_from(&self, hidden: &State<N, T>, time: T, pose: Pose<T>, twist: BodyTwist<T>) -> State<N, T> {
         let start = self.start(time, pose, twist);
         let ahead = |j: usize| {
-            let yields = self.shafts[j].stiffness > T::zero();
-            if yields { hidden.rotor_speed[j] - hidden.wheel_speed[j] } else { T::zero() }
+            if self.yields_at(j) { hidden.rotor_speed[j] - hidden.wheel_speed[j] } else { T::zero() }
         };
         State {
             rotor_speed: core::array::from_fn(|j| start.wheel_speed[j] + ahead(j)),
@@ -207,23 +228,23 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// What an effect is told in a step from this state.
     #[inline]
     pub(super) fn at(&self, state: &State<N, T>, dt: T) -> EffectContext<T> {
-        EffectContext {
-            time: state.time,
-            dt,
-            gear_ratio: self.robot.motor.gear_ratio,
-            pose: state.pose,
-            twist: state.twist,
-            acceleration: state.acceleration,
-            bus: state.bus,
-            nominal_supply: self.robot.supply,
-            ..EffectContext::default()
+        let mut at = EffectContext { dt, ..EffectContext::default() };
+        if self.tells {
+            at.time = state.time;
+            at.gear_ratio = self.robot.motor.gear_ratio;
+            at.pose = state.pose;
+            at.twist = state.twist;
+            at.acceleration = state.acceleration;
+            at.bus = state.bus;
+            at.nominal_supply = self.robot.supply;
         }
+        at
     }
 
     /// How fast the rim of wheel `j` passes the floor if it rolls, by the robot's own geometry [m/s].
     #[inline]
     pub(super) fn rim_speed(&self, state: &State<N, T>, j: usize) -> T {
-        self.contact[j].rim_speed(state.twist.to_array())
+        self.contact[j].rim_speed(state.twist)
     }
 
     /// Goes on to wheel `j`, which turns at this speed [rad/s] and whose rim would pass the floor at this one [m/s].
@@ -236,11 +257,22 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         (wheel_speed, rim_speed): (T, T),
     ) {
         at.wheel = j;
-        at.wheel_angle = state.wheel_angle[j];
         at.wheel_speed = wheel_speed;
-        at.rotor_angle = state.wheel_angle[j] + state.shaft_twist[j];
-        at.rotor_speed = if self.shafts[j].stiffness > T::zero() { state.rotor_speed[j] } else { wheel_speed };
+        at.rotor_speed = if self.yields_at(j) { state.rotor_speed[j] } else { wheel_speed };
         at.rim_speed = rim_speed;
-        at.heat = state.heat[j];
+        if self.tells {
+            at.wheel_angle = state.wheel_angle[j];
+            at.rotor_angle = state.wheel_angle[j];
+            if self.yields {
+                at.rotor_angle += state.shaft_twist[j];
+            }
+            at.heat = state.heat[j];
+        }
+    }
+
+    /// True if the shaft of wheel `j` yields.
+    #[inline]
+    pub(super) fn yields_at(&self, j: usize) -> bool {
+        self.yields && self.shafts[j].stiffness > T::zero()
     }
 }

@@ -19,7 +19,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         memory: &[E::State],
         reading: &mut Reading<N, T>,
     ) {
-        let truth = *reading;
+        let truth = reading.wheel_speed;
         for active in self.effects.at(Seam::Sense) {
             if active.whole() {
                 at.leave_wheel();
@@ -29,7 +29,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 continue;
             }
             for j in (0..N).filter(|j| active.on(*j)) {
-                self.enter_wheel(at, state, j, (truth.wheel_speed[j], self.rim_speed(state, j)));
+                self.enter_wheel(at, state, j, (truth[j], self.rim_speed(state, j)));
                 let mut x =
                     Sense { current: reading.current[j], wheel_speed: reading.wheel_speed[j], ..Sense::default() };
                 active.effect.sense(&memory[active.memory(j)], at, &mut x);
@@ -73,9 +73,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         at: &mut EffectContext<T>,
         state: &State<N, T>,
         memory: &mut [E::State],
-        done: &Done<'_, N, T>,
+        (done, truth): (&Done<'_, N, T>, &Reading<N, T>),
     ) {
-        let Done { truth, source, bus, turned, .. } = done;
+        let Done { source, bus, turned, .. } = done;
         for active in self.effects.with_memory() {
             if active.whole() {
                 at.leave_wheel();
@@ -93,7 +93,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                     command: source.command(j),
                     current: truth.current[j],
                     wheel_speed: truth.wheel_speed[j],
-                    heat: turned.heat.map_or_else(T::zero, |heat| heat[j]),
+                    heat: turned.heat.as_ref().map_or_else(T::zero, |heat| heat[j]),
                     bus: *bus,
                     ..StepOutcome::default()
                 };

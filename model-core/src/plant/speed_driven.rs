@@ -29,30 +29,30 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             state.twist = rolling;
             at.twist = rolling;
         }
-        let truth = Reading { current: [zero; N], wheel_speed: *speed, pose: state.pose, gyro: state.twist.w };
+        let mut truth = Reading { current: [zero; N], wheel_speed: *speed, pose: state.pose, gyro: state.twist.w };
         let next = if yields {
             let x = state.twist.to_array();
             let mut push = Push::none();
             for (j, (c, speed)) in contact.iter().zip(speed).enumerate() {
-                let (force, slope) = Floor::of(c).force(*speed * c.radius - c.rim_speed(x));
+                let (force, slope) = Floor::of(c).force(*speed * c.radius - c.rim_speed(state.twist));
                 // twice the slope: the floor's force is stiff, and this makes the step implicit in it
-                c.add_force(&mut push.force, force);
-                c.add_rate(&mut push.rate, slope.times(T::Plain::lit(2.0)));
+                c.add_force(&mut push.body.force, force);
+                c.add_rate(&mut push.body.rate, slope.times(T::Plain::lit(2.0)));
                 if c.rollers_drag() {
                     push.add_rollers(j, c, x);
                 }
             }
-            BodyTwist::from_array(self.move_body(&mut at, state, memory, &push, dt))
+            BodyTwist::from_array(self.move_body(&mut at, state, memory, &mut push, dt))
         } else {
             rolling
         };
         state.wheel_speed = *speed;
         let (source, turned) = (Source::Speed, Turned::default());
-        let done = Done { truth, next, contact: &contact, source: &source, bus: self.robot.supply, turned: &turned };
-        let reading = self.finish(&mut at, state, memory, &done, dt);
+        let done = Done { next, contact: &contact, source: &source, bus: self.robot.supply, turned: &turned };
+        self.finish(&mut at, state, memory, &done, &mut truth);
         if !yields {
             state.twist = next;
         }
-        reading
+        truth
     }
 }

@@ -26,16 +26,15 @@ pub struct State<const N: usize, T> {
     /// Speed of each wheel at its shaft as last solved for [rad/s]
     pub wheel_speed: [T; N],
     /// Acceleration of the body's centre in the last step, along the body's axes, the turning of the axes counted in
-    /// [m/s², m/s², rad/s²]
+    /// [m/s², m/s², rad/s²]; this one, the angles and the heat are NaN unless an effect [`Needs`](crate::effects::Needs) them
     pub acceleration: [T; 3],
-    /// Angle that each wheel has turned through [rad]; this one and what follows but the currents and the bus are kept up
-    /// only while the model has effects
+    /// Angle that each wheel has turned through [rad]
     pub wheel_angle: [T; N],
     /// Speed of each rotor, counted at the wheel's shaft [rad/s]; kept up only where the shaft yields
     pub rotor_speed: [T; N],
     /// By how much each rotor is ahead of its wheel, counted at the wheel's shaft [rad]
     pub shaft_twist: [T; N],
-    /// Heat that the current has made in each winding [J]; kept up only while an effect looks at it
+    /// Heat that the current has made in each winding [J]
     pub heat: [T; N],
     /// Current in each motor at the end of the last step [A]
     pub current: [T; N],

@@ -1,5 +1,6 @@
 //! One step along the signal path, in which forces move the body.
 
+use super::dry_friction::Hold;
 use super::model::Plant;
 use super::shaft::Rotor;
 use super::source::Source;
@@ -7,20 +8,17 @@ use super::state::{Input, Reading, State};
 use super::wheel::{Drive, Wheel};
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
-use crate::effects::seams::{Contact, EffectContext};
+use crate::effects::seams::{Body, Contact, EffectContext};
 use crate::geometry::frames::BodyTwist;
-use crate::number::linalg::{accumulate_outer, add_scaled, dot};
+use crate::number::linalg::{accumulate_upper, add_scaled, dot};
 use crate::number::scalar::Real;
-use crate::plant::body::Hold;
 
 /// What the wheels do to the body in a step.
 pub(super) struct Push<const N: usize, T> {
-    /// Force in body axes [N, N, N·m]
-    pub force: [T; 3],
-    /// −∂force/∂twist
-    pub rate: [[T; 3]; 3],
-    /// Mass matrix of what turns with the wheels, in body axes
-    pub mass: [[T; 3]; 3],
+    /// Their force, and its rate on and above the diagonal; the rest is filled in when the body moves
+    pub body: Body<T>,
+    /// Mass matrix of what turns with the wheels, in body axes, on and above the diagonal, where anything does
+    pub turning: Option<[[T; 3]; 3]>,
     /// Dry friction that each shaft can hold, along the wheel's rolling direction; none where no shaft has any
     pub shafts: Option<[Hold<T>; N]>,
     /// Dry friction that each wheel's rollers can hold, along its axle; none where no roller has any
@@ -29,15 +27,14 @@ pub(super) struct Push<const N: usize, T> {
 
 impl<const N: usize, T: Real> Push<N, T> {
     pub fn none() -> Self {
-        let zero = T::zero();
-        Self { force: [zero; 3], rate: [[zero; 3]; 3], mass: [[zero; 3]; 3], shafts: None, rollers: None }
+        Self { body: Body::default(), turning: None, shafts: None, rollers: None }
     }
 
     /// Adds the friction of a wheel's rollers.
     pub fn add_rollers(&mut self, j: usize, c: &Contact<T>, x: [T; 3]) {
         let row = c.axle_row();
-        self.force = add_scaled(self.force, -(c.roller_damping * dot(row, x)), row);
-        accumulate_outer(&mut self.rate, c.roller_damping, row);
+        self.body.force = add_scaled(self.body.force, -(c.roller_damping * dot(row, x)), row);
+        accumulate_upper(&mut self.body.rate, c.roller_damping, row);
         if c.roller_friction > T::zero() {
             self.rollers.get_or_insert([Hold::none(); N])[j] = Hold { direction: row, budget: c.roller_friction };
         }
@@ -67,7 +64,6 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         dt: T,
     ) -> Reading<N, T> {
         let zero = T::zero();
-        let x = state.twist.to_array();
         let mut at = self.at(state, dt);
         let hooked;
         let (contact, floors) = match &self.settled {
@@ -77,9 +73,10 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 (&hooked, None)
             }
         };
-        let rim: [T; N] = core::array::from_fn(|j| contact[j].rim_speed(x));
-        let bus = self.bus(&mut at, state, memory, &source, (contact, &rim));
-        let gain = (!self.effects.none_at(Seam::Supply)).then(|| bus / self.robot.supply);
+        let (bus, gain) = match self.bus(&mut at, state, memory, &source, contact) {
+            Some(bus) => (bus, Some(bus / self.robot.supply)),
+            None => (self.robot.supply, None),
+        };
 
         let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
         let mut push = Push::none();
@@ -87,16 +84,16 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let mut wheel = Wheel::new();
         for j in 0..N {
             let c = &contact[j];
-            let rolling = rim[j] * c.per_radius;
-            self.enter_wheel(&mut at, state, j, (rolling, rim[j]));
+            let rim_speed = c.rim_speed(state.twist);
+            self.enter_wheel(&mut at, state, j, (rim_speed * c.per_radius, rim_speed));
             let floor = floors.map(|floors| &floors[j]);
-            let drive = Drive { source: &source, gain, contact: c, floor, before: state.wheel_speed[j] };
-            self.wheel(&mut at, state, memory, &drive, &mut wheel);
-            truth.current[j] = wheel.motor.sampled;
+            let drive = Drive { source: &source, gain: gain.as_ref(), contact: c, floor, state, memory };
+            self.wheel(&mut at, &drive, &mut wheel);
+            truth.current[j] = wheel.motor.sampled();
             truth.wheel_speed[j] = wheel.starts;
-            state.wheel_speed[j] = wheel.speed;
-            state.current[j] = wheel.motor.after;
-            if self.heats {
+            state.wheel_speed[j] = wheel.met.speed;
+            state.current[j] = wheel.motor.after();
+            if self.needs.heat {
                 // R·i²·Δt
                 turned.heat.get_or_insert([zero; N])[j] =
                     wheel.motor.resistance * wheel.motor.mean * wheel.motor.mean * dt;
@@ -104,33 +101,34 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             if self.yields {
                 turned.rotors.get_or_insert([Rotor::default(); N])[j] = wheel.rotor;
             }
-            c.add_force(&mut push.force, wheel.force);
-            c.add_rate(&mut push.rate, wheel.rate);
-            if self.turns {
-                c.add_rate(&mut push.mass, wheel.inertia * (c.per_radius * c.per_radius));
+            c.add_force(&mut push.body.force, wheel.met.force);
+            c.add_rate(&mut push.body.rate, wheel.met.rate);
+            if self.turns && (wheel.inertia > zero || !wheel.inertia.is_constant()) {
+                let turning = push.turning.get_or_insert([[zero; 3]; 3]);
+                c.add_rate(turning, wheel.inertia * (c.per_radius * c.per_radius));
             }
             if wheel.budget > zero {
                 push.shafts.get_or_insert([Hold::none(); N])[j] =
                     Hold { direction: c.row, budget: wheel.budget * c.per_radius };
             }
             if c.rollers_drag() {
-                push.add_rollers(j, c, x);
+                push.add_rollers(j, c, state.twist.to_array());
             }
         }
-        let next = self.move_body(&mut at, state, memory, &push, dt);
-        let done = Done { truth, next: BodyTwist::from_array(next), contact, source: &source, bus, turned: &turned };
-        self.finish(&mut at, state, memory, &done, dt)
+        let next = BodyTwist::from_array(self.move_body(&mut at, state, memory, &mut push, dt));
+        let done = Done { next, contact, source: &source, bus, turned: &turned };
+        self.finish(&mut at, state, memory, &done, &mut truth);
+        truth
     }
 
     /// The same where no effect stands between the command and the wheels' forces: the same arithmetic in the same order.
     #[inline]
     fn step_plain(&self, state: &mut State<N, T>, memory: &mut [E::State], command: &[T; N], dt: T) -> Reading<N, T> {
         let zero = T::zero();
-        let x = state.twist.to_array();
         let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
         let mut force = [zero; 3];
         for (j, (c, command)) in self.contact.iter().zip(command).enumerate() {
-            let rolling = c.rim_speed(x) * c.per_radius;
+            let rolling = c.rim_speed(state.twist) * c.per_radius;
             let (current, torque) = self.plain_motor(*command, rolling);
             (truth.current[j], truth.wheel_speed[j]) = (current, rolling);
             // f = τ/r
@@ -138,21 +136,22 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         }
         (state.current, state.wheel_speed) = (truth.current, truth.wheel_speed);
         if self.effects.is_empty() {
-            let next = BodyTwist::from_array(self.move_plain(x, force, dt));
+            let next = BodyTwist::from_array(self.move_plain(state.twist.to_array(), force, dt.plain()));
             state.go_on(next, dt);
             state.bus = self.robot.supply;
             return truth;
         }
         let mut at = self.at(state, dt);
-        let push = Push { force, rate: self.plain_rate, ..Push::none() };
-        let next = BodyTwist::from_array(self.move_body(&mut at, state, memory, &push, dt));
+        let mut push = Push { body: Body { force, rate: self.motor_rate, ..Body::default() }, ..Push::none() };
+        let next = BodyTwist::from_array(self.move_body(&mut at, state, memory, &mut push, dt));
         let (source, turned) = (Source::Voltage(command), Turned::default());
-        let done =
-            Done { truth, next, contact: &self.contact, source: &source, bus: self.robot.supply, turned: &turned };
-        self.finish(&mut at, state, memory, &done, dt)
+        let bus = self.robot.supply;
+        let done = Done { next, contact: &self.contact, source: &source, bus, turned: &turned };
+        self.finish(&mut at, state, memory, &done, &mut truth);
+        truth
     }
 
-    /// Moves the pose, takes the reading and lets the effects remember.
+    /// Moves the pose, makes of the truth at the step's beginning a reading, and lets the effects remember.
     #[inline]
     pub(super) fn finish(
         &self,
@@ -160,43 +159,53 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         state: &mut State<N, T>,
         memory: &mut [E::State],
         done: &Done<'_, N, T>,
-        dt: T,
-    ) -> Reading<N, T> {
-        let mean = state.twist.mean(done.next);
-        let mut reading = done.truth;
-        if !self.effects.is_empty() {
+        reading: &mut Reading<N, T>,
+    ) {
+        let dt = at.dt;
+        let exact;
+        let truth = if self.effects.none_at(Seam::Sense) {
+            &*reading
+        } else {
+            exact = *reading;
             at.pose = state.pose;
-            if !self.effects.none_at(Seam::Sense) {
-                self.read(at, state, memory, &mut reading);
-            }
-            self.remember(at, state, memory, done);
-            self.turn_wheels(state, mean, done, dt);
+            self.read(at, state, memory, reading);
+            &exact
+        };
+        if self.tells {
+            at.pose = state.pose;
+            self.remember(at, state, memory, (done, truth));
+        }
+        if self.needs.angle || self.needs.heat || self.yields {
+            self.turn_wheels(state, done, truth, dt);
+        }
+        if self.needs.acceleration {
+            let (from, to) = (state.twist, done.next);
+            let mean = from.mean(to);
             // a = dv/dt + ω × v
             let rate = |before: T, after: T| (after - before) / dt;
-            let (from, to) = (state.twist, done.next);
             state.acceleration =
                 [rate(from.v, to.v) - mean.w * mean.vn, rate(from.vn, to.vn) + mean.w * mean.v, rate(from.w, to.w)];
         }
         state.go_on(done.next, dt);
         state.bus = done.bus;
-        reading
     }
 
     /// What turns with the wheels, over a step.
-    #[inline]
-    fn turn_wheels(&self, state: &mut State<N, T>, mean: BodyTwist<T>, done: &Done<'_, N, T>, dt: T) {
+    #[inline(never)]
+    fn turn_wheels(&self, state: &mut State<N, T>, done: &Done<'_, N, T>, truth: &Reading<N, T>, dt: T) {
+        let mean = state.twist.mean(done.next);
         for (j, c) in done.contact.iter().enumerate() {
             let mean_speed = if c.rolls() {
-                c.rim_speed(mean.to_array()) * c.per_radius
+                c.rim_speed(mean) * c.per_radius
             } else {
-                T::lit(0.5) * (done.truth.wheel_speed[j] + state.wheel_speed[j])
+                T::lit(0.5) * (truth.wheel_speed[j] + state.wheel_speed[j])
             };
             state.wheel_angle[j] += dt * mean_speed;
             if let Some(heat) = &done.turned.heat {
                 state.heat[j] += heat[j];
             }
             if let Some(rotors) = &done.turned.rotors
-                && self.shafts[j].stiffness > T::zero()
+                && self.yields_at(j)
             {
                 let (speed, twisted) = rotors[j].end(mean_speed, dt);
                 state.rotor_speed[j] = speed;
@@ -242,8 +251,6 @@ impl<const N: usize, T: Real> Default for Turned<N, T> {
 
 /// A step that is solved and not yet taken.
 pub(super) struct Done<'a, const N: usize, T: Real> {
-    /// The truth at its beginning
-    pub truth: Reading<N, T>,
     /// Velocity at its end
     pub next: BodyTwist<T>,
     pub contact: &'a [Contact<T>; N],

@@ -5,32 +5,29 @@ use super::model::Plant;
 use super::shaft::{Before, Rotor};
 use super::source::Source;
 use super::state::State;
-use super::traction::{Floor, Line, cross};
+use super::traction::{Crossing, Floor, Line, cross};
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Contact, EffectContext, Gear};
 use crate::number::scalar::Real;
 
-/// What drives a wheel.
-pub(super) struct Drive<'a, const N: usize, T> {
+/// What drives a wheel, and what the step goes on from.
+pub(super) struct Drive<'a, const N: usize, T, S> {
     pub source: &'a Source<'a, N, T>,
     /// Bus voltage over nominal, where it may differ
-    pub gain: Option<T>,
+    pub gain: Option<&'a T>,
     pub contact: &'a Contact<T>,
     /// What the floor takes at that contact, where it is known already
     pub floor: Option<&'a Floor<T>>,
-    /// Wheel speed as last solved for [rad/s]
-    pub before: T,
+    pub state: &'a State<N, T>,
+    /// What the effects remember
+    pub memory: &'a [S],
 }
 
 /// A wheel, solved. There is one in a step, filled anew for every wheel.
-pub(super) struct Wheel<T> {
-    /// Force on the floor along the wheel's rolling direction [N]
-    pub force: T,
-    /// −∂force/∂(rim speed) [N/(m/s)]
-    pub rate: T,
-    /// Speed at the end of the step; of a wheel that rolls, at its beginning [rad/s]
-    pub speed: T,
+pub(super) struct Wheel<T: Real> {
+    /// Where motor and floor meet; the speed of a wheel that rolls is that at the step's beginning
+    pub met: Crossing<T>,
     /// Speed when the reading is taken [rad/s]
     pub starts: T,
     /// Inertia that the body has to accelerate with the wheel [kg·m²]
@@ -41,25 +38,33 @@ pub(super) struct Wheel<T> {
     /// Its rotor, where it moves on its own
     pub rotor: Rotor<T>,
     gear: Gear<T>,
-    /// By how much the torque falls with the wheel's speed [N·m·s]
+    /// Torque on the wheel [N·m], and by how much it falls with the wheel's speed [N·m·s], where these are not the motor's
+    torque: T,
     fall: T,
+    altered: bool,
 }
 
 impl<T: Real> Wheel<T> {
     pub fn new() -> Self {
         let zero = T::zero();
         Self {
-            force: zero,
-            rate: zero,
-            speed: zero,
+            met: Crossing { force: zero, rate: zero, speed: zero },
             starts: zero,
             inertia: zero,
             budget: zero,
             motor: Electric::default(),
             rotor: Rotor::default(),
             gear: Gear::default(),
+            torque: zero,
             fall: zero,
+            altered: false,
         }
+    }
+
+    /// Torque on the wheel [N·m], and by how much it falls with the wheel's speed [N·m·s].
+    #[inline]
+    fn line(&self) -> (&T, &T) {
+        if self.altered { (&self.torque, &self.fall) } else { (&self.motor.torque, &self.motor.slope) }
     }
 }
 
@@ -68,43 +73,26 @@ const LOOKS: usize = 4;
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// Solves the wheel that `at` has entered.
-    pub(super) fn wheel(
-        &self,
-        at: &mut EffectContext<T>,
-        state: &State<N, T>,
-        memory: &[E::State],
-        drive: &Drive<'_, N, T>,
-        wheel: &mut Wheel<T>,
-    ) {
+    #[inline]
+    pub(super) fn wheel(&self, at: &mut EffectContext<T>, drive: &Drive<'_, N, T, E::State>, wheel: &mut Wheel<T>) {
         let c = drive.contact;
-        let rolls = c.rolls();
-        if !rolls {
-            // where the wheel was is close to where it will be
-            at.wheel_speed = drive.before;
-        }
-        self.look(at, state, memory, drive, wheel);
-        if rolls {
+        if c.rolls() {
+            self.look(at, drive, wheel);
             // f = τ/r,  k = −∂f/∂v_j = (−∂τ/∂ω)/r²
-            let gear = &wheel.gear;
-            wheel.force = (gear.torque - gear.damping * at.wheel_speed) * c.per_radius;
-            wheel.rate = (wheel.fall + gear.damping) * (c.per_radius * c.per_radius);
-            (wheel.speed, wheel.starts) = (at.wheel_speed, at.wheel_speed);
+            let (torque, fall) = wheel.line();
+            let (force, rate) = (*torque * c.per_radius, *fall * (c.per_radius * c.per_radius));
+            wheel.met.force = force;
+            wheel.met.rate = rate;
+            wheel.met.speed = at.wheel_speed;
+            wheel.starts = at.wheel_speed;
         } else {
-            self.slip(at, state, memory, drive, wheel);
+            self.slip(at, drive, wheel);
         }
-        wheel.budget = wheel.gear.budget;
     }
 
-    /// A wheel whose contact gives way, of which motor, shaft and gear have been looked at where it was.
-    fn slip(
-        &self,
-        at: &mut EffectContext<T>,
-        state: &State<N, T>,
-        memory: &[E::State],
-        drive: &Drive<'_, N, T>,
-        wheel: &mut Wheel<T>,
-    ) {
-        let (c, before) = (drive.contact, drive.before);
+    /// A wheel whose contact gives way.
+    fn slip(&self, at: &mut EffectContext<T>, drive: &Drive<'_, N, T, E::State>, wheel: &mut Wheel<T>) {
+        let c = drive.contact;
         let own;
         let floor = match drive.floor {
             Some(floor) => floor,
@@ -113,89 +101,101 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 &own
             }
         };
-        let mut line = Line {
-            torque: T::zero(),
-            speed: before,
-            fall: T::zero(),
-            inertia: wheel.inertia / at.dt,
-            before,
-            radius: c.radius,
-            rim_speed: at.rim_speed,
-        };
+        // where the wheel was is close to where it will be
+        let before = drive.state.wheel_speed[at.wheel];
+        at.wheel_speed = before;
+        self.look(at, drive, wheel);
+        let moves = wheel.inertia > T::zero();
+        let inertia = if moves { wheel.inertia / at.dt } else { T::zero() };
         for look in 1..LOOKS {
             // the motor as a straight line through the last look: τ(ω) = τ₁ − a·(ω − ω₁)
-            line.torque = wheel.gear.torque - wheel.gear.damping * at.wheel_speed;
-            line.speed = at.wheel_speed;
-            line.fall = wheel.fall + wheel.gear.damping;
-            (wheel.force, wheel.rate, wheel.speed) = cross(&line, floor);
-            let gained = wheel.speed - at.wheel_speed;
-            at.wheel_speed = wheel.speed;
-            if wheel.motor.straight && !self.yields {
-                wheel.motor.go_along(gained);
-                if !self.effects.none_on(&[Seam::Gear], at.wheel) {
-                    self.gear(at, memory, wheel.motor.torque, &mut wheel.gear);
+            let (torque, fall) = wheel.line();
+            let line = Line {
+                torque,
+                speed: &at.wheel_speed,
+                fall,
+                inertia: &inertia,
+                before: &before,
+                radius: &c.radius,
+                rim_speed: &at.rim_speed,
+            };
+            wheel.met = cross(&line, floor);
+            let gained = wheel.met.speed - at.wheel_speed;
+            at.wheel_speed = wheel.met.speed;
+            if !self.yields && wheel.motor.go_along(gained) {
+                if self.geared_at(at.wheel) {
+                    wheel.altered = false;
+                    self.gear(at, drive.memory, wheel);
                 }
                 break;
             }
-            let expected = line.torque - line.fall * gained;
-            self.look(at, state, memory, drive, wheel);
-            let found = wheel.gear.torque - wheel.gear.damping * at.wheel_speed;
-            let straight = (found - expected).abs() <= T::lit(1e-9) * (found.abs() + T::lit(1e-3));
+            let (torque, fall) = wheel.line();
+            let expected = torque.plain() - fall.plain() * gained.plain();
+            self.look(at, drive, wheel);
+            let found = wheel.line().0.plain();
+            let straight = (found - expected).abs() <= T::Plain::lit(1e-9) * (found.abs() + T::Plain::lit(1e-3));
             if straight || look + 1 == LOOKS {
                 break;
             }
         }
-        let moves = wheel.inertia > T::zero();
         if moves && !self.yields {
             // with inertia the wheel has not moved yet when the reading is taken
-            wheel.motor.sampled += wheel.motor.current_slope * (wheel.speed - before);
+            wheel.motor.sample_at(before - wheel.met.speed);
         }
-        wheel.starts = if moves { before } else { wheel.speed };
+        wheel.starts = if moves { before } else { wheel.met.speed };
         // the wheel's inertia has been accelerated at the crossing
         wheel.inertia = T::zero();
     }
 
     /// Looks at motor, shaft and gear at the wheel speed of `at`.
     #[inline]
-    fn look(
-        &self,
-        at: &mut EffectContext<T>,
-        state: &State<N, T>,
-        memory: &[E::State],
-        drive: &Drive<'_, N, T>,
-        wheel: &mut Wheel<T>,
-    ) {
+    fn look(&self, at: &mut EffectContext<T>, drive: &Drive<'_, N, T, E::State>, wheel: &mut Wheel<T>) {
         let j = at.wheel;
-        let shaft = &self.shafts[j];
-        let yields = shaft.stiffness > T::zero();
-        at.rotor_speed = if yields { state.rotor_speed[j] } else { at.wheel_speed };
-        self.electric(at, state, memory, (drive.source, drive.gain), &mut wheel.motor);
-        let mut torque = wheel.motor.torque;
-        wheel.fall = wheel.motor.slope;
+        let yields = self.yields_at(j);
+        at.rotor_speed = if yields { drive.state.rotor_speed[j] } else { at.wheel_speed };
+        self.electric(at, drive, &mut wheel.motor);
         if yields {
             let (rotor_speed, wheel_speed) = (at.rotor_speed, at.wheel_speed);
-            let before = Before { rotor_speed, wheel_speed, twist: state.shaft_twist[j] };
-            wheel.rotor = Rotor::new(shaft, &wheel.motor, &before, at.dt);
-            (torque, wheel.fall) = wheel.rotor.line();
+            // where the wheel was is close to where it will be
+            let before = Before { rotor_speed, wheel_speed, twist: drive.state.shaft_twist[j] };
+            wheel.rotor = Rotor::new(&self.shafts[j], &wheel.motor, &before, at.dt);
+            (wheel.torque, wheel.fall) = wheel.rotor.line();
         }
-        self.gear(at, memory, torque, &mut wheel.gear);
-        wheel.inertia = wheel.gear.inertia;
-        if !yields {
-            wheel.inertia += shaft.inertia;
+        wheel.altered = yields;
+        if self.geared_at(j) {
+            self.gear(at, drive.memory, wheel);
+            wheel.inertia = wheel.gear.inertia;
+        } else if self.turns {
+            (wheel.inertia, wheel.budget) = (T::zero(), T::zero());
+        }
+        if self.turns && !yields {
+            wheel.inertia += self.shafts[j].inertia;
         }
     }
 
+    /// True if an effect acts on the gear of wheel `j`.
     #[inline]
-    fn gear(&self, at: &EffectContext<T>, memory: &[E::State], torque: T, gear: &mut Gear<T>) {
+    fn geared_at(&self, j: usize) -> bool {
+        !self.effects.none_on(&[Seam::Gear], j)
+    }
+
+    /// Lets the gear act on the torque and its fall.
+    #[inline]
+    fn gear(&self, at: &EffectContext<T>, memory: &[E::State], wheel: &mut Wheel<T>) {
         let zero = T::zero();
-        (gear.motor_torque, gear.torque) = (torque, torque);
+        let (torque, fall) = wheel.line();
+        let (torque, fall) = (*torque, *fall);
+        let gear = &mut wheel.gear;
+        gear.motor_torque = torque;
+        gear.torque = torque;
         (gear.budget, gear.damping, gear.inertia) = (zero, zero, zero);
-        if self.effects.none_at(Seam::Gear) {
-            return;
-        }
         gear.coulomb_share = self.coulomb_share[at.wheel];
         for active in self.effects.on(Seam::Gear, at.wheel) {
             active.effect.gear(&memory[active.memory(at.wheel)], at, gear);
         }
+        wheel.torque = gear.torque - gear.damping * at.wheel_speed;
+        wheel.fall = fall + gear.damping;
+        wheel.altered = true;
+        wheel.budget = gear.budget;
     }
 }

@@ -76,22 +76,34 @@ pub const CARD: Card = Card {
 };
 
 /// Force on the floor [N] and its slope [N/(m/s)], of a contact that holds at most `limit` [N].
-///
-/// At a shape of exactly 1 the closed form is taken, which knows no derivative by the shape.
 #[inline]
 pub fn traction<T: Real>(limit: T, stiffness: T, shape: T, slip: T) -> (T, T) {
+    let [force, slope, _] = curve(limit, stiffness, shape, slip);
+    (force, slope)
+}
+
+/// The same, and by how much the slope changes with the slip speed [N, N/(m/s), N/(m/s)²].
+///
+/// At a shape of exactly 1 the closed form is taken, which knows no derivative by the shape.
+#[inline(always)]
+pub fn curve<T: Real>(limit: T, stiffness: T, shape: T, slip: T) -> [T; 3] {
     let one = T::one();
     let x = stiffness * slip;
     let square = one + x * x;
     if shape == one {
-        // f = μ·N · x/√(1 + x²),  ∂f/∂s = μ·N·B/(1 + x²)^(3/2)
+        // f = μ·N · x/√(1 + x²),  ∂f/∂s = μ·N·B/(1 + x²)^(3/2),  ∂²f/∂s² = −3·x·B/(1 + x²)·∂f/∂s
         let per_root = one / square.sqrt();
         let force = limit * per_root;
-        return (force * x, force * stiffness * (per_root * per_root));
+        let per_square = per_root * per_root;
+        let slope = force * stiffness * per_square;
+        return [force * x, slope, -(T::lit(3.0) * x * stiffness * per_square * slope)];
     }
-    // f = μ·N · sin(C · atan x),  ∂f/∂s = μ·N · cos(C · atan x) · C·B/(1 + x²)
+    // f = μ·N · sin(C · atan x),  ∂f/∂s = μ·N · cos(C · atan x) · C·B/(1 + x²),
+    // ∂²f/∂s² = −μ·N · C·(B/(1 + x²))² · (C·sin(C · atan x) + 2·x·cos(C · atan x))
     let (sin, cos) = (shape * x.atan2(one)).sin_cos();
-    (limit * sin, limit * cos * shape * stiffness / square)
+    let steep = stiffness / square;
+    let bend = -(limit * shape * (steep * steep) * (shape * sin + T::lit(2.0) * x * cos));
+    [limit * sin, limit * cos * shape * stiffness / square, bend]
 }
 
 /// Slip of the wheels.
@@ -183,6 +195,18 @@ mod tests {
                 let difference =
                     (traction(2.0, 30.0, shape, slip + h).0 - traction(2.0, 30.0, shape, slip - h).0) / (2.0 * h);
                 assert!((traction(2.0, 30.0, shape, slip).1 - difference).abs() < 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn the_bend_is_the_slope_of_the_slope() {
+        for shape in [0.8, 1.0, 1.4] {
+            for slip in [-0.4, -0.02, 0.0, 0.01, 0.1, 0.7] {
+                let h = 1e-6;
+                let slope = |slip| traction(2.0, 30.0, shape, slip).1;
+                let difference = (slope(slip + h) - slope(slip - h)) / (2.0 * h);
+                assert!((curve(2.0, 30.0, shape, slip)[2] - difference).abs() < 1e-3, "{shape} {slip}");
             }
         }
     }
