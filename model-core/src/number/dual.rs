@@ -242,8 +242,9 @@ impl<const K: usize> Real for Dual<K> {
     #[inline(always)]
     fn chain<const M: usize>(value: f64, slopes: [(&Self, f64); M]) -> Self {
         // f(x)˙ = Σ ∂f/∂x_i·ẋ_i
-        let mut eps = [0.0; K];
-        for (x, slope) in slopes {
+        let Some(((first, slope), rest)) = slopes.split_first() else { return Self::constant(value) };
+        let mut eps = each(first.eps, |e| e * slope);
+        for (x, slope) in rest {
             eps = both(eps, &x.eps, |sum, e| sum + e * slope);
         }
         Self { re: value, eps }

@@ -12,4 +12,6 @@ pub mod root;
 
 pub mod dual;
 
+pub(crate) mod lanes;
+
 pub mod linalg;

@@ -93,7 +93,13 @@ fn quarter_turns_f32(x: f32) -> (f32, f32) {
 /// (sin x, cos x), x in rad; see the table above for the error.
 #[inline]
 pub fn sin_cos_f64(x: f64) -> (f64, f64) {
-    if x.abs() <= REACH_F64 { quarter_turns_f64(x) } else { far_f64(x) }
+    if is_near(x) { quarter_turns_f64(x) } else { far_f64(x) }
+}
+
+/// True within the reach of [`quarter_turns_f64`].
+#[inline]
+pub(super) fn is_near(x: f64) -> bool {
+    x.abs() <= REACH_F64
 }
 
 /// An angle beyond the reach, an infinite one, or NaN [rad].
@@ -103,8 +109,9 @@ fn far_f64(x: f64) -> (f64, f64) {
     (libm::sin(x), libm::cos(x))
 }
 
-#[inline]
-fn quarter_turns_f64(x: f64) -> (f64, f64) {
+/// The same within [`is_near`], without a branch.
+#[inline(always)]
+pub(super) fn quarter_turns_f64(x: f64) -> (f64, f64) {
     // P₁ and P₂ have 33 bits each, so that n·P₁ and n·P₂ are exact up to n = 2²⁰
     const P1: f64 = 1.570_796_326_734_125_6;
     const P2: f64 = 6.077_100_506_303_966e-11;

@@ -120,7 +120,7 @@ struct Plain<P> {
 
 impl<P: Real> Plain<P> {
     /// Everything goes on as it moved.
-    #[inline]
+    #[inline(always)]
     fn first_guess(&self) -> Guess<P> {
         let budgets = |axis: usize| self.most[axis] > P::zero();
         Guess {
@@ -129,7 +129,7 @@ impl<P: Real> Plain<P> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn solve(&self, guess: Guess<P>) -> Solved<P> {
         let (zero, one) = (P::zero(), P::one());
         let (mut rows, mut right) = (self.h, self.impulse);
@@ -149,7 +149,7 @@ impl<P: Real> Plain<P> {
     }
 
     /// The guess that follows from this one's failing; `None` where it fits.
-    #[inline]
+    #[inline(always)]
     fn mended(&self, solved: &Solved<P>) -> Option<Guess<P>> {
         let zero = P::zero();
         let mut next = solved.guess;
@@ -214,6 +214,9 @@ impl<const N: usize, T: Real> Motion<'_, N, T> {
     /// An impulse, less what the wheels' dry friction takes while they turn along a twist.
     #[inline]
     fn less_wheels(&self, mut impulse: [T::Plain; 3], along: [T::Plain; 3]) -> [T::Plain; 3] {
+        if self.holds.are_none() {
+            return impulse;
+        }
         for hold in self.holds.iter() {
             let most = hold.budget.plain() * self.dt;
             impulse = add_scaled(impulse, -(hold.speed(along).sign() * most), hold.direction.map(T::plain));
@@ -224,7 +227,7 @@ impl<const N: usize, T: Real> Motion<'_, N, T> {
     /// True if two twists turn every wheel the same way.
     #[inline]
     fn wheels_agree(&self, a: [T::Plain; 3], b: [T::Plain; 3]) -> bool {
-        self.holds.iter().all(|hold| hold.speed(a).sign() == hold.speed(b).sign())
+        self.holds.are_none() || self.holds.iter().all(|hold| hold.speed(a).sign() == hold.speed(b).sign())
     }
 
     /// x⁺ with its derivatives: those of H·(x⁺ − x) = Δt·F − Σ ±b·Δt·d along what slides, of x⁺ = 0 along what rests.

@@ -61,4 +61,7 @@ mod forces;
 
 mod speed_driven;
 
+mod batch;
+pub use batch::{Batch, BatchReading, BatchState};
+
 mod sensing;

@@ -17,6 +17,8 @@ use crate::number::scalar::Real;
 pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     pub(super) robot: Robot<N, T>,
     pub(super) effects: Effects<N, T, E>,
+    /// True if there is no effect
+    pub(super) bare: bool,
     /// True if no effect stands between the command and the wheels' forces
     pub(super) plain: bool,
     /// True if an effect may make something turn with the wheels that has inertia
@@ -131,6 +133,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let yields = shafts.iter().any(|shaft| shaft.stiffness > T::zero());
         Self {
             robot,
+            bare: effects.is_empty(),
             effects,
             plain,
             turns,

@@ -48,6 +48,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     #[inline]
     pub fn step(&self, state: &mut State<N, T>, memory: &mut [E::State], input: &Input<N, T>, dt: T) -> Reading<N, T> {
         match input {
+            Input::Voltage(command) if self.bare => self.step_bare(state, command, dt),
             Input::Voltage(command) if self.plain => self.step_plain(state, memory, command, dt),
             Input::Voltage(command) => self.step_forces(state, memory, Source::Voltage(command), dt),
             Input::Current(current) => self.step_forces(state, memory, Source::Current(current), dt),
@@ -121,9 +122,32 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         truth
     }
 
-    /// The same where no effect stands between the command and the wheels' forces: the same arithmetic in the same order.
-    #[inline]
+    /// A step of a robot without effects: the same arithmetic in the same order.
+    #[inline(always)]
+    pub(super) fn step_bare(&self, state: &mut State<N, T>, command: &[T; N], dt: T) -> Reading<N, T> {
+        let (truth, force) = self.plain_wheels(state, command);
+        let next = BodyTwist::from_array(self.move_plain(state.twist.to_array(), force, dt.plain()));
+        state.go_on(next, dt);
+        state.bus = self.robot.supply;
+        truth
+    }
+
+    /// The same where effects act on nothing but body and sensors.
     fn step_plain(&self, state: &mut State<N, T>, memory: &mut [E::State], command: &[T; N], dt: T) -> Reading<N, T> {
+        let (mut truth, force) = self.plain_wheels(state, command);
+        let mut at = self.at(state, dt);
+        let mut push = Push { body: Body { force, rate: self.motor_rate, ..Body::default() }, ..Push::none() };
+        let next = BodyTwist::from_array(self.move_body(&mut at, state, memory, &mut push, dt));
+        let (source, turned) = (Source::Voltage(command), Turned::default());
+        let bus = self.robot.supply;
+        let done = Done { next, contact: &self.contact, source: &source, bus, turned: &turned };
+        self.finish(&mut at, state, memory, &done, &mut truth);
+        truth
+    }
+
+    /// The wheels of the plain model: the truth at the step's beginning, and the force on the body [N, N, N·m].
+    #[inline(always)]
+    fn plain_wheels(&self, state: &mut State<N, T>, command: &[T; N]) -> (Reading<N, T>, [T; 3]) {
         let zero = T::zero();
         let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
         let mut force = [zero; 3];
@@ -135,20 +159,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             c.add_force(&mut force, torque * c.per_radius);
         }
         (state.current, state.wheel_speed) = (truth.current, truth.wheel_speed);
-        if self.effects.is_empty() {
-            let next = BodyTwist::from_array(self.move_plain(state.twist.to_array(), force, dt.plain()));
-            state.go_on(next, dt);
-            state.bus = self.robot.supply;
-            return truth;
-        }
-        let mut at = self.at(state, dt);
-        let mut push = Push { body: Body { force, rate: self.motor_rate, ..Body::default() }, ..Push::none() };
-        let next = BodyTwist::from_array(self.move_body(&mut at, state, memory, &mut push, dt));
-        let (source, turned) = (Source::Voltage(command), Turned::default());
-        let bus = self.robot.supply;
-        let done = Done { next, contact: &self.contact, source: &source, bus, turned: &turned };
-        self.finish(&mut at, state, memory, &done, &mut truth);
-        truth
+        (truth, force)
     }
 
     /// Moves the pose, makes of the truth at the step's beginning a reading, and lets the effects remember.
