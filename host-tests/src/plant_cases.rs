@@ -8,7 +8,8 @@ use model_core::effects::{EffectKind, EffectState};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::dual::Dual;
 use model_core::number::scalar::Real;
-use model_core::plant::{Input, Plant};
+use model_core::plant::robot::Nominal;
+use model_core::plant::{Batch, Input, Plant};
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
 use omni_gap::simulate::{EffectInstance, Model};
@@ -66,6 +67,30 @@ pub fn model(effects: &[&str]) -> Model<4> {
 /// The plain robot in numbers that carry eight derivatives.
 pub fn with_derivatives() -> Plant<4, Dual<8>> {
     model(&[]).plant_with(|_, x| Dual::variable(x, 0))
+}
+
+/// Robots side by side.
+pub const LANES: usize = 4;
+
+/// The plain robot, side by side with some that are a little heavier each.
+pub fn side_by_side() -> Batch<4, LANES> {
+    let plain = model(&[]);
+    let robots = std::array::from_fn(|lane| {
+        let mut factor = plain.factor;
+        factor[Nominal::Mass as usize] = 1.0 + 0.05 * lane as f64;
+        plain.robot().scaled(&factor)
+    });
+    Batch::new(&robots).expect("robots on the same wheels")
+}
+
+/// All steps of every robot, from rest; a sum of what was read, so that no step can be left out.
+pub fn run_side_by_side(batch: &Batch<4, LANES>) -> f64 {
+    let mut state = batch.start(&[Pose::default(); LANES], &[BodyTwist::default(); LANES]);
+    let mut sum = 0.0;
+    for k in 0..STEPS {
+        sum += batch.step(&mut state, &command(k).map(|u| [u; LANES]), STEP_S).of(0).current[0];
+    }
+    sum
 }
 
 /// The motor voltages of step `k` [V].

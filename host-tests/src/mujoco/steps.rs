@@ -8,7 +8,9 @@ use serde_json::json;
 use super::median::median;
 use super::motion::drive;
 use super::worker::{Worker, number};
-use crate::plant_cases::{PLANT_CASES, PlantCase, STEPS, command, model, run, with_derivatives};
+use crate::plant_cases::{
+    LANES, PLANT_CASES, PlantCase, STEPS, command, model, run, run_side_by_side, side_by_side, with_derivatives,
+};
 
 /// Turns that the two sides take.
 pub const TURNS: usize = 21;
@@ -21,6 +23,9 @@ const CASE_S: f64 = 0.05;
 
 /// What is asked of each of [`PLANT_CASES`], as a multiple of MuJoCo's steps a second.
 const ASKED: [f64; PLANT_CASES.len()] = [80.0, 45.0, 25.0, 10.0];
+
+/// What is asked of plain robots side by side.
+const ASKED_SIDE_BY_SIDE: f64 = 150.0;
 
 /// The slowest effect on its own, of which nothing is asked.
 const SLIP: PlantCase = PlantCase { name: "wheel_slip alone", effects: &["wheel_slip"] };
@@ -83,12 +88,18 @@ impl Contestant {
     }
 }
 
-/// This side's contestants: the plain plant first, the one with derivatives last. Whatever else takes steps of this robot on
-/// one core is one more line before that: several robots side by side count the steps of each.
+/// This side's contestants: the plain plant first, the one with derivatives last. Robots side by side count the steps of each.
 fn contestants() -> Vec<Contestant> {
     let mut all: Vec<Contestant> =
         PLANT_CASES.into_iter().zip(ASKED).map(|(case, asked)| Contestant::of(case, Some(asked))).collect();
     all.push(Contestant::of(SLIP, None));
+    let batch = side_by_side();
+    let runs = move || {
+        black_box(run_side_by_side(black_box(&batch)));
+        STEPS * LANES
+    };
+    let (name, asked) = ("plain, four robots side by side", Some(ASKED_SIDE_BY_SIDE));
+    all.push(Contestant { name, asked, runs: Box::new(runs), per_s: Vec::new() });
     let plant = with_derivatives();
     let runs = move || {
         black_box(run(black_box(&plant), &mut []));

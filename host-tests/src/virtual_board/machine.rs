@@ -34,7 +34,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::Complex;
+use num_complex::Complex;
 
 /// A space vector or a phasor.
 pub type Vector = Complex<f64>;

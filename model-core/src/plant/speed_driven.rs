@@ -32,7 +32,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let mut truth = Reading { current: [zero; N], wheel_speed: *speed, pose: state.pose, gyro: state.twist.w };
         let next = if yields {
             let x = state.twist.to_array();
-            let mut push = Push::none();
+            let mut push = Push::of([zero; 3], [[zero; 3]; 3]);
             for (j, (c, speed)) in contact.iter().zip(speed).enumerate() {
                 let (force, slope) = Floor::of(c).force(*speed * c.radius - c.rim_speed(state.twist));
                 // twice the slope: the floor's force is stiff, and this makes the step implicit in it

@@ -26,8 +26,9 @@ pub(super) struct Push<const N: usize, T> {
 }
 
 impl<const N: usize, T: Real> Push<N, T> {
-    pub fn none() -> Self {
-        Self { body: Body::default(), turning: None, shafts: None, rollers: None }
+    /// Of a force and its rate.
+    pub fn of(force: [T; 3], rate: [[T; 3]; 3]) -> Self {
+        Self { body: Body { force, rate, ..Body::default() }, turning: None, shafts: None, rollers: None }
     }
 
     /// Adds the friction of a wheel's rollers.
@@ -45,7 +46,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// Takes one step of `dt` [s] with the input held, and returns the reading at its beginning.
     ///
     /// `memory` is [`Plant::memory_len`] long.
-    #[inline]
+    #[inline(always)]
     pub fn step(&self, state: &mut State<N, T>, memory: &mut [E::State], input: &Input<N, T>, dt: T) -> Reading<N, T> {
         match input {
             Input::Voltage(command) if self.bare => self.step_bare(state, command, dt),
@@ -80,7 +81,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         };
 
         let mut truth = Reading { current: [zero; N], wheel_speed: [zero; N], pose: state.pose, gyro: state.twist.w };
-        let mut push = Push::none();
+        let mut push = Push::of([zero; 3], [[zero; 3]; 3]);
         let mut turned = Turned::default();
         let mut wheel = Wheel::new();
         for j in 0..N {
@@ -136,7 +137,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     fn step_plain(&self, state: &mut State<N, T>, memory: &mut [E::State], command: &[T; N], dt: T) -> Reading<N, T> {
         let (mut truth, force) = self.plain_wheels(state, command);
         let mut at = self.at(state, dt);
-        let mut push = Push { body: Body { force, rate: self.motor_rate, ..Body::default() }, ..Push::none() };
+        let mut push = Push::of(force, self.motor_rate);
         let next = BodyTwist::from_array(self.move_body(&mut at, state, memory, &mut push, dt));
         let (source, turned) = (Source::Voltage(command), Turned::default());
         let bus = self.robot.supply;
@@ -145,7 +146,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         truth
     }
 
-    /// The wheels of the plain model: the truth at the step's beginning, and the force on the body [N, N, N·m].
+    /// The wheels of the plain model: the truth at the step's beginning, and their force on the body [N, N, N·m].
     #[inline(always)]
     fn plain_wheels(&self, state: &mut State<N, T>, command: &[T; N]) -> (Reading<N, T>, [T; 3]) {
         let zero = T::zero();
