@@ -4,7 +4,8 @@
 //! while the heading stays what it was. Here the fit has the start of every window free besides; there every run is
 //! simulated as a whole, from the rest at which it is known to begin.
 
-use std::time::Instant;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 use model_core::plant::Input;
 use model_core::plant::robot::Nominal;
@@ -23,6 +24,9 @@ use crate::plant_cases::model;
 
 /// Fits of each side.
 pub const TURNS: usize = 3;
+
+/// A pause before each turn: threads of the other side that still wait for work do so at full speed for a while.
+const PAUSE: Duration = Duration::from_millis(500);
 
 /// Where SciPy's fit stops: a round that brings the cost down by less than this share. Ours stops at the same share, and
 /// at a tenth of a σ² below.
@@ -65,9 +69,11 @@ pub fn measured(worker: &mut Worker) -> Result<Fits, String> {
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     let mut last = None;
     for _ in 0..TURNS {
+        sleep(PAUSE);
         let begun = Instant::now();
         let fitted = case.fit();
         ours.push(begun.elapsed().as_secs_f64());
+        sleep(PAUSE);
         let answer = worker.ask(&json!({"ask": "fit"}))?;
         theirs.push(number(&answer, "seconds")?);
         last = Some((fitted, answer));

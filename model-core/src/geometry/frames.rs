@@ -61,8 +61,12 @@ impl<T: Real> BodyTwist<T> {
     /// Halfway between two twists.
     #[inline]
     pub fn mean(self, other: Self) -> Self {
-        let half = T::lit(0.5);
-        Self { v: half * (self.v + other.v), vn: half * (self.vn + other.vn), w: half * (self.w + other.w) }
+        let half = T::Plain::lit(0.5);
+        Self {
+            v: (self.v + other.v).times(half),
+            vn: (self.vn + other.vn).times(half),
+            w: (self.w + other.w).times(half),
+        }
     }
 }
 
@@ -83,16 +87,27 @@ impl<T: Real> Pose<T> {
         BodyTwist { v: cos * twist.x + sin * twist.y, vn: cos * twist.y - sin * twist.x, w: twist.w }
     }
 
-    /// The pose after moving with a constant body twist for `dt` [s], the heading taken at its middle.
+    /// The pose after moving with a constant body twist for `dt` [s], the heading taken at its middle. The time has no
+    /// derivatives.
     ///
     /// Second order in `dt`: on a circle of radius ρ travelled by angle φ = ω·dt the chord is too long by ρφ³/24.
     #[inline]
     pub fn moved(self, twist: BodyTwist<T>, dt: T) -> Self {
         // θ½ = θ + ½·ω·Δt,  Δ(x, y) = R(θ½)·(v, vn)·Δt,  Δθ = ω·Δt
-        let turn = twist.w * dt;
-        let middle = Self { theta: self.theta + turn.times(T::Plain::lit(0.5)), ..self };
-        let world = middle.to_world(twist);
-        Self { x: self.x + world.x * dt, y: self.y + world.y * dt, theta: self.theta + turn }
+        let dt = dt.plain();
+        let half = dt * T::Plain::lit(0.5);
+        let turn = twist.w.plain() * dt;
+        let (sin, cos) = (self.theta.plain() + turn * T::Plain::lit(0.5)).sin_cos();
+        let BodyTwist { v, vn, w } = &twist;
+        let (v_x, v_y) = (cos * v.plain() - sin * vn.plain(), sin * v.plain() + cos * vn.plain());
+        // ∂(x, y)/∂θ½ = Δt·(−v_y, v_x)
+        let by_x = [(v, cos * dt), (vn, -(sin * dt)), (&self.theta, -(v_y * dt)), (w, -(v_y * dt * half))];
+        let by_y = [(v, sin * dt), (vn, cos * dt), (&self.theta, v_x * dt), (w, v_x * dt * half)];
+        let mut moved = self;
+        moved.x.add_chain(v_x * dt, by_x);
+        moved.y.add_chain(v_y * dt, by_y);
+        moved.theta.add_chain(turn, [(w, dt)]);
+        moved
     }
 }
 
