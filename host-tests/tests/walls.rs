@@ -53,6 +53,18 @@ fn the_core_computes_the_same_bits_everywhere_and_in_single_precision() {
 }
 
 #[test]
+fn no_library_chooses_its_arithmetic_by_the_processor() {
+    let all = sources(&["lock"]);
+    let lock = &all.iter().find(|source| source.path == "Cargo.lock").expect("the workspace has a lock file").text;
+    assert!(lock.contains("name = \"nalgebra\""), "a lock file without nalgebra proves nothing");
+    // products with fused multiply-add where the processor has it, and so other last bits
+    assert!(
+        !lock.contains("name = \"matrixmultiply\""),
+        "Cargo.lock: nalgebra's feature `std` brings matrixmultiply in"
+    );
+}
+
+#[test]
 fn the_core_depends_on_libm_and_crc_alone() {
     let path = "model-core/Cargo.toml";
     let found = sources(&["toml"]);

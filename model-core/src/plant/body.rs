@@ -208,7 +208,7 @@ impl<const N: usize, T: Real> Motion<'_, N, T> {
                 }
             }
         }
-        stick(self, x)
+        stick(self.body, &self.holds, x, self.dt)
     }
 
     /// An impulse, less what the wheels' dry friction takes while they turn along a twist.

@@ -4,7 +4,7 @@
 //! whole budget, those that stick take the motion along them, which is a closed form in any number type. Every single
 //! update brings the kinetic energy ½·xᵀHx down, so friction never creates any, however few the sweeps.
 
-use super::body::Motion;
+use crate::effects::seams::Body;
 use crate::number::linalg::{Mat3, add_scaled, dot, inverse3, mul_mat_vec};
 use crate::number::scalar::Real;
 
@@ -113,15 +113,15 @@ impl<P: Real> Held<P> {
 }
 
 /// All directions of a motion that hold anything, and how many.
-fn holds<const N: usize, T: Real>(motion: &Motion<'_, N, T>) -> ([Hold<T>; MOST], usize) {
+fn all_holds<const N: usize, T: Real>(body: &Body<T>, wheels: &WheelHolds<'_, N, T>) -> ([Hold<T>; MOST], usize) {
     let mut all = [Hold::none(); MOST];
     let mut count = 0;
-    let axes = motion.body.budget.iter().enumerate().map(|(axis, budget)| {
+    let axes = body.budget.iter().enumerate().map(|(axis, budget)| {
         let mut direction = [T::zero(); 3];
         direction[axis] = T::one();
         Hold { direction, budget: *budget }
     });
-    for hold in axes.chain(motion.holds.iter().copied()).filter(|hold| hold.budget > T::zero()) {
+    for hold in axes.chain(wheels.iter().copied()).filter(|hold| hold.budget > T::zero()) {
         all[count] = hold;
         count += 1;
     }
@@ -131,14 +131,19 @@ fn holds<const N: usize, T: Real>(motion: &Motion<'_, N, T>) -> ([Hold<T>; MOST]
 /// The twist after a step from `x` where some directions stick: which ones is found in plain numbers; the twist then
 /// follows at once.
 #[inline(never)]
-pub(super) fn stick<const N: usize, T: Real>(motion: &Motion<'_, N, T>, x: [T; 3]) -> [T; 3] {
-    let (zero, one, dt) = (T::zero(), T::one(), motion.dt);
+pub(super) fn stick<const N: usize, T: Real>(
+    body: &Body<T>,
+    wheels: &WheelHolds<'_, N, T>,
+    x: [T; 3],
+    dt: T::Plain,
+) -> [T; 3] {
+    let (zero, one) = (T::zero(), T::one());
     let half = dt * T::Plain::lit(0.5);
-    let (mass, rate) = (&motion.body.mass, &motion.body.rate);
+    let (mass, rate) = (&body.mass, &body.rate);
     let h = |row: usize| core::array::from_fn(|column| mass[row][column] + rate[row][column].times(half));
     let mobility = Mobility::new([h(0), h(1), h(2)]);
-    let free = add_scaled(x, one, mobility.of(motion.body.force.map(|force| force.times(dt))));
-    let (all, count) = holds(motion);
+    let free = add_scaled(x, one, mobility.of(body.force.map(|force| force.times(dt))));
+    let (all, count) = all_holds(body, wheels);
     let holds = &all[..count];
     let mut sweeping =
         [Held { direction: [Real::zero(); 3], pushed: [Real::zero(); 3], stiffness: Real::zero(), most: Real::zero() };

@@ -10,9 +10,8 @@
 
 use super::fixed_point::{Solved, solve};
 use super::model::Plant;
-use super::source::Source;
+use super::source::{Drive, Source};
 use super::state::State;
-use super::wheel::Drive;
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Bridge, Contact, EffectContext, Supply, Winding};

@@ -3,9 +3,9 @@
 use super::dry_friction::Hold;
 use super::model::Plant;
 use super::shaft::Rotor;
-use super::source::Source;
+use super::source::{Drive, Source};
 use super::state::{Input, Reading, State};
-use super::wheel::{Drive, Wheel};
+use super::wheel::Wheel;
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Body, Contact, EffectContext};

@@ -3,26 +3,12 @@
 use super::electric::Electric;
 use super::model::Plant;
 use super::shaft::{Before, Rotor};
-use super::source::Source;
-use super::state::State;
+use super::source::Drive;
 use super::traction::{Crossing, Floor, Line, cross};
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
-use crate::effects::seams::{Contact, EffectContext, Gear};
+use crate::effects::seams::{EffectContext, Gear};
 use crate::number::scalar::Real;
-
-/// What drives a wheel, and what the step goes on from.
-pub(super) struct Drive<'a, const N: usize, T, S> {
-    pub source: &'a Source<'a, N, T>,
-    /// Bus voltage over nominal, where it may differ
-    pub gain: Option<&'a T>,
-    pub contact: &'a Contact<T>,
-    /// What the floor takes at that contact, where it is known already
-    pub floor: Option<&'a Floor<T>>,
-    pub state: &'a State<N, T>,
-    /// What the effects remember
-    pub memory: &'a [S],
-}
 
 /// A wheel, solved. There is one in a step, filled anew for every wheel.
 pub(super) struct Wheel<T: Real> {

@@ -37,6 +37,21 @@ fn the_demo_finds_what_is_hidden_and_its_files_say_the_same_again() {
 }
 
 #[test]
+fn the_bytes_depend_neither_on_threads_nor_on_what_the_processor_can() {
+    let bench = Bench::with_session();
+    bench.done(&["diagnose", "session", "--out", "here"]);
+    let wide = "glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX2,-FMA,-FMA4";
+    for (name, value) in [("RAYON_NUM_THREADS", "1"), ("RAYON_NUM_THREADS", "5"), ("GLIBC_TUNABLES", wide)] {
+        let mut command = bench.command(&["diagnose", "session", "--out", "there"]);
+        let said = command.env(name, value).output().expect("the command starts");
+        assert!(said.status.success(), "{name}={value}: {}", String::from_utf8_lossy(&said.stderr));
+        for file in ["report.json", "corrected_robot.toml"] {
+            assert_eq!(bench.read(&format!("here/{file}")), bench.read(&format!("there/{file}")), "{name}={value}");
+        }
+    }
+}
+
+#[test]
 fn a_prediction_has_the_rows_and_the_measured_columns_of_its_run_and_no_gaps() {
     let bench = Bench::with_session();
     bench.done(&["predict", "session/robot.toml", RUN, "--horizon", "0.5", "--out", "p.csv"]);
