@@ -56,8 +56,16 @@ pub fn mul_mat_vec<T: Real>(m: &Mat3<T>, a: Vec3<T>) -> Vec3<T> {
 /// m += k·row·rowᵀ, to build up a symmetric matrix; the unit of m.
 #[inline]
 pub fn accumulate_outer<T: Real>(m: &mut Mat3<T>, k: T, row: Vec3<T>) {
-    accumulate_upper(m, k, row);
-    mirror(m);
+    // m_ij += k·row_i·row_j
+    let factor = scaled(k, row);
+    for i in 0..3 {
+        m[i][i] += factor[i] * row[i];
+        for j in i + 1..3 {
+            let both = factor[i] * row[j];
+            m[i][j] += both;
+            m[j][i] += both;
+        }
+    }
 }
 
 /// The same on and above the diagonal; [`mirror`] does the rest once everything is in.
@@ -75,9 +83,7 @@ pub fn accumulate_upper<T: Real>(m: &mut Mat3<T>, k: T, row: Vec3<T>) {
 /// What stands above the diagonal, below it too.
 #[inline]
 pub fn mirror<T: Real>(m: &mut Mat3<T>) {
-    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-        m[j][i] = m[i][j];
-    }
+    (m[1][0], m[2][0], m[2][1]) = (m[0][1], m[0][2], m[1][2]);
 }
 
 /// det m; the unit of m to the third.
