@@ -59,7 +59,7 @@ impl<T: Real> BodyTwist<T> {
     }
 
     /// Halfway between two twists.
-    #[inline]
+    #[inline(always)]
     pub fn mean(self, other: Self) -> Self {
         let half = T::Plain::lit(0.5);
         Self {
@@ -91,7 +91,7 @@ impl<T: Real> Pose<T> {
     /// derivatives.
     ///
     /// Second order in `dt`: on a circle of radius ρ travelled by angle φ = ω·dt the chord is too long by ρφ³/24.
-    #[inline]
+    #[inline(always)]
     pub fn moved(self, twist: BodyTwist<T>, dt: T) -> Self {
         // θ½ = θ + ½·ω·Δt,  Δ(x, y) = R(θ½)·(v, vn)·Δt,  Δθ = ω·Δt
         let dt = dt.plain();

@@ -134,6 +134,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     }
 
     /// The same where effects act on nothing but body and sensors.
+    #[inline]
     fn step_plain(&self, state: &mut State<N, T>, memory: &mut [E::State], command: &[T; N], dt: T) -> Reading<N, T> {
         let (mut truth, force) = self.plain_wheels(state, command);
         let mut at = self.at(state, dt);
