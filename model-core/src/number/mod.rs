@@ -1,7 +1,7 @@
 //! # Number: what the equations compute with
 //!
-//! One trait, [`Real`](scalar::Real), for three kinds of number: `f32` on the robot, `f64` on the host and
-//! [`Dual`](dual::Dual) where a derivative is wanted. Sine, cosine and square root are written here, so that every
+//! One trait, [`Real`](scalar::Real), for four kinds of number: `f32` on the robot, `f64` on the host,
+//! [`Dual`](dual::Dual) where a derivative is wanted, and lanes for several robots side by side. Sine, cosine and square root are written here, so that every
 //! machine computes the same bits; vectors and matrices of three are arrays.
 
 pub mod scalar;
