@@ -321,4 +321,37 @@ mod tests {
         assert!((x[0] + 0.09 * x[2]).abs() < 1e-9, "wheel 3 turns: {x:?}");
         assert!(x[0] > 0.1 && (x[1] - 0.2).abs() < 1e-12, "{x:?}");
     }
+
+    /// Sine values of any size, so that every case comes about.
+    fn drawn(k: u32, size: f64) -> f64 {
+        size * libm::sin(f64::from(k * k) * 0.7 + f64::from(k))
+    }
+
+    #[test]
+    fn guesses_end_where_the_sweeps_end() {
+        let mut rested = 0;
+        for case in 0..400 {
+            let n = |k: u32, size: f64| drawn(case * 31 + k, size);
+            let mass = [[2.0 + n(1, 0.3), n(2, 0.1), n(3, 0.03)], [0.0; 3], [0.0; 3]];
+            let mass = [mass[0], [mass[0][1], 2.4, n(4, 0.03)], [mass[0][2], n(4, 0.03), 0.05]];
+            // turning forces: a rate that is not symmetric
+            let rate = [[15.0, n(5, 4.0), n(6, 1.0)], [-n(5, 4.0), 12.0, n(7, 1.0)], [0.0, 0.0, 0.3]];
+            let budget = [1.5, 2.0, 0.1].map(|b| if case % 5 == 0 { 0.0 } else { b });
+            let body = Body { mass, force: [n(8, 4.0), n(9, 4.0), n(10, 0.3)], rate, budget };
+            let x = [n(11, 0.01), if case % 3 == 0 { 0.0 } else { n(12, 0.003) }, n(13, 0.02)];
+            let shafts = core::array::from_fn(|j| Hold {
+                direction: [[0.0, 1.0, 0.09], [-1.0, 0.0, 0.09], [0.0, -1.0, 0.09], [1.0, 0.0, 0.09]][j],
+                budget: if case % 2 == 0 { 0.0 } else { n(14 + j as u32, 0.4).abs() },
+            });
+            let holds = WheelHolds::<4, f64> { shafts: (case % 2 == 1).then_some(&shafts), rollers: None };
+            let guessed = Motion { body: &body, holds, dt: 1e-3 }.after(x);
+            let swept = stick(&body, &holds, x, 1e-3);
+            for (a, b) in guessed.into_iter().zip(swept) {
+                // the sweeps end below 10⁻³ m/s² for a step of 1 ms
+                assert!((a - b).abs() < 5e-6, "case {case}: {guessed:?} and {swept:?}");
+            }
+            rested += usize::from(guessed.contains(&0.0));
+        }
+        assert!((40..360).contains(&rested), "{rested} of 400 rest along an axis");
+    }
 }
