@@ -3,6 +3,7 @@
 use super::align::{Part, aligned};
 use super::clock_offset::{REACH_S, estimate};
 use super::columns::{Columns, fits};
+use super::entries::entries;
 use super::file_table::{FileTable, Offset};
 use super::motion::Motion;
 use super::read::{Needs, open_bridges_apply_nothing, read};
@@ -66,19 +67,8 @@ fn found<'a>(
     tables: &'a [FileTable],
     notices: &mut Vec<String>,
 ) -> Result<Vec<(&'a FileTable, PathBuf)>> {
-    let unreadable = |reason: std::io::Error| {
-        Error::input(folder, format!("cannot be read: {reason}"), "Check its permissions")
-            .of_kind(InputKind::Unreadable)
-    };
-    let mut names = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(unreadable)? {
-        let path = entry.map_err(unreadable)?.path();
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if !name.starts_with('.') && !path.is_dir() {
-            names.push(name);
-        }
-    }
-    names.sort();
+    let files = entries(folder)?.into_iter().filter(|(_, path)| !path.is_dir());
+    let names: Vec<String> = files.map(|(name, _)| name).collect();
     let mut all = Vec::new();
     for table in tables {
         let fitting: Vec<&String> = names.iter().filter(|name| fits(&table.name, name)).collect();

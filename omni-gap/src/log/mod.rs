@@ -19,6 +19,7 @@ mod correct;
 mod driving;
 mod edges;
 mod effects_read;
+mod entries;
 mod file_table;
 mod folder;
 mod mapping;

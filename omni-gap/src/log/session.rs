@@ -2,6 +2,7 @@
 
 use super::catalogue::Catalogue;
 use super::columns::Columns;
+use super::entries::entries;
 use super::robot_file::RobotFile;
 use super::run::Run;
 use super::source::is_log;
@@ -77,17 +78,8 @@ impl Session {
     /// The run logs in a folder, by name. Without a mapping they are the `.csv` and `.rec` files; with one that has `[[file]]` tables
     /// folders are runs too.
     fn files_in(&mut self, folder: &Path, columns: Option<&Columns>) -> Result<Vec<PathBuf>> {
-        let told = |reason: std::io::Error| {
-            Error::input(folder, format!("cannot be read: {reason}"), "Check its permissions")
-                .of_kind(InputKind::Unreadable)
-        };
         let mut paths = Vec::new();
-        for entry in std::fs::read_dir(folder).map_err(told)? {
-            let path = entry.map_err(told)?.path();
-            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            if name.starts_with('.') {
-                continue;
-            }
+        for (name, path) in entries(folder)? {
             let fits = columns.map_or_else(|| is_log(&name), |columns| columns.takes(&name));
             let is_run = columns.is_some_and(|columns| !columns.parts.is_empty());
             match path.is_dir() {
@@ -101,7 +93,6 @@ impl Session {
             }
         }
         self.notices.sort();
-        paths.sort();
         match paths.is_empty() {
             true => Err(Error::input(
                 folder,
