@@ -8,7 +8,7 @@
 use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Role, Seam};
-use model_core::geometry::frames::BodyTwist;
+use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::dual::Dual;
 use model_core::number::scalar::Real;
 use model_core::plant::robot::{Nominal, Robot};
@@ -199,6 +199,31 @@ fn derivatives_at_the_absent_value_are_those_of_differences_to_the_side() {
                 assert!((by_dual - by_difference).abs() < within, "{what}");
             }
         }
+    }
+}
+
+#[test]
+fn an_inertia_of_nothing_has_its_derivative_where_wheels_slip_too() {
+    fn plant<T: Real>(inertia: T) -> Plant<4, T> {
+        let mut set = Effects::default();
+        let slip = EffectKind::find("wheel_slip").expect("an effect of the catalogue");
+        set.add(slip, None, &[0.35, 30.0, 1.0].map(T::lit)).expect("it sits on all wheels");
+        let rotor = EffectKind::find("rotor_inertia").expect("an effect of the catalogue");
+        set.add(rotor, None, &[inertia]).expect("it sits on all wheels");
+        Plant::new(four(), set)
+    }
+    fn step<T: Real>(plant: &Plant<4, T>) -> [T; 3] {
+        let mut state = plant.start(T::zero(), Pose::default(), BodyTwist::from_array([0.3, -0.2, 1.0].map(T::lit)));
+        let volts = [6.0, -3.0, -6.0, 2.0].map(T::lit);
+        plant.step(&mut state, &mut [], &Input::Voltage(volts), T::lit(1e-3));
+        state.twist.to_array()
+    }
+    // one step: without inertia wheels jump to their speed, with a little of it they are as good as there
+    let exact = step(&plant(D::variable(0.0, 0)));
+    let [none, little] = [0.0, 1e-9].map(|inertia| step(&plant(inertia)));
+    for (row, d) in exact.iter().enumerate() {
+        let difference = (little[row] - none[row]) / 1e-9;
+        assert!(d.eps[0] != 0.0 && (d.eps[0] - difference).abs() < 1e-3 * difference.abs(), "{d:?}: {difference}");
     }
 }
 

@@ -4,7 +4,7 @@ use host_tests::excitation::{SeededRng, voltages};
 use host_tests::paper::FOUR_WHEELS;
 use host_tests::reference::Reference;
 use model_core::effects::active::Effects;
-use model_core::effects::{EffectKind, Numbers};
+use model_core::effects::{EffectKind, EffectSet, Numbers};
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant, Reading};
@@ -31,6 +31,9 @@ fn finite<const N: usize, T: Real>(run: &Run<N, T>, reading: &Reading<N, T>) -> 
     all.extend(run.state.twist.to_array());
     all.extend(pose(run.state.pose));
     all.extend(pose(reading.pose));
+    if run.plant.effects().iter().any(|active| active.effect.needs().angle) {
+        all.extend(run.state.wheel_angle);
+    }
     for wheels in [run.state.wheel_speed, run.state.current, reading.current, reading.wheel_speed] {
         all.extend(wheels);
     }

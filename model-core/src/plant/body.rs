@@ -74,7 +74,7 @@ impl<T: Real> Axis<'_, T> {
         }
         // H·(x⁺ − x) = Δt·(F ∓ b), differentiated
         let change = -(mobility * (after - x.plain()));
-        let spent = if held > Real::zero() { -(mobility * dt) } else { mobility * dt };
+        let spent = if free > Real::zero() { -(mobility * dt) } else { mobility * dt };
         let forces = [(x, T::Plain::one()), (self.force, mobility * dt), (self.budget, spent)];
         T::chain(after, [forces[0], forces[1], forces[2], (self.mass, change), (self.rate, change * half)])
     }
@@ -93,7 +93,7 @@ pub(super) struct Motion<'a, const N: usize, T: Real> {
 #[derive(Clone, Copy)]
 struct Guess<P> {
     rests: [bool; 3],
-    /// Which way it pushes, of an axis that slides; zero without a budget
+    /// Which way it pushes, of an axis that slides; a budget of zero may still have derivatives
     against: [P; 3],
 }
 
@@ -125,7 +125,7 @@ impl<P: Real> Plain<P> {
         let budgets = |axis: usize| self.most[axis] > P::zero();
         Guess {
             rests: core::array::from_fn(|axis| budgets(axis) && self.x[axis] == P::zero()),
-            against: core::array::from_fn(|axis| if budgets(axis) { -self.x[axis].sign() } else { P::zero() }),
+            against: self.x.map(|x| -x.sign()),
         }
     }
 
@@ -178,8 +178,9 @@ impl<const N: usize, T: Real> Motion<'_, N, T> {
         let half = self.dt * T::Plain::lit(0.5);
         let Body { mass, force, rate, budget } = self.body;
         // H = M + ½·Δt·A
-        let h = |row: usize, column: usize| mass[row][column].plain() + rate[row][column].plain() * half;
-        if self.holds.are_none() && !couples(h) {
+        let entry = |row: usize, column: usize| mass[row][column].plain() + rate[row][column].plain() * half;
+        let h: Mat3<T::Plain> = core::array::from_fn(|row| core::array::from_fn(|column| entry(row, column)));
+        if self.holds.are_none() && !couples(|row, column| h[row][column]) {
             let mut next = [T::zero(); 3];
             for (k, next) in next.iter_mut().enumerate() {
                 let axis = Axis { mass: &mass[k][k], rate: &rate[k][k], force: &force[k], budget: &budget[k] };
@@ -191,7 +192,7 @@ impl<const N: usize, T: Real> Motion<'_, N, T> {
         // the wheels turn on as they did
         let mut along = x.map(T::plain);
         let mut plain = Plain {
-            h: core::array::from_fn(|row| core::array::from_fn(|column| h(row, column))),
+            h,
             x: along,
             impulse: self.less_wheels(free, along),
             most: core::array::from_fn(|axis| budget[axis].plain() * self.dt),
@@ -257,7 +258,7 @@ impl<const N: usize, T: Real> Motion<'_, N, T> {
                 let against = -hold.speed(along).sign() * self.dt;
                 let (direction, most) = (&hold.direction[row], &hold.budget);
                 let spent = [(most, against * direction.plain()), (direction, against * most.plain())];
-                *right += T::chain(zero, spent);
+                right.add_chain(zero, spent);
             }
         }
         let mut next = [T::zero(); 3];
@@ -308,6 +309,27 @@ mod tests {
             let free = [0.01 * libm::sin(a), 0.02 * libm::cos(1.3 * a), 0.1 * libm::sin(2.1 * a)];
             let x = spent(free, h, [1.0, 0.5, 0.01], Some(wheels));
             assert!(energy(x) <= energy(free) * (1.0 + 1e-12), "{free:?} to {x:?}");
+        }
+    }
+
+    #[test]
+    fn a_budget_of_nothing_has_the_derivative_of_a_little() {
+        use crate::number::dual::Dual;
+        type D = Dual<1>;
+        for (coupling, x) in [(0.0, 0.3), (0.0, -0.3), (0.4, 0.3), (0.4, -0.3)] {
+            let h = [[2.0, coupling, 0.0], [coupling, 2.0, 0.0], [0.0, 0.0, 0.02]];
+            let body = Body {
+                mass: h.map(|row| row.map(D::lit)),
+                budget: [D::variable(0.0, 0), D::lit(0.0), D::lit(0.0)],
+                ..Body::default()
+            };
+            let holds = WheelHolds::<4, D> { shafts: None, rollers: None };
+            let exact = Motion { body: &body, holds, dt: 1e-3 }.after([x, 0.1, 0.0].map(D::lit));
+            let [none, little] = [0.0, 1e-3].map(|b| spent([x, 0.1, 0.0], h, [b, 0.0, 0.0], None));
+            for k in 0..3 {
+                let difference = (little[k] - none[k]) / 1e-3;
+                assert!((exact[k].eps[0] - difference).abs() < 1e-9, "{coupling} {x}: {exact:?} against {difference}");
+            }
         }
     }
 

@@ -133,7 +133,7 @@ impl<T: Real> Look<T> {
         let [u, u_drop, i, g] = [driving, drop, ripple, per_resistance].map(T::plain);
         if u.abs() * g <= i + u_drop * g {
             let per_emf = per_resistance / (T::one() + drop / ripple * per_resistance);
-            return Piece { current: driving * per_emf, per_emf, within: [-ripple.plain(), ripple.plain()] };
+            return Piece { current: driving * per_emf, per_emf, within: [-i, i] };
         }
         let [least, most] = anywhere();
         if driving > T::zero() {

@@ -93,7 +93,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                     command: source.command(j),
                     current: truth.current[j],
                     wheel_speed: truth.wheel_speed[j],
-                    heat: turned.heat.as_ref().map_or_else(T::zero, |heat| heat[j]),
+                    heat: turned.heat.as_ref().map_or_else(|| T::lit(f64::NAN), |heat| heat[j]),
                     bus: *bus,
                     ..StepOutcome::default()
                 };

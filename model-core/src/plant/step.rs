@@ -175,17 +175,16 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         reading: &mut Reading<N, T>,
     ) {
         let dt = at.dt;
+        at.pose = state.pose;
         let exact;
         let truth = if self.effects.none_at(Seam::Sense) {
             &*reading
         } else {
             exact = *reading;
-            at.pose = state.pose;
             self.read(at, state, memory, reading);
             &exact
         };
         if self.tells {
-            at.pose = state.pose;
             self.remember(at, state, memory, (done, truth));
         }
         if self.needs.angle || self.needs.heat || self.yields {

@@ -92,7 +92,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         at.wheel_speed = before;
         self.look(at, drive, wheel);
         let moves = wheel.inertia > T::zero();
-        let inertia = if moves { wheel.inertia / at.dt } else { T::zero() };
+        // an inertia of zero may still have derivatives
+        let inertia = if self.turns { wheel.inertia / at.dt } else { T::zero() };
         for look in 1..LOOKS {
             // the motor as a straight line through the last look: τ(ω) = τ₁ − a·(ω − ω₁)
             let (torque, fall) = wheel.line();
@@ -142,7 +143,6 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         self.electric(at, drive, &mut wheel.motor);
         if yields {
             let (rotor_speed, wheel_speed) = (at.rotor_speed, at.wheel_speed);
-            // where the wheel was is close to where it will be
             let before = Before { rotor_speed, wheel_speed, twist: drive.state.shaft_twist[j] };
             wheel.rotor = Rotor::new(&self.shafts[j], &wheel.motor, &before, at.dt);
             (wheel.torque, wheel.fall) = wheel.rotor.line();
