@@ -36,8 +36,10 @@ impl<const L: usize> Lanes<L> {
         Self(out)
     }
 
+    #[inline(always)]
     fn in_every(self, other: Self, f: impl Fn(f64, f64) -> bool) -> bool {
-        self.0.into_iter().zip(other.0).all(|(x, y)| f(x, y))
+        // without a branch a lane
+        self.0.into_iter().zip(other.0).fold(true, |every, (x, y)| every & f(x, y))
     }
 }
 
@@ -57,6 +59,10 @@ impl<const L: usize> PartialOrd for Lanes<L> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         let first = self.0.first()?.partial_cmp(other.0.first()?)?;
         self.in_every(*other, |x, y| x.partial_cmp(&y) == Some(first)).then_some(first)
+    }
+    #[inline(always)]
+    fn gt(&self, other: &Self) -> bool {
+        self.in_every(*other, |x, y| x > y)
     }
 }
 
@@ -168,6 +174,10 @@ impl<const L: usize> Real for Lanes<L> {
     #[inline(always)]
     fn abs(self) -> Self {
         self.each(Real::abs)
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.both(sign, Real::copysign)
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {

@@ -10,6 +10,8 @@ pub mod trig;
 
 pub mod root;
 
+pub(crate) mod decay;
+
 pub mod dual;
 
 pub(crate) mod lanes;

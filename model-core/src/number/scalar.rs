@@ -115,6 +115,12 @@ pub trait Real:
         if self < Self::zero() { -self } else { self }
     }
 
+    /// |x| with the sign of another; that of a zero counts where the number has one.
+    #[inline]
+    fn copysign(self, sign: Self) -> Self {
+        if sign < Self::zero() { -self.abs() } else { self.abs() }
+    }
+
     /// The larger of two.
     #[inline]
     fn max(self, other: Self) -> Self {
@@ -161,6 +167,10 @@ impl Real for f32 {
     fn abs(self) -> Self {
         // one instruction, where a comparison takes four
         f32::abs(self)
+    }
+    #[inline]
+    fn copysign(self, sign: Self) -> Self {
+        f32::copysign(self, sign)
     }
     #[inline]
     fn plain(self) -> f32 {
@@ -222,6 +232,14 @@ impl Real for f64 {
     #[inline]
     fn lit(x: f64) -> Self {
         x
+    }
+    #[inline]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+    #[inline]
+    fn copysign(self, sign: Self) -> Self {
+        f64::copysign(self, sign)
     }
     #[inline]
     fn plain(self) -> f64 {

@@ -35,6 +35,7 @@
 //! Source: Oliveira, Sousa, Moreira, Costa, ICINCO 2008, eq. 16–17, 21–22.
 
 use crate::geometry::shafts::Gearbox;
+use crate::number::decay;
 use crate::number::scalar::Real;
 
 /// A motor and its gear, seen from the wheel's shaft.
@@ -117,7 +118,7 @@ impl<T: Real> Motor<T> {
     pub fn current_after(self, i0: T, voltage: T, wheel_speed: T, inductance: T, dt: T) -> T {
         let settled = self.current(voltage, wheel_speed);
         // i(Δt) = i∞ + (i₀ − i∞)·e⁻ˣ
-        settled + (i0 - settled) * self.remaining(inductance, dt)
+        settled + (i0 - settled) * decay::remaining(inductance, self.resistance * dt)
     }
 
     /// Mean current [A] over `dt` [s], from `i0` [A], with voltage [V] and speed of the wheel's shaft [rad/s] held and an
@@ -126,35 +127,7 @@ impl<T: Real> Motor<T> {
     pub fn mean_current(self, i0: T, voltage: T, wheel_speed: T, inductance: T, dt: T) -> T {
         let settled = self.current(voltage, wheel_speed);
         // ī = i∞ + (i₀ − i∞)·(1 − e⁻ˣ)/x
-        settled + (i0 - settled) * self.mean_remaining(inductance, dt)
-    }
-
-    /// What is left of a departure from the settled current after `dt` [s] with an inductance [H]: e⁻ˣ [1].
-    #[inline]
-    fn remaining(self, inductance: T, dt: T) -> T {
-        // e⁻¹⁰⁰ is nothing in either precision; asked as a product, because L may be 0
-        let rise = self.resistance * dt;
-        if rise < T::lit(100.0) * inductance { (-(rise / inductance)).exp() } else { T::zero() }
-    }
-
-    /// The mean of what is left over `dt` [s] with an inductance [H]: (1 − e⁻ˣ)/x [1].
-    #[inline]
-    fn mean_remaining(self, inductance: T, dt: T) -> T {
-        let rise = self.resistance * dt;
-        if rise < T::lit(0.05) * inductance {
-            // (1 − e⁻ˣ)/x = 1 − x/2·(1 − x/3·(1 − x/4·(…))), up to x⁷: the rest is below 2⁻⁵³
-            let x = rise / inductance;
-            let mut sum = T::one();
-            for k in [8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0] {
-                sum = T::one() - x * T::lit(1.0 / k) * sum;
-            }
-            sum
-        } else if rise > T::zero() {
-            // L/(R·Δt)·(1 − e⁻ˣ), which is 0 at L = 0 and has its slope there
-            inductance / rise * (T::one() - self.remaining(inductance, dt))
-        } else {
-            T::zero()
-        }
+        settled + (i0 - settled) * decay::mean_remaining(inductance, self.resistance * dt)
     }
 }
 
@@ -255,16 +228,6 @@ mod tests {
             // the mean loses 2⁻⁵³/x to cancellation where its series ends, x = 0.05
             let halves = 0.5 * (mean(I0, 0.5 * dt) + mean(middle, 0.5 * dt));
             assert!((mean(I0, dt) - halves).abs() < 5.0e-14, "L = {inductance} H");
-        }
-    }
-
-    #[test]
-    fn the_mean_current_is_the_same_on_both_sides_of_its_series() {
-        let inductance = 0.05_f64;
-        let at = |x: f64| MOTOR.mean_remaining(inductance, x * inductance / MOTOR.resistance);
-        let exact = |x: f64| -libm::expm1(-x) / x;
-        for x in [1.0e-12, 1.0e-3, 0.02, 0.0499, 0.0501, 0.3, 3.0, 99.0, 101.0] {
-            assert!((at(x) - exact(x)).abs() < 5.0e-15, "x = {x}: {} against {}", at(x), exact(x));
         }
     }
 
