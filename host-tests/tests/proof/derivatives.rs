@@ -145,6 +145,9 @@ fn effects<const N: usize>(robot: (Robot<N, f64>, Robot<N, D>), mean: [f64; 3]) 
         }
         let free: Vec<usize> = (0..params.len()).filter(|k| card.params[*k].role != Role::Fixed).collect();
         let at: Vec<f64> = free.iter().map(|k| params[*k]).collect();
+        // one that is typically nothing is varied by a part of its bound
+        let size = |k: &usize| if params[*k] == 0.0 { card.params[*k].within.1 } else { params[*k] };
+        let size: Vec<f64> = free.iter().map(size).collect();
         let dual = |x: &[D]| {
             let mut all: Vec<D> = params.iter().map(|p| D::constant(*p)).collect();
             free.iter().zip(x).for_each(|(k, x)| all[*k] = *x);
@@ -159,7 +162,7 @@ fn effects<const N: usize>(robot: (Robot<N, f64>, Robot<N, D>), mean: [f64; 3]) 
             set.add(*effect, placement, &all).expect("a placement that the card allows");
             Plant::new(robot.0, set)
         };
-        agree(card.id, &drive, &at, &at, dual, number);
+        agree(card.id, &drive, &at, &size, dual, number);
     }
 }
 

@@ -132,7 +132,7 @@ fn driven_or_not_friction_adds_nothing_to_the_motors_work() {
     // on the shafts: what is in bridge and winding does not turn, and what a contact loses is not the motors' work
     for e in EffectKind::ALL.iter().filter(|e| e.card().seams == [Seam::Gear] && e.card().physics.passive) {
         let id = e.card().id;
-        for placement in [None, Some(2)] {
+        for placement in [None, Some(2)].into_iter().filter(|placement| e.card().scope.admits(*placement, 4)) {
             let inertia = e.card().physics.inertia.map_or(0.0, |k| typical(e.card())[k]);
             if inertia > 0.0 && placement.is_some() {
                 continue;

@@ -10,7 +10,7 @@ use model_core::effects::{EffectKind, causes};
 use model_core::plant::robot::Nominal;
 
 /// Units that parameters may have, and the suffix of a key that has it.
-const UNITS: [(&str, &str); 24] = [
+const UNITS: [(&str, &str); 25] = [
     ("1", ""),
     ("V", "_V"),
     ("A", "_A"),
@@ -33,6 +33,7 @@ const UNITS: [(&str, &str); 24] = [
     ("(m/s)/N", "_m_s_per_N"),
     ("1/(m/s)", ""),
     ("N·m·s", "_Nms"),
+    ("N·s/m", "_N_s_per_m"),
     ("N·m/rad", "_Nm_per_rad"),
     ("V/A", "_V_per_A"),
 ];
@@ -190,6 +191,7 @@ fn cards_say_how_an_effect_is_undone_or_why_not_and_what_physics_says_of_it() {
         let known = |k: usize| card.params.get(k).unwrap_or_else(|| panic!("{} has no parameter {k}", card.id));
         assert!(physics.inertia.is_none_or(|k| known(k).unit == "kg·m²"), "{}: an inertia", card.id);
         assert!(physics.direction.is_none_or(|k| known(k).unit == "rad"), "{}: a direction", card.id);
+        assert!(physics.place.iter().flatten().all(|k| known(*k).unit == "m"), "{}: a place", card.id);
         for p in physics.mirrored.iter().map(|k| known(*k)) {
             assert_eq!(p.within.0, -p.within.1, "{}.{}: what a mirror turns round has both signs", card.id, p.key);
         }

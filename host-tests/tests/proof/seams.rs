@@ -98,13 +98,15 @@ impl Described for Gear<f64> {
             motor_torque: torque,
             coulomb_share: rng.between(0.0, 0.05),
             torque,
-            budget: rng.between(0.0, 0.05),
+            budget: rng.between(0.05, 0.1),
+            bias: rng.between(-0.05, 0.05),
             damping: rng.between(0.0, 1e-3),
             inertia: rng.between(0.0, 1e-4),
         }
     }
     fn numbers(&self) -> Vec<f64> {
-        vec![self.motor_torque, self.coulomb_share, self.torque, self.budget, self.damping, self.inertia]
+        let Self { motor_torque, coulomb_share, torque, budget, bias, damping, inertia } = *self;
+        vec![motor_torque, coulomb_share, torque, budget, bias, damping, inertia]
     }
 }
 

@@ -43,6 +43,17 @@ fn apart(card: Option<&Card>) -> f64 {
     card.map_or(Physics::PASSIVE, |card| card.physics).apart
 }
 
+/// Where on the robot something is, along axes that lie to the right by `turn` [rad].
+fn placed(turn: f64) -> impl Fn(&Card, Params) -> Params {
+    let (sin, cos) = turn.sin_cos();
+    move |card, mut params| {
+        if let Some([v, vn]) = card.physics.place {
+            (params[v], params[vn]) = (cos * params[v] - sin * params[vn], sin * params[v] + cos * params[vn]);
+        }
+        params
+    }
+}
+
 fn holds<const N: usize>() -> Vec<VoltageHold<N>> {
     voltages(5, 18, 9.0)
 }
@@ -57,7 +68,7 @@ fn four_wheels_turned_by_90_degrees_are_the_same_robot() {
     each(
         (here, there),
         |j| (j + 1) % 4,
-        |_, params| params,
+        placed(FRAC_PI_2),
         |id, apart, here, there| {
             let mut here = Run::new(here);
             let mut there = Run::from(there, [0.0, 0.0, -FRAC_PI_2], [0.0; 3]);
@@ -84,7 +95,7 @@ fn three_wheels_turned_by_120_degrees_are_the_same_robot() {
     each(
         (robot, robot),
         |j| (j + 1) % 3,
-        |_, params| params,
+        placed(third),
         |id, apart, here, there| {
             let mut here = Run::new(here);
             let mut there = Run::from(there, [0.0, 0.0, -third], [0.0; 3]);
@@ -204,17 +215,17 @@ fn all_effects_together_keep_the_symmetry_of_four_wheels() {
     // every one that looks the same from all sides
     let all: Vec<_> = EffectKind::ALL.iter().filter(|e| e.card().scope != Scope::OneWheel).collect();
     let all: Vec<_> = all.into_iter().filter(|e| e.card().physics.direction.is_none()).collect();
-    let together = || {
+    let together = |turn| {
         let mut effects = Effects::default();
         for effect in &all {
-            effects.add(**effect, None, &typical(effect.card())).expect("room");
+            effects.add(**effect, None, &placed(turn)(effect.card(), typical(effect.card()))).expect("room");
         }
         effects
     };
     let apart: f64 = all.iter().map(|e| e.card().physics.apart).sum();
     // by 180° every axis goes over into itself
-    let mut here = Run::new(Plant::new(robot, together()));
-    let mut there = Run::from(Plant::new(robot, together()), [0.0, 0.0, PI], [0.0; 3]);
+    let mut here = Run::new(Plant::new(robot, together(0.0)));
+    let mut there = Run::from(Plant::new(robot, together(PI)), [0.0, 0.0, PI], [0.0; 3]);
     for hold in holds::<4>() {
         for _ in 0..hold.milliseconds {
             here.drive(hold.u, 1e-3);

@@ -175,6 +175,8 @@ pub struct Physics {
     pub mirrored: &'static [usize],
     /// The parameter that is a direction in the world [rad].
     pub direction: Option<usize>,
+    /// The two parameters that are a place on the robot, along its axes (v, vn) [m].
+    pub place: Option<[usize; 2]>,
     /// True if the model has a corner where the effect is absent, so that a fit has to start elsewhere: a coefficient of
     /// friction of zero stands for an infinite one, and the plant leaves out a shaft's dry friction or a contact's creep
     /// while there is none.
@@ -185,8 +187,20 @@ pub struct Physics {
 
 impl Physics {
     /// An effect that takes energy and looks the same in a mirror, up to rounding, which friction keeps small.
-    pub const PASSIVE: Self =
-        Self { passive: true, inertia: None, mirrored: &[], direction: None, corner_at_absent: false, apart: 1e-9 };
+    pub const PASSIVE: Self = Self {
+        passive: true,
+        inertia: None,
+        mirrored: &[],
+        direction: None,
+        place: None,
+        corner_at_absent: false,
+        apart: 1e-9,
+    };
+
+    /// The same of dry friction at the wheels, about their shafts or along them. Its budgets couple the axes; the sweeps over
+    /// them stop once nothing moves by more than 1e-6 m/s, and go through the axes in their order, which a turned robot has
+    /// otherwise.
+    pub const DRY_AT_WHEELS: Self = Self { corner_at_absent: true, apart: 1e-4, ..Self::PASSIVE };
 }
 
 /// An effect's page as data.

@@ -141,6 +141,9 @@ pub struct Gear<T> {
     pub torque: T,
     /// Dry friction that the shaft can hold [N·m]: a budget, spent by the plant
     pub budget: T,
+    /// What the budget lies about [N·m]: friction takes bias + budget from a wheel that turns forwards, bias − budget from
+    /// one that turns backwards, and what is between from one that is held. No larger than the budget, or it would drive
+    pub bias: T,
     /// Viscous friction [N·m·s]
     pub damping: T,
     /// Inertia that turns with the wheel [kg·m²]
@@ -324,4 +327,18 @@ pub struct RimMotion<T> {
     pub speed: T,
     /// The same in the middle of the turn [m/s]
     pub ahead: T,
+    /// 1/radius [1/m]
+    pub per_radius: T,
+}
+
+/// Nearer to standstill than this, a rim's friction has no direction to be undone in [m/s]: less than a turn adds, more
+/// than rounding.
+const STILL: f64 = 1e-5;
+
+impl<T: Real> RimMotion<T> {
+    /// Which way the rim goes, from −1 to 1; between them only where it all but stands still.
+    #[inline]
+    pub fn way(&self) -> T {
+        (self.ahead * T::lit(1.0 / STILL)).clamp(-T::one(), T::one())
+    }
 }

@@ -55,7 +55,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let speed = radius * dot(row, x);
         // where the rim goes in the middle of the turn
         let ahead = speed + u.half * (radius * dot(row, a));
-        let motion = RimMotion { coulomb_share: u.coulomb_share[j], speed, ahead };
+        let motion = RimMotion { coulomb_share: u.coulomb_share[j], speed, ahead, per_radius: u.per_radius[j] };
         let mut torque = T::zero();
         u.effects.on(j).for_each(|undo| undo.effect.undo_shaft(&motion, &mut torque));
         for k in 0..3 {

@@ -120,6 +120,7 @@ mod tests {
             coulomb_share: 0.02,
             torque: motor_torque,
             budget: 0.013,
+            bias: 0.0,
             damping: 1e-4,
             inertia: 2e-5,
         };

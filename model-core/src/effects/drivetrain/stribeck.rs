@@ -69,18 +69,8 @@ pub const CARD: Card = Card {
     look_alikes: &[],
     code: 6,
     undone: Undone::By("each wheel's static excess is added, against the rim speed of the reference"),
-    physics: Physics {
-        // budgets on the wheels' shafts couple the axes. The sweeps over them stop once nothing moves by more than
-        // 1e-6 m/s, and go through the axes in their order, which a turned robot has otherwise
-        apart: 1e-4,
-        corner_at_absent: true,
-        ..Physics::PASSIVE
-    },
+    physics: Physics::DRY_AT_WHEELS,
 };
-
-/// Nearer to standstill than this, a rim's friction has no direction to be undone in [m/s]: less than a turn adds, more
-/// than rounding.
-const STILL: f64 = 1e-5;
 
 /// The share of the static excess that is left at a rim speed: 1 at rest, 0 well above the Stribeck speed.
 #[inline]
@@ -118,9 +108,8 @@ impl<T: Real> Hooks<T> for Stribeck<T> {
 
     fn undo_shaft(&self, motion: &RimMotion<T>, torque: &mut T) {
         let left = left(self.stribeck_speed, self.exponent, motion.speed);
-        let sense = (motion.ahead * T::lit(1.0 / STILL)).clamp(-T::one(), T::one());
         // τ = e·τ_C·exp(−(|v|/v_s)^a)·sign(v)
-        *torque += self.static_excess * motion.coulomb_share * left * sense;
+        *torque += self.static_excess * motion.coulomb_share * left * motion.way();
     }
 }
 
@@ -130,8 +119,7 @@ mod tests {
 
     fn budget(p: [f64; 3], rim_speed: f64) -> f64 {
         let at = EffectContext { rim_speed, ..EffectContext::default() };
-        let mut x =
-            Gear { motor_torque: 0.1, coulomb_share: 0.02, torque: 0.1, budget: 0.02, damping: 1e-4, inertia: 2e-5 };
+        let mut x = Gear { coulomb_share: 0.02, budget: 0.02, ..Gear::default() };
         Stribeck::of(&p).expect("as many as on the card").gear(&(), &at, &mut x);
         x.budget
     }
