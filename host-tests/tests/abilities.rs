@@ -1,6 +1,6 @@
 //! # What the seams can carry
 //!
-//! Each ability of the plant that the catalogue does not use yet, shown by an effect that stands only here, against a
+//! Each ability of the plant beyond what most of the catalogue uses, shown by an effect that stands only here, against a
 //! reference that shares nothing with the core: a closed form, or equations integrated for themselves.
 
 #[path = "support/blank_card.rs"]

@@ -2,25 +2,26 @@
 //!
 //! ```text
 //! x⁺ = x + H⁻¹·(Δt·F + Σ d_k·λ_k)        H = M + ½·Δt·A,  A = −∂F/∂x
-//! λ_k = what brings d_k·x⁺ to rest, held within ±b_k·Δt
+//! λ_k = −σ_k·φ_k·b_k·Δt + what brings d_k·x⁺ to rest, held within ±(1 − φ_k)·b_k·Δt,  σ_k = sign d_k·x
 //! ```
 //!
 //! The first line is the linearly implicit midpoint rule: second order in Δt where F is smooth, stable for any damping.
-//! The second says what dry friction is: each direction d_k (a body axis, a wheel's rolling direction or its axle) can give
-//! an impulse up to its budget, and gives as much of it as it takes to hold still. Wheels and body are coupled through H,
-//! so the impulses are resolved together. There is one x⁺ that fits, whatever way it is found:
+//! The second says what dry friction is. Each direction d_k (a body axis, a wheel's rolling direction or its axle) has a
+//! budget b_k. For the share φ_k of the step in which it goes on as it moved (`reversal.rs`), friction is a known force
+//! against it; for the rest it is an impulse up to the budget, as much of it as it takes to hold still. Wheels and body are
+//! coupled through H, so the impulses are resolved together. There is one x⁺ that fits, whatever way it is found:
 //!
-//! 1. Where the axes are uncoupled and no wheel has a budget, it is the closed form −sign(F_stop)·min(|F_stop|, b),
-//!    F_stop = H·x/Δt + F.
-//! 2. Otherwise axes that rest and axes that slide are guessed from the motion before, the linear equations that are left
-//!    are solved, and the guess is mended until it fits: at once in most steps.
+//! 1. Where the axes are uncoupled and no wheel has a budget, it is a closed form (`axis.rs`).
+//! 2. Otherwise axes that rest and axes that slide are guessed, the linear equations that are left are solved, and the guess
+//!    is mended until it fits: at once in most steps.
 //! 3. Where that does not end, because a wheel's own friction holds while the body moves, sweeps do it
 //!    (`dry_friction.rs`).
 //!
 //! All of it in plain numbers. What derivatives x⁺ has then follows from the equations that hold at it (the implicit
 //! function theorem), without a look at how it was found.
 
-use super::dry_friction::{WheelHolds, stick};
+use super::axis::uncoupled;
+use super::dry_friction::{Open, WheelHolds, stick};
 use crate::effects::seams::Body;
 use crate::number::linalg::{Mat3, add_scaled, dot, inverse3, mul_mat_vec};
 use crate::number::scalar::Real;
@@ -42,49 +43,13 @@ pub(super) fn couples<P: Real>(h: impl Fn(usize, usize) -> P) -> bool {
     pair(0, 1) || pair(0, 2) || pair(1, 2)
 }
 
-/// What moves the body along an axis that couples with no other.
-pub(super) struct Axis<'a, T> {
-    /// M [kg, kg·m²]
-    pub mass: &'a T,
-    /// A = −∂F/∂x [N·s/m, N·m·s]
-    pub rate: &'a T,
-    /// F, dry friction left out [N, N·m]
-    pub force: &'a T,
-    /// The most that dry friction holds [N, N·m]
-    pub budget: &'a T,
-}
-
-impl<T: Real> Axis<'_, T> {
-    /// The speed along it after a step [m/s, rad/s].
-    #[inline(always)]
-    pub fn after(&self, x: &T, dt: T::Plain) -> T {
-        let half = dt * T::Plain::lit(0.5);
-        // H = M + ½·Δt·A
-        let mobility = T::Plain::one() / (self.mass.plain() + self.rate.plain() * half);
-        // x⁺ = x_free − clamp(x_free, ±H⁻¹·b·Δt)
-        let free = x.plain() + mobility * (self.force.plain() * dt);
-        let most = mobility * self.budget.plain() * dt;
-        let held = free.clamp(-most, most);
-        let after = free - held;
-        if !T::DERIVATIVES {
-            return T::from_plain(after);
-        }
-        if most > Real::zero() && free.abs() <= most {
-            return T::zero();
-        }
-        // H·(x⁺ − x) = Δt·(F ∓ b), differentiated
-        let change = -(mobility * (after - x.plain()));
-        let spent = if free > Real::zero() { -(mobility * dt) } else { mobility * dt };
-        let forces = [(x, T::Plain::one()), (self.force, mobility * dt), (self.budget, spent)];
-        T::chain(after, [forces[0], forces[1], forces[2], (self.mass, change), (self.rate, change * half)])
-    }
-}
-
 /// Everything that moves the body in a step.
 pub(super) struct Motion<'a, const N: usize, T: Real> {
-    pub body: &'a Body<T>,
+    pub body: &'a mut Body<T>,
     /// Dry friction of shafts and rollers
     pub holds: WheelHolds<'a, N, T>,
+    /// Which way an axis moves, as [`Hold::moves`](super::dry_friction::Hold::moves) has it
+    pub axes_move: [T::Plain; 3],
     /// Δt [s]
     pub dt: T::Plain,
 }
@@ -119,13 +84,14 @@ struct Plain<P> {
 }
 
 impl<P: Real> Plain<P> {
-    /// Everything goes on as it moved.
+    /// What rests goes on resting, and friction that is a budget is against the twist `along`.
     #[inline(always)]
-    fn first_guess(&self) -> Guess<P> {
+    fn first_guess(&self, open: [bool; 3], along: [P; 3]) -> Guess<P> {
         let budgets = |axis: usize| self.most[axis] > P::zero();
+        let against = |axis: usize| if open[axis] { -along[axis].sign() } else { P::zero() };
         Guess {
             rests: core::array::from_fn(|axis| budgets(axis) && self.x[axis] == P::zero()),
-            against: self.x.map(|x| -x.sign()),
+            against: core::array::from_fn(against),
         }
     }
 
@@ -171,45 +137,68 @@ impl<P: Real> Plain<P> {
     }
 }
 
-impl<const N: usize, T: Real> Motion<'_, N, T> {
-    /// The twist after a step from `x` [m/s, m/s, rad/s].
+impl<'a, const N: usize, T: Real> Motion<'a, N, T> {
+    /// With all dry friction a budget.
     #[inline]
-    pub fn after(&self, x: [T; 3]) -> [T; 3] {
+    pub fn new(body: &'a mut Body<T>, holds: WheelHolds<'a, N, T>, dt: T::Plain) -> Self {
+        Self { body, holds, axes_move: [Real::zero(); 3], dt }
+    }
+
+    /// H = M + ½·Δt·A.
+    #[inline(always)]
+    fn h(&self) -> Mat3<T::Plain> {
         let half = self.dt * T::Plain::lit(0.5);
-        let Body { mass, force, rate, budget } = self.body;
-        // H = M + ½·Δt·A
+        let Body { mass, rate, .. } = &*self.body;
         let entry = |row: usize, column: usize| mass[row][column].plain() + rate[row][column].plain() * half;
-        let h: Mat3<T::Plain> = core::array::from_fn(|row| core::array::from_fn(|column| entry(row, column)));
+        core::array::from_fn(|row| core::array::from_fn(|column| entry(row, column)))
+    }
+
+    /// The twist after a step from `x` [m/s, m/s, rad/s]; what is known of friction is counted among the forces.
+    #[inline]
+    pub fn after(mut self, x: [T; 3]) -> [T; 3] {
+        let h = self.h();
         if self.holds.are_none() && !couples(|row, column| h[row][column]) {
-            let mut next = [T::zero(); 3];
-            for (k, next) in next.iter_mut().enumerate() {
-                let axis = Axis { mass: &mass[k][k], rate: &rate[k][k], force: &force[k], budget: &budget[k] };
-                *next = axis.after(&x[k], self.dt);
-            }
-            return next;
+            return uncoupled(self.body, &x, self.dt);
         }
+        self.spend(x.map(T::plain));
+        let onward = self.settled(&x, &h, x.map(T::plain));
+        if self.reverses(&onward) { self.reversed(&x, &h, &onward) } else { onward }
+    }
+
+    /// The same where something reverses within the step, on its way to the twist `onward`.
+    #[cold]
+    #[inline(never)]
+    fn reversed(&mut self, x: &[T; 3], h: &Mat3<T::Plain>, onward: &[T; 3]) -> [T; 3] {
+        self.give_back(x, onward);
+        self.settled(x, h, onward.map(T::plain))
+    }
+
+    /// The twist after a step from `x`, where friction is known or a budget; `along` is what it may be close to.
+    #[inline(always)]
+    fn settled(&self, x: &[T; 3], h: &Mat3<T::Plain>, mut along: [T::Plain; 3]) -> [T; 3] {
+        let Body { force, budget, .. } = &*self.body;
         let free: [T::Plain; 3] = core::array::from_fn(|axis| force[axis].plain() * self.dt);
-        // the wheels turn on as they did
-        let mut along = x.map(T::plain);
+        let open = self.axes_move.map(|moves| moves == Real::zero());
+        let most = |axis: usize| if open[axis] { budget[axis].plain() * self.dt } else { Real::zero() };
         let mut plain = Plain {
-            h,
-            x: along,
+            h: *h,
+            x: x.map(T::plain),
             impulse: self.less_wheels(free, along),
-            most: core::array::from_fn(|axis| budget[axis].plain() * self.dt),
+            most: core::array::from_fn(most),
         };
-        let mut guess = plain.first_guess();
+        let mut guess = plain.first_guess(open, along);
         for _ in 0..GUESSES {
             let solved = plain.solve(guess);
             match plain.mended(&solved) {
                 Some(next) => guess = next,
-                None if self.wheels_agree(along, solved.after) => return self.with_derivatives(&x, along, &solved),
+                None if self.wheels_agree(along, solved.after) => return self.with_derivatives(x, along, &solved),
                 None => {
                     along = solved.after;
                     plain.impulse = self.less_wheels(free, along);
                 }
             }
         }
-        stick(self.body, &self.holds, x, self.dt)
+        stick(self.body, &Open { axes: open, wheels: &self.holds }, *x, self.dt)
     }
 
     /// An impulse, less what the wheels' dry friction takes while they turn along a twist.
@@ -218,7 +207,7 @@ impl<const N: usize, T: Real> Motion<'_, N, T> {
         if self.holds.are_none() {
             return impulse;
         }
-        for hold in self.holds.iter() {
+        for hold in self.holds.open() {
             let most = hold.budget.plain() * self.dt;
             impulse = add_scaled(impulse, -(hold.speed(along).sign() * most), hold.direction.map(T::plain));
         }
@@ -228,7 +217,7 @@ impl<const N: usize, T: Real> Motion<'_, N, T> {
     /// True if two twists turn every wheel the same way.
     #[inline]
     fn wheels_agree(&self, a: [T::Plain; 3], b: [T::Plain; 3]) -> bool {
-        self.holds.are_none() || self.holds.iter().all(|hold| hold.speed(a).sign() == hold.speed(b).sign())
+        self.holds.are_none() || self.holds.open().all(|hold| hold.speed(a).sign() == hold.speed(b).sign())
     }
 
     /// x⁺ with its derivatives: those of H·(x⁺ − x) = Δt·F − Σ ±b·Δt·d along what slides, of x⁺ = 0 along what rests.
@@ -239,7 +228,7 @@ impl<const N: usize, T: Real> Motion<'_, N, T> {
             return after.map(T::from_plain);
         }
         let (zero, one) = (T::Plain::zero(), T::Plain::one());
-        let Body { mass, force, rate, budget } = self.body;
+        let Body { mass, force, rate, budget } = &*self.body;
         let by_mass = change.map(|change| -change);
         let by_rate = by_mass.map(|by_mass| by_mass * self.dt * T::Plain::lit(0.5));
         let mut right = [T::zero(); 3];
@@ -254,7 +243,7 @@ impl<const N: usize, T: Real> Motion<'_, N, T> {
             let rates = [(&a[0], by_rate[0]), (&a[1], by_rate[1]), (&a[2], by_rate[2])];
             let all = [forces[0], forces[1], masses[0], masses[1], masses[2], rates[0], rates[1], rates[2]];
             *right = T::chain(zero, all);
-            for hold in self.holds.iter() {
+            for hold in self.holds.open() {
                 let against = -hold.speed(along).sign() * self.dt;
                 let (direction, most) = (&hold.direction[row], &hold.budget);
                 let spent = [(most, against * direction.plain()), (direction, against * most.plain())];
@@ -277,10 +266,10 @@ mod tests {
 
     /// The twist that friction on the body's axes, and on wheels (direction, budget), leaves in 1 ms.
     fn spent(free: [f64; 3], h: [[f64; 3]; 3], axes: [f64; 3], wheels: Option<[([f64; 3], f64); 4]>) -> [f64; 3] {
-        let shafts = wheels.map(|all| all.map(|(direction, budget)| Hold { direction, budget }));
-        let body = Body { mass: h, budget: axes, ..Body::default() };
-        let holds = WheelHolds { shafts: shafts.as_ref(), rollers: None };
-        Motion { body: &body, holds, dt: 1e-3 }.after(free)
+        let mut shafts = wheels.map(|all| all.map(|(direction, budget)| Hold::new(direction, budget)));
+        let mut body = Body { mass: h, budget: axes, ..Body::default() };
+        let holds = WheelHolds { shafts: shafts.as_mut(), rollers: None };
+        Motion::new(&mut body, holds, 1e-3).after(free)
     }
 
     #[test]
@@ -318,13 +307,13 @@ mod tests {
         type D = Dual<1>;
         for (coupling, x) in [(0.0, 0.3), (0.0, -0.3), (0.4, 0.3), (0.4, -0.3)] {
             let h = [[2.0, coupling, 0.0], [coupling, 2.0, 0.0], [0.0, 0.0, 0.02]];
-            let body = Body {
+            let mut body = Body {
                 mass: h.map(|row| row.map(D::lit)),
                 budget: [D::variable(0.0, 0), D::lit(0.0), D::lit(0.0)],
                 ..Body::default()
             };
             let holds = WheelHolds::<4, D> { shafts: None, rollers: None };
-            let exact = Motion { body: &body, holds, dt: 1e-3 }.after([x, 0.1, 0.0].map(D::lit));
+            let exact = Motion::new(&mut body, holds, 1e-3).after([x, 0.1, 0.0].map(D::lit));
             let [none, little] = [0.0, 1e-3].map(|b| spent([x, 0.1, 0.0], h, [b, 0.0, 0.0], None));
             for k in 0..3 {
                 let difference = (little[k] - none[k]) / 1e-3;
@@ -359,15 +348,16 @@ mod tests {
             // turning forces: a rate that is not symmetric
             let rate = [[15.0, n(5, 4.0), n(6, 1.0)], [-n(5, 4.0), 12.0, n(7, 1.0)], [0.0, 0.0, 0.3]];
             let budget = [1.5, 2.0, 0.1].map(|b| if case % 5 == 0 { 0.0 } else { b });
-            let body = Body { mass, force: [n(8, 4.0), n(9, 4.0), n(10, 0.3)], rate, budget };
+            let mut body = Body { mass, force: [n(8, 4.0), n(9, 4.0), n(10, 0.3)], rate, budget };
             let x = [n(11, 0.01), if case % 3 == 0 { 0.0 } else { n(12, 0.003) }, n(13, 0.02)];
-            let shafts = core::array::from_fn(|j| Hold {
-                direction: [[0.0, 1.0, 0.09], [-1.0, 0.0, 0.09], [0.0, -1.0, 0.09], [1.0, 0.0, 0.09]][j],
-                budget: if case % 2 == 0 { 0.0 } else { n(14 + j as u32, 0.4).abs() },
+            let mut shafts = core::array::from_fn(|j| {
+                let direction = [[0.0, 1.0, 0.09], [-1.0, 0.0, 0.09], [0.0, -1.0, 0.09], [1.0, 0.0, 0.09]][j];
+                Hold::new(direction, if case % 2 == 0 { 0.0 } else { n(14 + j as u32, 0.4).abs() })
             });
-            let holds = WheelHolds::<4, f64> { shafts: (case % 2 == 1).then_some(&shafts), rollers: None };
-            let guessed = Motion { body: &body, holds, dt: 1e-3 }.after(x);
-            let swept = stick(&body, &holds, x, 1e-3);
+            let holds = WheelHolds::<4, f64> { shafts: (case % 2 == 1).then_some(&mut shafts), rollers: None };
+            let motion = Motion::new(&mut body, holds, 1e-3);
+            let guessed = motion.settled(&x, &motion.h(), x);
+            let swept = stick(motion.body, &Open { axes: [true; 3], wheels: &motion.holds }, x, 1e-3);
             for (a, b) in guessed.into_iter().zip(swept) {
                 // the sweeps end below 10⁻³ m/s² for a step of 1 ms
                 assert!((a - b).abs() < 5e-6, "case {case}: {guessed:?} and {swept:?}");

@@ -16,17 +16,24 @@ const RESOLUTION: f64 = 1e-3;
 
 /// A direction in which dry friction holds, and the most that it can hold.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hold<T> {
+pub(super) struct Hold<T: Real> {
     /// Speed along it over body twist [1, 1, m]
     pub direction: [T; 3],
     /// The most that it holds [N]
     pub budget: T,
+    /// Which way it moves, −1 or 1, where friction is a known force against it; 0 where it is a budget
+    pub moves: T::Plain,
 }
 
 impl<T: Real> Hold<T> {
+    /// In a direction, up to a budget [N].
+    pub fn new(direction: [T; 3], budget: T) -> Self {
+        Self { direction, budget, moves: Real::zero() }
+    }
+
     /// Nothing is held.
     pub fn none() -> Self {
-        Self { direction: [T::zero(); 3], budget: T::zero() }
+        Self::new([T::zero(); 3], T::zero())
     }
 
     /// Speed along it at a twist [m/s].
@@ -37,12 +44,12 @@ impl<T: Real> Hold<T> {
 }
 
 /// Dry friction of the wheels.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct WheelHolds<'a, const N: usize, T> {
+#[derive(Debug)]
+pub(super) struct WheelHolds<'a, const N: usize, T: Real> {
     /// Of the shafts, along the wheels' rolling directions
-    pub shafts: Option<&'a [Hold<T>; N]>,
+    pub shafts: Option<&'a mut [Hold<T>; N]>,
     /// Of the rollers, along the wheels' axles
-    pub rollers: Option<&'a [Hold<T>; N]>,
+    pub rollers: Option<&'a mut [Hold<T>; N]>,
 }
 
 impl<const N: usize, T: Real> WheelHolds<'_, N, T> {
@@ -53,7 +60,18 @@ impl<const N: usize, T: Real> WheelHolds<'_, N, T> {
 
     #[inline]
     pub fn iter(&self) -> impl Iterator<Item = &Hold<T>> {
-        self.shafts.into_iter().flatten().chain(self.rollers.into_iter().flatten())
+        self.shafts.iter().chain(&self.rollers).flat_map(|holds| holds.iter())
+    }
+
+    /// Those whose friction is a budget.
+    #[inline]
+    pub fn open(&self) -> impl Iterator<Item = &Hold<T>> {
+        self.iter().filter(|hold| hold.moves == Real::zero())
+    }
+
+    #[inline]
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Hold<T>> {
+        self.shafts.iter_mut().chain(&mut self.rollers).flat_map(|holds| holds.iter_mut())
     }
 }
 
@@ -112,16 +130,23 @@ impl<P: Real> Held<P> {
     }
 }
 
-/// All directions of a motion that hold anything, and how many.
-fn all_holds<const N: usize, T: Real>(body: &Body<T>, wheels: &WheelHolds<'_, N, T>) -> ([Hold<T>; MOST], usize) {
+/// Where dry friction is a budget.
+pub(super) struct Open<'a, const N: usize, T: Real> {
+    /// Along which of the body's axes
+    pub axes: [bool; 3],
+    pub wheels: &'a WheelHolds<'a, N, T>,
+}
+
+/// All directions in which a body is held by a budget, and how many.
+fn all_holds<const N: usize, T: Real>(body: &Body<T>, open: &Open<'_, N, T>) -> ([Hold<T>; MOST], usize) {
     let mut all = [Hold::none(); MOST];
     let mut count = 0;
-    let axes = body.budget.iter().enumerate().map(|(axis, budget)| {
+    let axes = (0..3).filter(|axis| open.axes[*axis]).map(|axis| {
         let mut direction = [T::zero(); 3];
         direction[axis] = T::one();
-        Hold { direction, budget: *budget }
+        Hold::new(direction, body.budget[axis])
     });
-    for hold in axes.chain(wheels.iter().copied()).filter(|hold| hold.budget > T::zero()) {
+    for hold in axes.chain(open.wheels.open().copied()).filter(|hold| hold.budget > T::zero()) {
         all[count] = hold;
         count += 1;
     }
@@ -131,19 +156,14 @@ fn all_holds<const N: usize, T: Real>(body: &Body<T>, wheels: &WheelHolds<'_, N,
 /// The twist after a step from `x` where some directions stick: which ones is found in plain numbers; the twist then
 /// follows at once.
 #[inline(never)]
-pub(super) fn stick<const N: usize, T: Real>(
-    body: &Body<T>,
-    wheels: &WheelHolds<'_, N, T>,
-    x: [T; 3],
-    dt: T::Plain,
-) -> [T; 3] {
+pub(super) fn stick<const N: usize, T: Real>(body: &Body<T>, open: &Open<'_, N, T>, x: [T; 3], dt: T::Plain) -> [T; 3] {
     let (zero, one) = (T::zero(), T::one());
     let half = dt * T::Plain::lit(0.5);
     let (mass, rate) = (&body.mass, &body.rate);
     let h = |row: usize| core::array::from_fn(|column| mass[row][column] + rate[row][column].times(half));
     let mobility = Mobility::new([h(0), h(1), h(2)]);
     let free = add_scaled(x, one, mobility.of(body.force.map(|force| force.times(dt))));
-    let (all, count) = all_holds(body, wheels);
+    let (all, count) = all_holds(body, open);
     let holds = &all[..count];
     let mut sweeping =
         [Held { direction: [Real::zero(); 3], pushed: [Real::zero(); 3], stiffness: Real::zero(), most: Real::zero() };

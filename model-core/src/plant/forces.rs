@@ -1,6 +1,7 @@
 //! Forces to motion: everything that acts on the body, and one linearly implicit step of it.
 
-use super::body::{Axis, Motion};
+use super::axis::Axis;
+use super::body::Motion;
 use super::dry_friction::WheelHolds;
 use super::model::Plant;
 use super::state::State;
@@ -49,8 +50,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 }
             }
         }
-        let holds = WheelHolds { shafts: push.shafts.as_ref(), rollers: push.rollers.as_ref() };
-        Motion { body, holds, dt: dt.plain() }.after(x)
+        let holds = WheelHolds { shafts: push.shafts.as_mut(), rollers: push.rollers.as_mut() };
+        Motion::new(body, holds, dt.plain()).after(x)
     }
 
     /// The same of a robot without effects.
@@ -61,9 +62,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             force[axis] -= viscous[axis] * x[axis];
         }
         if !self.plain_decoupled {
-            let body = Body { mass: self.mass, force, rate: self.plain_rate, budget: *coulomb };
+            let mut body = Body { mass: self.mass, force, rate: self.plain_rate, budget: *coulomb };
             let holds = WheelHolds::<N, T> { shafts: None, rollers: None };
-            return Motion { body: &body, holds, dt }.after(x);
+            return Motion::new(&mut body, holds, dt).after(x);
         }
         let mass = [&self.robot.mass, &self.robot.mass, &self.robot.inertia];
         let mut next = [T::zero(); 3];

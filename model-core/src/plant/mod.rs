@@ -18,12 +18,14 @@
 //! 3. winding, shaft and gear: current, torque, and the dry friction that each shaft can hold; a rotor whose shaft yields
 //!    moves on its own (`shaft.rs`);
 //! 4. traction: a wheel that creeps or slips turns faster than the floor passes by (`traction.rs`);
-//! 5. body: all forces, one linearly implicit step, dry friction spent once (`body.rs`);
+//! 5. body: all forces, one linearly implicit step, dry friction spent once (`body.rs`), at a reversal within the step for
+//!    each part of it (`reversal.rs`);
 //! 6. pose (eq. 1), reading, and the memory of effects.
 //!
-//! The command is held over the step. Error: second order in Δt while no effect switches; at a reversal, where friction
-//! changes its sign within a step, first order for that step alone. `host-tests/tests/proof/integration.rs` holds it to
-//! figures against steps a hundred times smaller.
+//! The command is held over the step. Error: second order in Δt, at a reversal too; first order where an effect's own
+//! friction depends on the speed, or the bus on the currents, as both are taken at the step's beginning, and where two
+//! directions come to rest in one step, as neither's instant is looked at again.
+//! `host-tests/tests/proof/integration.rs` holds it to figures against steps a hundred times smaller.
 
 // The robot
 pub mod winding;
@@ -41,7 +43,11 @@ pub use model::Plant;
 
 mod source;
 
+mod axis;
+
 mod body;
+
+mod reversal;
 
 mod dry_friction;
 

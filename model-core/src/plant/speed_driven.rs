@@ -1,7 +1,8 @@
 //! Speed-driven: the wheel speeds are imposed, as by a drive that follows its set speed exactly.
 //!
-//! A body on rigid wheels has no choice: its twist is the least-squares twist of the rim speeds. Where contacts creep
-//! or slip, the floor's force follows from the slip, and the body moves by its dynamics.
+//! A body on rigid wheels has no choice: its twist is the least-squares twist of the rim speeds, along the directions in
+//! which the wheels really drive. Where contacts creep or slip, the floor's force follows from the slip, and the body
+//! moves by its dynamics.
 
 use super::model::Plant;
 use super::source::Source;
@@ -9,7 +10,9 @@ use super::state::{Reading, State};
 use super::step::{Done, Push, Turned};
 use super::traction::Floor;
 use crate::effects::EffectSet;
+use crate::effects::seams::Contact;
 use crate::geometry::frames::BodyTwist;
+use crate::number::linalg::{accumulate_outer, add_scaled, solve3};
 use crate::number::scalar::Real;
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
@@ -23,7 +26,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let mut at = self.at(state, dt);
         let contact = self.contacts(&mut at, state, memory);
         let zero = T::zero();
-        let rolling = self.robot.wheels.twist(core::array::from_fn(|j| contact[j].radius * speed[j]));
+        let rolling = self.rolling(&contact, core::array::from_fn(|j| contact[j].radius * speed[j]));
         let yields = contact.iter().all(|c| !c.rolls());
         if !yields {
             state.twist = rolling;
@@ -54,5 +57,20 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             state.twist = next;
         }
         truth
+    }
+
+    /// The twist that comes nearest to these rim speeds [m/s].
+    fn rolling(&self, contact: &[Contact<T>; N], rim: [T; N]) -> BodyTwist<T> {
+        let as_built = |(c, built): (&Contact<T>, &Contact<T>)| c.fixed_direction && c.row == built.row;
+        if contact.iter().zip(&self.contact).all(as_built) {
+            return self.robot.wheels.twist(rim);
+        }
+        // (v, vn, ω) = (GᵀG)⁻¹·Gᵀ·v⃗
+        let (mut gram, mut sum) = ([[T::zero(); 3]; 3], [T::zero(); 3]);
+        for (c, rim) in contact.iter().zip(rim) {
+            accumulate_outer(&mut gram, T::one(), c.row);
+            sum = add_scaled(sum, rim, c.row);
+        }
+        BodyTwist::from_array(solve3(&gram, sum))
     }
 }

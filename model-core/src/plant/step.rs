@@ -14,7 +14,7 @@ use crate::number::linalg::{accumulate_upper, add_scaled, dot};
 use crate::number::scalar::Real;
 
 /// What the wheels do to the body in a step.
-pub(super) struct Push<const N: usize, T> {
+pub(super) struct Push<const N: usize, T: Real> {
     /// Their force, and its rate on and above the diagonal; the rest is filled in when the body moves
     pub body: Body<T>,
     /// Mass matrix of what turns with the wheels, in body axes, on and above the diagonal, where anything does
@@ -37,7 +37,7 @@ impl<const N: usize, T: Real> Push<N, T> {
         self.body.force = add_scaled(self.body.force, -(c.roller_damping * dot(row, x)), row);
         accumulate_upper(&mut self.body.rate, c.roller_damping, row);
         if c.roller_friction > T::zero() {
-            self.rollers.get_or_insert([Hold::none(); N])[j] = Hold { direction: row, budget: c.roller_friction };
+            self.rollers.get_or_insert([Hold::none(); N])[j] = Hold::new(row, c.roller_friction);
         }
     }
 }
@@ -109,9 +109,12 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 let turning = push.turning.get_or_insert([[zero; 3]; 3]);
                 c.add_rate(turning, wheel.inertia * (c.per_radius * c.per_radius));
             }
-            if wheel.budget > zero {
-                push.shafts.get_or_insert([Hold::none(); N])[j] =
-                    Hold { direction: c.row, budget: wheel.budget * c.per_radius };
+            // a budget of zero may still have derivatives
+            if wheel.budget > zero || !wheel.budget.is_constant() {
+                push.shafts.get_or_insert([Hold::none(); N])[j] = Hold::new(c.row, wheel.budget * c.per_radius);
+            }
+            if wheel.bias != zero || !wheel.bias.is_constant() {
+                c.add_force(&mut push.body.force, -(wheel.bias * c.per_radius));
             }
             if c.rollers_drag() {
                 push.add_rollers(j, c, state.twist.to_array());

@@ -18,8 +18,9 @@ pub(super) struct Wheel<T: Real> {
     pub starts: T,
     /// Inertia that the body has to accelerate with the wheel [kg·m²]
     pub inertia: T,
-    /// Dry friction that its shaft can hold [N·m]
+    /// Dry friction that its shaft can hold [N·m], and what that lies about [N·m]
     pub budget: T,
+    pub bias: T,
     pub motor: Electric<T>,
     /// Its rotor, where it moves on its own
     pub rotor: Rotor<T>,
@@ -38,6 +39,7 @@ impl<T: Real> Wheel<T> {
             starts: zero,
             inertia: zero,
             budget: zero,
+            bias: zero,
             motor: Electric::default(),
             rotor: Rotor::default(),
             gear: Gear::default(),
@@ -152,7 +154,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             self.gear(at, drive.memory, wheel);
             wheel.inertia = wheel.gear.inertia;
         } else if self.turns {
-            (wheel.inertia, wheel.budget) = (T::zero(), T::zero());
+            (wheel.inertia, wheel.budget, wheel.bias) = (T::zero(), T::zero(), T::zero());
         }
         if self.turns && !yields {
             wheel.inertia += self.shafts[j].inertia;
@@ -174,7 +176,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let gear = &mut wheel.gear;
         gear.motor_torque = torque;
         gear.torque = torque;
-        (gear.budget, gear.damping, gear.inertia) = (zero, zero, zero);
+        (gear.budget, gear.bias, gear.damping, gear.inertia) = (zero, zero, zero, zero);
         gear.coulomb_share = self.coulomb_share[at.wheel];
         for active in self.effects.on(Seam::Gear, at.wheel) {
             active.effect.gear(&memory[active.memory(at.wheel)], at, gear);
@@ -182,6 +184,6 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         wheel.torque = gear.torque - gear.damping * at.wheel_speed;
         wheel.fall = fall + gear.damping;
         wheel.altered = true;
-        wheel.budget = gear.budget;
+        (wheel.budget, wheel.bias) = (gear.budget, gear.bias);
     }
 }
