@@ -69,14 +69,17 @@ struct Contestant {
 }
 
 impl Contestant {
+    fn new(name: &'static str, asked: Option<f64>, runs: impl FnMut() -> usize + 'static) -> Self {
+        Self { name, asked, runs: Box::new(runs), per_s: Vec::new() }
+    }
+
     fn of(case: PlantCase, asked: Option<f64>) -> Self {
         let plant = model(case.effects).plant();
         let mut memory: Vec<_> = plant.memory().collect();
-        let runs = move || {
+        Self::new(case.name, asked, move || {
             black_box(run(black_box(&plant), &mut memory));
             STEPS
-        };
-        Self { name: case.name, asked, runs: Box::new(runs), per_s: Vec::new() }
+        })
     }
 
     fn take_turn(&mut self) {
@@ -94,18 +97,15 @@ fn contestants() -> Vec<Contestant> {
         PLANT_CASES.into_iter().zip(ASKED).map(|(case, asked)| Contestant::of(case, Some(asked))).collect();
     all.push(Contestant::of(SLIP, None));
     let batch = side_by_side();
-    let runs = move || {
+    all.push(Contestant::new("plain, four robots side by side", Some(ASKED_SIDE_BY_SIDE), move || {
         black_box(run_side_by_side(black_box(&batch)));
         STEPS * LANES
-    };
-    let (name, asked) = ("plain, four robots side by side", Some(ASKED_SIDE_BY_SIDE));
-    all.push(Contestant { name, asked, runs: Box::new(runs), per_s: Vec::new() });
+    }));
     let plant = with_derivatives();
-    let runs = move || {
+    all.push(Contestant::new("plain, eight derivatives", None, move || {
         black_box(run(black_box(&plant), &mut []));
         STEPS
-    };
-    all.push(Contestant { name: "plain, eight derivatives", asked: None, runs: Box::new(runs), per_s: Vec::new() });
+    }));
     all
 }
 
