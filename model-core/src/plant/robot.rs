@@ -110,6 +110,21 @@ impl<const N: usize, T: Real> Robot<N, T> {
         self.wheels.wheels().map(|wheel| coulomb * wheel.radius)
     }
 
+    /// Mechanical time constants: how fast a motion along each body axis decays while the motors' voltages are held, dry
+    /// friction left out [s].
+    pub fn time_constants(&self) -> [T; 3] {
+        let mut rate = self.friction.viscous;
+        for (row, wheel) in self.wheels.rows().iter().zip(self.wheels.wheels()) {
+            for (rate, along) in rate.iter_mut().zip(row) {
+                // A_kk = B_k + Σ_j (l²·K_t·K_v/R)·(d_jk/r_j)²
+                let per_radius = *along / wheel.radius;
+                *rate += self.motor.damping() * per_radius * per_radius;
+            }
+        }
+        // T_k = M_kk/A_kk
+        [self.mass / rate[0], self.mass / rate[1], self.inertia / rate[2]]
+    }
+
     /// The robot with every nominal value multiplied by its factor, in the order of [`Nominal::ALL`].
     pub fn scaled(&self, factor: &[T; Nominal::COUNT]) -> Self {
         let f = |p: Nominal| factor[p as usize];

@@ -76,6 +76,7 @@ mod tests {
             name: String::new(),
             t: Vec::new(),
             dt: Vec::new(),
+            steps: Vec::new(),
             chain: Chain::Voltage,
             input: Vec::new(),
             open: Vec::new(),

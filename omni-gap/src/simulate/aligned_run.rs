@@ -3,20 +3,18 @@
 //! A row is an instant at which something was commanded or measured. The input is held from one row of the driving signal
 //! to the next, and the plant stops at every instant between: a measurement is compared at its own time.
 
+use std::ops::Range;
+
 use model_core::number::scalar::Real;
 use model_core::plant::Input;
 
 use super::channels::{Channels, MAX_CHANNELS, Row, SignalGroup};
+use super::model::robot_of;
 use super::open_circuit::open_circuit_voltage;
 use super::row_passed::RowPassed;
+use super::step_lengths::{RimSpeed, steps_of_rows};
 use super::white_noise::white_sigma;
 use crate::log::{Chain, Channel, Group, RobotFile, Run, Sampled};
-
-/// The longest step that the plant takes [s]; longer rows are cut into equal ones.
-pub(super) const LONGEST_STEP_S: f64 = 0.0026;
-
-/// The most steps through one row: beyond half a minute without a row there is nothing to be told, and work must end.
-const MOST_STEPS: usize = 10_000;
 
 /// No gyro and no battery reading is believed to be better than this, whatever their log looks like [rad/s] [V]
 const LEAST_GYRO_RAD_S: f64 = 1e-3;
@@ -31,6 +29,8 @@ pub struct AlignedRun<const N: usize> {
     pub t: Vec<f64>,
     /// Time from each row to the next [s]; the last row's is what is left of its hold, whose length is the median
     pub dt: Vec<f64>,
+    /// In how many equal steps the plant takes each row
+    pub steps: Vec<u16>,
     /// What drives the model.
     pub chain: Chain,
     /// The driving signal, row by row [V], [A] or [rad/s]; holes hold the last value
@@ -57,6 +57,15 @@ fn signals_of(group: &Option<Group>) -> &[Channel] {
     group.as_ref().map_or(&[], |group| &group.channels)
 }
 
+/// A channel row by row; holes hold the last value, zero before the first.
+fn held(channel: &Channel, mut rows: Range<usize>) -> impl Iterator<Item = f64> {
+    let mut last = 0.0;
+    std::iter::from_fn(move || {
+        last = channel.get(rows.next()?).unwrap_or(last);
+        Some(last)
+    })
+}
+
 /// The bus voltage to take where the robot file states none: the largest that these runs show, one where they show none
 /// [V]
 pub fn supply_seen<'a, const N: usize>(runs: impl IntoIterator<Item = &'a AlignedRun<N>>) -> f64 {
@@ -81,15 +90,11 @@ impl<const N: usize> AlignedRun<N> {
         let driving_rows: Vec<usize> = run.driving_rows().into_iter().map(|row| row - span.start).collect();
         driving_rows.iter().for_each(|row| driven[*row] = true);
         let last_hold = driving_rows.last().zip(t.last()).map_or(step, |(row, last)| step - (last - t[*row]));
-        let dt = (0..rows).map(|k| t.get(k + 1).map_or(last_hold, |next| next - t[k])).collect();
+        let dt: Vec<f64> = (0..rows).map(|k| t.get(k + 1).map_or(last_hold, |next| next - t[k])).collect();
 
         let mut input = vec![[0.0; N]; rows];
         for (j, channel) in driving.channels.iter().enumerate().take(N) {
-            let mut held = 0.0;
-            for (row, value) in input.iter_mut().enumerate() {
-                held = channel.get(span.start + row).unwrap_or(held);
-                value[j] = held;
-            }
+            input.iter_mut().zip(held(channel, span.clone())).for_each(|(value, held)| value[j] = held);
         }
         if chain == Chain::WheelSpeed {
             // a measured speed changes evenly between its rows: hold the middle
@@ -147,6 +152,14 @@ impl<const N: usize> AlignedRun<N> {
         sigma[channels.gyro()] = stated_or_seen(sensors.gyro_noise_rad_s, &run.gyro, LEAST_GYRO_RAD_S);
         sigma[channels.battery()] = stated_or_seen(sensors.battery_noise_v, &run.vbat, LEAST_BATTERY_V);
 
+        let rims: Vec<RimSpeed> = signals_of(&run.w)
+            .iter()
+            .zip(&robot.wheel)
+            .map(|(speed, wheel)| RimSpeed {
+                values: held(speed, span.clone()).map(|speed| speed * wheel.radius_m).collect(),
+                noise: sigma[channels.wheel_speed(0)] * wheel.radius_m,
+            })
+            .collect();
         let largest_voltage = run
             .u
             .iter()
@@ -156,6 +169,7 @@ impl<const N: usize> AlignedRun<N> {
             .fold(0.0, |most: f64, (_, u)| most.max(u.abs()));
         Some(Self {
             name: run.name.clone(),
+            steps: steps_of_rows(&robot_of::<N, f64>(robot, 1.0), &rims, &t, &dt),
             t,
             dt,
             chain,
@@ -182,6 +196,7 @@ impl<const N: usize> AlignedRun<N> {
                 name: format!("{} (rows {first} to {})", self.name, end - 1),
                 t: self.t[first..end].iter().map(|t| t - self.t[first]).collect(),
                 dt: self.dt[first..end].to_vec(),
+                steps: self.steps[first..end].to_vec(),
                 input: self.input[first..end].to_vec(),
                 open: self.open[first..end].to_vec(),
                 driven: self.driven[first..end].to_vec(),
@@ -197,6 +212,7 @@ impl<const N: usize> AlignedRun<N> {
             name: String::new(),
             t: Vec::new(),
             dt: Vec::new(),
+            steps: Vec::new(),
             input: Vec::new(),
             open: Vec::new(),
             driven: Vec::new(),
@@ -249,7 +265,7 @@ impl<const N: usize> AlignedRun<N> {
     /// In how many equal steps the plant takes a row.
     #[inline]
     pub fn steps(&self, row: usize) -> usize {
-        ((self.dt[row] / LONGEST_STEP_S).ceil() as usize).clamp(1, MOST_STEPS)
+        self.steps[row].into()
     }
 
     /// What a plant says on a row as a row of channels, currents as magnitudes where the log keeps only those.

@@ -2,9 +2,9 @@
 
 use model_core::geometry::frames::{BodyTwist, Pose};
 
-use super::aligned_run::LONGEST_STEP_S;
 use super::model::Model;
 use super::script::Script;
+use super::step_lengths::LONGEST_OF_THE_QUICKEST_S;
 
 /// The box around everywhere a robot goes, seen from where it starts and the way it looks then.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,7 +44,7 @@ pub fn floor_of<const N: usize>(model: &Model<N>, script: &Script<N>) -> Floor {
     let mut floor = Floor::default();
     for (row, input) in script.inputs().enumerate() {
         let Some(length) = script.t.get(row + 1).map(|next| next - script.t[row]) else { break };
-        let steps = (length / LONGEST_STEP_S).ceil().max(1.0);
+        let steps = (length / LONGEST_OF_THE_QUICKEST_S).ceil().max(1.0);
         for _ in 0..steps as usize {
             plant.step(&mut state, &mut memory, &input, length / steps);
         }

@@ -25,6 +25,7 @@ mod script;
 mod sensing;
 mod sensitivity;
 mod start;
+mod step_lengths;
 mod terms;
 mod white_noise;
 
