@@ -23,6 +23,7 @@ pub use crate::effect_set;
 pub mod electrical {
     pub mod actuation_delay;
     pub mod dead_time;
+    pub mod drive_gain;
     pub mod motor_mismatch;
     pub mod supply_sag;
 }
@@ -37,6 +38,7 @@ pub mod drivetrain {
 /// Effects between the wheel and the floor.
 pub mod contact {
     pub mod creep;
+    pub mod wheel_radius_error;
     pub mod wheel_slip;
 }
 
@@ -62,11 +64,13 @@ mod list {
     catalogue! {
         electrical::actuation_delay::ActuationDelay,
         electrical::supply_sag::SupplySag,
+        electrical::drive_gain::DriveGain,
         electrical::dead_time::DeadTime,
         electrical::motor_mismatch::MotorMismatch,
         drivetrain::gear_efficiency::GearEfficiency,
         drivetrain::stribeck::Stribeck,
         drivetrain::rotor_inertia::RotorInertia,
+        contact::wheel_radius_error::WheelRadiusError,
         contact::wheel_slip::WheelSlip,
         contact::creep::Creep,
         body::coriolis::Coriolis,

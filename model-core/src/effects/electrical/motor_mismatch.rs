@@ -21,7 +21,7 @@
 //! Source: Equations of the DC motor (the paper's 21 and 22); sizes: estimated, constants −5 to −30 %, resistance +5 to
 //! +50 %.
 
-use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Winding};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
@@ -57,7 +57,16 @@ pub const CARD: Card = Card {
     ],
     needs_current: false,
     signature: "current and torque wrong on one wheel alone: in step with its speed (k) or with its current (ρ)",
-    look_alikes: &[],
+    look_alikes: &[
+        LookAlike {
+            with: "drive_gain",
+            settled_by: "measure the voltage across the odd motor: a wrong gain shows there, another motor does not",
+        },
+        LookAlike {
+            with: "wheel_radius_error",
+            settled_by: "turn the robot on the spot by hand: a wheel of another radius turns by another angle than the others, an odd motor does not",
+        },
+    ],
     code: 4,
     undone: Undone::Folded("the odd motor is driven by its own R, K_v and K_t"),
     physics: Physics::PASSIVE,

@@ -1,0 +1,13 @@
+//! # The laws of the effects
+//!
+//! Each effect in the whole plant, against a formulation that shares nothing with its law: a closed form, a conservation
+//! law, or an integration from first principles.
+
+#[path = "../proof/fixture.rs"]
+#[allow(dead_code)] // the proof uses the rest of it
+mod fixture;
+
+mod built_so;
+mod drive_gain;
+mod one_wheel;
+mod wheel_radius_error;
