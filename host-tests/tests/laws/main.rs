@@ -7,7 +7,9 @@
 #[allow(dead_code)] // the proof uses the rest of it
 mod fixture;
 
+mod asymmetric_friction;
 mod built_so;
 mod drive_gain;
 mod one_wheel;
+mod wheel_friction;
 mod wheel_radius_error;

@@ -30,9 +30,11 @@ pub mod electrical {
 
 /// Effects between the shaft torque and the wheel.
 pub mod drivetrain {
+    pub mod asymmetric_friction;
     pub mod gear_efficiency;
     pub mod rotor_inertia;
     pub mod stribeck;
+    pub mod wheel_friction;
 }
 
 /// Effects between the wheel and the floor.
@@ -68,6 +70,8 @@ mod list {
         electrical::dead_time::DeadTime,
         electrical::motor_mismatch::MotorMismatch,
         drivetrain::gear_efficiency::GearEfficiency,
+        drivetrain::wheel_friction::WheelFriction,
+        drivetrain::asymmetric_friction::AsymmetricFriction,
         drivetrain::stribeck::Stribeck,
         drivetrain::rotor_inertia::RotorInertia,
         contact::wheel_radius_error::WheelRadiusError,
