@@ -11,5 +11,7 @@ mod asymmetric_friction;
 mod built_so;
 mod drive_gain;
 mod one_wheel;
+mod roller_friction;
 mod wheel_friction;
+mod wheel_misalignment;
 mod wheel_radius_error;

@@ -40,6 +40,8 @@ pub mod drivetrain {
 /// Effects between the wheel and the floor.
 pub mod contact {
     pub mod creep;
+    pub mod roller_friction;
+    pub mod wheel_misalignment;
     pub mod wheel_radius_error;
     pub mod wheel_slip;
 }
@@ -75,8 +77,10 @@ mod list {
         drivetrain::stribeck::Stribeck,
         drivetrain::rotor_inertia::RotorInertia,
         contact::wheel_radius_error::WheelRadiusError,
+        contact::wheel_misalignment::WheelMisalignment,
         contact::wheel_slip::WheelSlip,
         contact::creep::Creep,
+        contact::roller_friction::RollerFriction,
         body::coriolis::Coriolis,
         body::floor_tilt::FloorTilt,
         sensing::camera_latency::CameraLatency,
