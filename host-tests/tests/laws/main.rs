@@ -9,6 +9,7 @@ mod fixture;
 
 mod asymmetric_friction;
 mod built_so;
+mod cog_offset;
 mod drive_gain;
 mod one_wheel;
 mod roller_friction;

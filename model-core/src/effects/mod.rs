@@ -48,6 +48,7 @@ pub mod contact {
 
 /// Effects between the forces and the motion of the body.
 pub mod body {
+    pub mod cog_offset;
     pub mod coriolis;
     pub mod floor_tilt;
 }
@@ -81,6 +82,7 @@ mod list {
         contact::wheel_slip::WheelSlip,
         contact::creep::Creep,
         contact::roller_friction::RollerFriction,
+        body::cog_offset::CogOffset,
         body::coriolis::Coriolis,
         body::floor_tilt::FloorTilt,
         sensing::camera_latency::CameraLatency,
