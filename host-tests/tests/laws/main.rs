@@ -9,8 +9,11 @@ mod fixture;
 
 mod asymmetric_friction;
 mod built_so;
+mod camera_rotation;
+mod camera_scale;
 mod cog_offset;
 mod drive_gain;
+mod marker_offset;
 mod one_wheel;
 mod roller_friction;
 mod wheel_friction;

@@ -56,7 +56,10 @@ pub mod body {
 /// Effects between the truth and the reading.
 pub mod sensing {
     pub mod camera_latency;
+    pub mod camera_rotation;
+    pub mod camera_scale;
     pub mod current_sensor_offset;
+    pub mod marker_offset;
 }
 
 mod list {
@@ -86,6 +89,9 @@ mod list {
         body::coriolis::Coriolis,
         body::floor_tilt::FloorTilt,
         sensing::camera_latency::CameraLatency,
+        sensing::camera_scale::CameraScale,
+        sensing::camera_rotation::CameraRotation,
+        sensing::marker_offset::MarkerOffset,
         sensing::current_sensor_offset::CurrentSensorOffset,
     }
 }
