@@ -59,6 +59,9 @@ pub mod sensing {
     pub mod camera_rotation;
     pub mod camera_scale;
     pub mod current_sensor_offset;
+    pub mod encoder_lag;
+    pub mod encoder_scale;
+    pub mod gyro_bias;
     pub mod marker_offset;
 }
 
@@ -92,7 +95,10 @@ mod list {
         sensing::camera_scale::CameraScale,
         sensing::camera_rotation::CameraRotation,
         sensing::marker_offset::MarkerOffset,
+        sensing::encoder_lag::EncoderLag,
+        sensing::encoder_scale::EncoderScale,
         sensing::current_sensor_offset::CurrentSensorOffset,
+        sensing::gyro_bias::GyroBias,
     }
 }
 pub use list::{Effect, EffectKind, EffectState};
