@@ -3,7 +3,7 @@
 use std::fmt;
 
 use model_core::effects::EffectKind;
-use model_core::effects::card::Scope;
+use model_core::effects::card::{Card, Scope};
 use omni_gap::error::Result;
 use omni_gap::known_effects;
 use omni_gap::log::Session;
@@ -15,6 +15,9 @@ pub const FIRST_SEED: u64 = 2000;
 
 /// The seed of the reduced benchmark's first session.
 pub const FIRST_SHORT_SEED: u64 = 4000;
+
+/// Effects that there were when the sessions with nothing hidden and those with wrong numbers got their seeds.
+const FIRST_EFFECTS: usize = 13;
 
 /// Sessions with nothing hidden, on each robot.
 pub const NO_GAP_CASES: usize = 5;
@@ -116,13 +119,23 @@ pub fn short_cases() -> Vec<BenchmarkCase> {
     numbered(FIRST_SHORT_SEED, NO_GAP_CASES_SHORT, Length::Short)
 }
 
+/// The wheel of an effect that sits on one wheel alone.
+fn odd_wheel(card: &Card) -> Option<usize> {
+    (card.scope == Scope::OneWheel).then_some(ODD_WHEEL)
+}
+
+/// The sessions in an order to which a new effect adds at the end, so that no other session gets another seed by it.
 fn numbered(first_seed: u64, nothing_each: usize, length: Length) -> Vec<BenchmarkCase> {
-    let effects = EffectKind::ALL.iter().map(|effect| {
-        let card = effect.card();
-        HiddenCause::Effect(EffectInstance::typical(card, (card.scope == Scope::OneWheel).then_some(ODD_WHEEL)))
-    });
+    let mut cards: Vec<&'static Card> = EffectKind::ALL.iter().map(|effect| effect.card()).collect();
+    cards.sort_by_key(|card| card.code);
+    let effects = |cards: &[&'static Card]| -> Vec<HiddenCause> {
+        let hidden = |card: &&'static Card| EffectInstance::typical(card, odd_wheel(card));
+        cards.iter().map(|card| HiddenCause::Effect(hidden(card))).collect()
+    };
+    let (first, later) = cards.split_at(FIRST_EFFECTS);
     let nothing = std::iter::repeat_n(HiddenCause::Nothing, nothing_each);
-    let all = effects.chain(nothing).chain(WRONG_PARAMETERS.map(HiddenCause::Parameter));
+    let wrong = WRONG_PARAMETERS.map(HiddenCause::Parameter);
+    let all = effects(first).into_iter().chain(nothing).chain(wrong).chain(effects(later));
     let on_both = all.flat_map(|hidden| WHEELS.map(|wheels| (wheels, hidden.clone())));
     let seeded = (first_seed..).zip(on_both);
     seeded.map(|(seed, (wheels, hidden))| BenchmarkCase { seed, wheels, hidden, length }).collect()
@@ -145,7 +158,11 @@ impl BenchmarkCase {
         };
         plan.seed = self.seed;
         match &self.hidden {
-            HiddenCause::Effect(effect) => plan.hidden.push(effect.clone()),
+            HiddenCause::Effect(effect) => {
+                // what only a gyro shows needs one
+                plan.beside = effect.id == EffectKind::GyroBias.id();
+                plan.hidden.push(effect.clone());
+            }
             HiddenCause::Nothing => {}
             HiddenCause::Parameter(wrong) => plan.wrong.push((wrong.key, wrong.ratio)),
         }
