@@ -7,6 +7,8 @@ use model_core::control::calibration::AdcCode;
 use model_core::control::compensation::Compensation;
 use model_core::control::current_loop::{CurrentLoop, CurrentMeasurement, CurrentMemory, CurrentSetpoint};
 use model_core::control::motion_controller::{Controller, Measurement, Memory, Settings};
+use model_core::effects::active::Effects;
+use model_core::effects::body::coriolis::{self, Coriolis};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::paper;
@@ -14,6 +16,12 @@ use model_core::plant::{Input, Plant};
 
 /// How many results [`hash`] folds.
 pub const RESULTS: u32 = 20_000;
+
+model_core::effect_set! {
+    /// What the plants here could carry: a plant of the whole catalogue would fill the test's image with laws that none of
+    /// its results needs.
+    enum Carried, CarriedState [] [f32] { Coriolis(Coriolis<f32>, &coriolis::CARD) }
+}
 
 /// FNV-1a, 64 bits.
 #[derive(Clone, Copy, Debug)]
@@ -51,8 +59,8 @@ impl Draws {
 pub fn hash() -> u64 {
     let mut fold = Fold { hash: 0xcbf2_9ce4_8422_2325, results: 0 };
     let mut draws = Draws(1);
-    let three = Plant::<3, f32>::new(paper::three_wheels(), Default::default());
-    let four = Plant::<4, f32>::new(paper::four_wheels(), Default::default());
+    let three = Plant::<3, f32, Carried>::new(paper::three_wheels(), Effects::none());
+    let four = Plant::<4, f32, Carried>::new(paper::four_wheels(), Effects::none());
     let rest = Pose { x: 0.0, y: 0.0, theta: 0.0 };
     let mut three_state = three.start(0.0, rest, BodyTwist::from_array([0.0; 3]));
     let mut four_state = four.start(0.0, rest, BodyTwist::from_array([0.0; 3]));
