@@ -26,6 +26,8 @@ mod energy;
 mod feedforward;
 #[path = "proof/integration.rs"]
 mod integration;
+#[path = "proof/open_bridge.rs"]
+mod open_bridge;
 #[path = "proof/symmetry.rs"]
 mod symmetry;
 

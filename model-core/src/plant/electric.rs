@@ -10,7 +10,7 @@
 
 use super::fixed_point::{Solved, solve};
 use super::model::Plant;
-use super::source::{Drive, Source};
+use super::source::{Applied, Drive, Source};
 use super::state::State;
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
@@ -171,16 +171,15 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             emf_constant: self.emf,
             torque_constant: self.kt,
         };
-        match drive.source {
-            Source::Speed => motor.put(zero, zero, zero, zero),
-            Source::Current(current) => {
-                let current = current[j];
+        match drive.source.applied(j) {
+            None => motor.put(zero, zero, zero, zero),
+            Some(Applied::Current(current)) => {
                 let winding = self.winding(at, memory, Winding { current, ..bare() });
                 motor.put(winding.torque_constant * current, zero, current, zero);
                 motor.resistance = winding.resistance;
             }
-            Source::Voltage(command) => {
-                let u = drive.gain.map_or(command[j], |gain| command[j] * *gain);
+            Some(Applied::Voltage(command)) => {
+                let u = drive.gain.map_or(command, |gain| command * *gain);
                 if self.effects.none_on(&[Seam::Bridge, Seam::Winding], j) {
                     let (current, torque) = self.plain_motor(u, at.rotor_speed);
                     motor.put(torque, self.plain_slope, current, self.plain_current_slope);
@@ -188,7 +187,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 }
                 let turned = !self.effects.none_on(&[Seam::Winding], j);
                 let bus = drive.gain.map_or(self.robot.supply, |gain| self.robot.supply * *gain);
-                let bare_bridge = Bridge { command: command[j], bus, voltage: u, sampled: u, ..Bridge::default() };
+                let bare_bridge = Bridge { command, bus, voltage: u, sampled: u, ..Bridge::default() };
                 let look = |current: T| {
                     let mut bridge = Bridge { current, ..bare_bridge };
                     for active in self.effects.on(Seam::Bridge, j) {
@@ -283,7 +282,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             return None;
         }
         let nominal = self.robot.supply;
-        let Source::Voltage(command) = source else { return Some(nominal) };
+        let (Source::Voltage(_) | Source::Bridges(_)) = source else { return Some(nominal) };
         let mut motor = Electric::default();
         let supplied = |voltage: T| {
             let gain = Some(&(voltage / nominal));
@@ -295,7 +294,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 // I_bus = Σ duty_j·i_j,  duty_j = u_j/U_nominal
                 let drive = Drive { source, gain, contact, floor: None, state, memory };
                 self.electric(at, &drive, &mut motor);
-                drawn += command[j] / nominal * motor.sampled();
+                drawn += source.command(j) / nominal * motor.sampled();
             }
             at.leave_wheel();
             let mut supply = Supply { current: drawn, voltage: nominal };

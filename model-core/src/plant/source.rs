@@ -9,15 +9,36 @@ use crate::number::scalar::Real;
 #[derive(Clone, Copy)]
 pub(super) enum Source<'a, const N: usize, T> {
     Voltage(&'a [T; N]),
+    Bridges(&'a [Option<T>; N]),
     Current(&'a [T; N]),
     Speed,
 }
 
+/// What that is to one motor: a mean voltage that is commanded [V], or a current [A].
+#[derive(Clone, Copy)]
+pub(super) enum Applied<T> {
+    Voltage(T),
+    Current(T),
+}
+
 impl<const N: usize, T: Real> Source<'_, N, T> {
-    pub(super) fn command(&self, wheel: usize) -> T {
+    /// What is applied to a wheel's motor; nothing where a drive imposes its speed.
+    #[inline(always)]
+    pub(super) fn applied(&self, wheel: usize) -> Option<Applied<T>> {
         match self {
-            Self::Voltage(u) => u[wheel],
-            Self::Current(_) | Self::Speed => T::zero(),
+            Self::Voltage(command) => Some(Applied::Voltage(command[wheel])),
+            Self::Bridges(command) => Some(command[wheel].map_or(Applied::Current(T::zero()), Applied::Voltage)),
+            Self::Current(current) => Some(Applied::Current(current[wheel])),
+            Self::Speed => None,
+        }
+    }
+
+    /// The mean voltage that is commanded to a wheel's motor [V], zero where there is none.
+    #[inline(always)]
+    pub(super) fn command(&self, wheel: usize) -> T {
+        match self.applied(wheel) {
+            Some(Applied::Voltage(command)) => command,
+            Some(Applied::Current(_)) | None => T::zero(),
         }
     }
 }

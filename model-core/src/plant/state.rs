@@ -8,7 +8,9 @@ use crate::number::scalar::Real;
 pub enum Input<const N: usize, T> {
     /// Mean voltage commanded to each motor [V]
     Voltage([T; N]),
-    /// Current in each motor [A]; all zero is the bridge open
+    /// The same; nothing where the bridge is open and no current flows
+    Bridges([Option<T>; N]),
+    /// Current in each motor [A]; all zero is all bridges open
     Current([T; N]),
     /// Speed of each wheel at its shaft [rad/s], imposed by a drive that follows it exactly
     Speed([T; N]),

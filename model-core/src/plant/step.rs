@@ -52,6 +52,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             Input::Voltage(command) if self.bare => self.step_bare(state, command, dt),
             Input::Voltage(command) if self.plain => self.step_plain(state, memory, command, dt),
             Input::Voltage(command) => self.step_forces(state, memory, Source::Voltage(command), dt),
+            Input::Bridges(command) => self.step_forces(state, memory, Source::Bridges(command), dt),
             Input::Current(current) => self.step_forces(state, memory, Source::Current(current), dt),
             Input::Speed(speed) => self.step_speed_driven(state, memory, speed, dt),
         }
