@@ -41,6 +41,11 @@ impl Convert {
                         currents_sampled = \"before\" into the columns.toml of a session that reads it";
             text += &wrapped(2, told);
         }
+        if run.opens_single_bridges() {
+            let told = "on some rows single bridges were open, which a table cannot say: its empty voltages will be taken for \
+                        ones that were lost; diagnose the records themselves";
+            text += &wrapped(2, told);
+        }
         console.say(&text)?;
         Ok(DONE)
     }

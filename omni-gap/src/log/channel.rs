@@ -19,10 +19,19 @@ pub enum Missing {
     BadCrc,
     /// The row is an instant of another clock of the run: nothing was due.
     NotDue,
+    /// The wheel's bridge was open: no voltage was applied.
+    Open,
 }
 
-const REASONS: [Missing; 6] =
-    [Missing::Blank, Missing::Lost, Missing::Saturated, Missing::Stale, Missing::BadCrc, Missing::NotDue];
+const REASONS: [Missing; 7] = [
+    Missing::Blank,
+    Missing::Lost,
+    Missing::Saturated,
+    Missing::Stale,
+    Missing::BadCrc,
+    Missing::NotDue,
+    Missing::Open,
+];
 
 /// One signal over the rows of a run. Values are finite; a hole has a reason.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -298,7 +298,7 @@ pub(super) fn open_bridges_apply_nothing(run: &mut Run) -> Result<()> {
     }
     let open = run.open_rows();
     for channel in run.u.iter_mut().flat_map(|group| &mut group.channels) {
-        let applied = |(row, u): (usize, _)| if open[row] && channel.is_due(row) { Err(Missing::Blank) } else { u };
+        let applied = |(row, u): (usize, _)| if open[row] && channel.is_due(row) { Err(Missing::Open) } else { u };
         *channel = channel.iter().enumerate().map(applied).collect();
     }
     Ok(())

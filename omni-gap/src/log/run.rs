@@ -6,7 +6,7 @@
 //!
 //! [`Missing::NotDue`]: super::Missing::NotDue
 
-use super::channel::Channel;
+use super::channel::{Channel, Missing};
 use super::robot_file::RobotFile;
 use crate::error::Error;
 use std::path::{Path, PathBuf};
@@ -103,7 +103,24 @@ impl Run {
         self.t_s.len()
     }
 
-    /// Whether the bridges are open, row by row; what was true last stays true at instants of other clocks.
+    /// Whether each wheel's bridge is open, row by row: all of them where they are not enabled, one where its voltage says so.
+    pub fn open_bridges<const N: usize>(&self) -> Vec<[bool; N]> {
+        let mut open: Vec<[bool; N]> = self.open_rows().into_iter().map(|open| [open; N]).collect();
+        for (wheel, channel) in self.u.iter().flat_map(|group| &group.channels).enumerate().take(N) {
+            let held = channel.held();
+            open.iter_mut().zip(held.iter()).for_each(|(open, u)| open[wheel] |= u == Err(Missing::Open));
+        }
+        open
+    }
+
+    /// Whether on some row a bridge is open while others are driven, as after a fault of one motor.
+    pub fn opens_single_bridges(&self) -> bool {
+        let open = self.open_rows();
+        let alone = |(row, u): (usize, _)| u == Err(Missing::Open) && !open[row];
+        self.u.iter().flat_map(|group| &group.channels).any(|channel| channel.iter().enumerate().any(alone))
+    }
+
+    /// Whether no bridge is enabled, row by row; what was true last stays true at instants of other clocks.
     pub fn open_rows(&self) -> Vec<bool> {
         match self.enable.as_ref().map(Channel::held) {
             Some(enable) => enable.iter().map(|sample| sample == Ok(0.0)).collect(),

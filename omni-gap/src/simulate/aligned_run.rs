@@ -37,8 +37,8 @@ pub struct AlignedRun<const N: usize> {
     pub input: Vec<[f64; N]>,
     /// Whether the row is one of the driving signal's clock; on others something was measured by another clock
     pub driven: Vec<bool>,
-    /// Whether the bridges are open, row by row: then no current flows, whatever the driving signal says
-    pub open: Vec<bool>,
+    /// Whether each wheel's bridge is open, row by row: then no current flows, whatever the driving signal says
+    pub open: Vec<[bool; N]>,
     /// What was measured; only where [`AlignedRun::has`] says so
     pub measured: Vec<Row>,
     /// Bit c: channel c was measured on this row
@@ -174,7 +174,7 @@ impl<const N: usize> AlignedRun<N> {
             dt,
             chain,
             input,
-            open: run.open_rows()[span].to_vec(),
+            open: run.open_bridges()[span].to_vec(),
             driven,
             measured,
             has,
@@ -253,11 +253,16 @@ impl<const N: usize> AlignedRun<N> {
     /// The input of a row, in any number type.
     #[inline]
     pub fn input<T: Real>(&self, row: usize) -> Input<N, T> {
-        let held = self.input[row].map(T::lit);
+        let mut held = self.input[row].map(T::lit);
+        let open = &self.open[row];
         match self.chain {
-            Chain::Voltage | Chain::Current if self.open[row] => Input::Current([T::zero(); N]),
-            Chain::Voltage => Input::Voltage(held),
-            Chain::Current => Input::Current(held),
+            Chain::Voltage if *open == [true; N] => Input::Current([T::zero(); N]),
+            Chain::Voltage if *open == [false; N] => Input::Voltage(held),
+            Chain::Voltage => Input::Bridges(std::array::from_fn(|j| (!open[j]).then_some(held[j]))),
+            Chain::Current => {
+                held.iter_mut().zip(open).filter(|(_, open)| **open).for_each(|(i, _)| *i = T::zero());
+                Input::Current(held)
+            }
             Chain::WheelSpeed | Chain::SetSpeed => Input::Speed(held),
         }
     }

@@ -141,19 +141,15 @@ pub fn record<const N: usize>(
             }
         }
     }
-    let opens = |held: &Input<N, f64>| matches!(held, Input::Current(_)) && !matches!(input[0], Input::Current(_));
-    let mut driving = vec![Channel::with_capacity(rows); N];
-    for held in input {
-        let (Input::Voltage(x) | Input::Current(x) | Input::Speed(x)) = held;
-        for (column, x) in driving.iter_mut().zip(x) {
-            if opens(held) {
-                column.push_missing(Missing::Blank);
-            } else {
-                column.push(*x);
-            }
-        }
-    }
-    let driving = Some(Group::new(driving));
+    let by_current = matches!(input.first(), Some(Input::Current(_)));
+    let driven = |wheel: usize, held: &Input<N, f64>| match held {
+        Input::Bridges(x) => x[wheel].ok_or(Missing::Open),
+        Input::Current(_) if !by_current => Err(Missing::Open),
+        Input::Voltage(x) | Input::Current(x) | Input::Speed(x) => Ok(x[wheel]),
+    };
+    let opens = |held: &Input<N, f64>| (0..N).all(|wheel| driven(wheel, held) == Err(Missing::Open));
+    let column = |wheel: usize| input.iter().map(|held| driven(wheel, held)).collect();
+    let driving = Some(Group::new((0..N).map(column).collect()));
     if let SpeedSensor::Halls { edges_per_turn } = how.speed {
         w = w.iter().map(|held| retimed(held, t, edges_per_turn)).collect();
     }

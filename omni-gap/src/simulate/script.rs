@@ -120,7 +120,7 @@ impl<const N: usize> Script<N> {
     /// Voltages are cut to tenths of a millivolt, towards zero.
     pub fn to_run(&self) -> Run {
         let cut = |volts: f64| (volts * TENTHS_OF_A_MILLIVOLT).trunc() / TENTHS_OF_A_MILLIVOLT + 0.0;
-        let wheel = |j: usize| self.volts.iter().map(move |u| u.map(|u| cut(u[j])).ok_or(Missing::Blank)).collect();
+        let wheel = |j: usize| self.volts.iter().map(move |u| u.map(|u| cut(u[j])).ok_or(Missing::Open)).collect();
         Run {
             name: self.name.clone(),
             t_s: self.t.clone(),

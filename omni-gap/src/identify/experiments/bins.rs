@@ -54,12 +54,9 @@ fn bin<const N: usize>(run: &AlignedRun<N>, rows: (usize, usize), twist: [f64; 3
             *mean += u * run.dt[row] / dt;
         }
     }
-    let opened = run.open[rows.0..rows.1].iter().filter(|open| **open).count();
-    let open = match opened {
-        0 => Some(false),
-        n if n == rows.1 - rows.0 => Some(true),
-        _ => None,
-    };
+    let bridges = &run.open[rows.0..rows.1];
+    let all = |state: bool| bridges.iter().all(|open| *open == [state; N]).then_some(state);
+    let open = all(true).or(all(false));
     Bin { rows, dt, twist, volts, open }
 }
 

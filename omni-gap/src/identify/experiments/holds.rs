@@ -26,12 +26,12 @@ pub(super) fn holds<const N: usize>(run: &AlignedRun<N>, wheels: &Wheels<N, f64>
     let mut found = Vec::new();
     let mut from = 0;
     for row in 1..=run.rows() {
-        let goes_on = row < run.rows() && run.input[row] == run.input[from] && !run.open[row];
+        let goes_on = row < run.rows() && run.input[row] == run.input[from] && run.open[row] == [false; N];
         if goes_on {
             continue;
         }
         let length = run.t[row - 1] - run.t[from];
-        if length >= SHORTEST && !run.open[from] && run.input[from].iter().any(|u| *u != 0.0) {
+        if length >= SHORTEST && run.open[from] == [false; N] && run.input[from].iter().any(|u| *u != 0.0) {
             let steady = run.t.partition_point(|t| *t < run.t[from] + SETTLING * length);
             found.extend(steady_state(run, wheels, (steady, row)));
         }

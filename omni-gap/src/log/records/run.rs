@@ -9,8 +9,8 @@
 //! ```
 //!
 //! A record that did not arrive leaves a row without any value, and so no voltage in the row before it: the telegram failed
-//! its checksum where as many broken frames came as records are missing, else it was lost. A voltage is blank too where a
-//! bridge was opened within the row.
+//! its checksum where as many broken frames came as records are missing, else it was lost. There is no voltage either
+//! where a bridge was open.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -180,7 +180,7 @@ impl Channels {
                 Some(after) if record.drives(wheel) && after.drives(wheel) => {
                     u.push(f64::from(after.voltage[wheel]));
                 }
-                Some(_) => u.push_missing(Missing::Blank),
+                Some(_) => u.push_missing(Missing::Open),
             }
             match current(hello, &calibration, record, wheel) {
                 Ok(x) => i.push(x),

@@ -139,8 +139,10 @@ fn open_bridges_have_no_voltage() {
     let enable = run.enable.as_ref().unwrap();
     assert_eq!((enable.get(9), enable.get(10), enable.get(19), enable.get(20)), (Ok(1.0), Ok(0.0), Ok(0.0), Ok(1.0)));
     // opened within row 9, open up to row 19
-    assert!((9..20).all(|row| at(&run.u, 0, row) == Err(Missing::Blank)) && at(&run.u, 0, 20).is_ok());
-    assert_eq!((at(&run.u, 2, 26), at(&run.u, 1, 26)), (Err(Missing::Blank), Ok(27.0 / 128.0)));
+    assert!((9..20).all(|row| at(&run.u, 0, row) == Err(Missing::Open)) && at(&run.u, 0, 20).is_ok());
+    let open = run.open_bridges::<4>();
+    assert_eq!((open[5], open[10], open[26]), ([false; 4], [true; 4], [false, false, true, false]));
+    assert_eq!((at(&run.u, 2, 26), at(&run.u, 1, 26)), (Err(Missing::Open), Ok(27.0 / 128.0)));
 }
 
 #[test]
@@ -204,7 +206,7 @@ fn a_file_of_records_is_read_with_the_reason_of_every_hole() {
     let why = |wheel: usize, row: usize| at(&run.u, wheel, row).or_else(|_| at(&run.i, wheel, row)).err();
     assert_eq!(
         (why(0, 30), why(0, 40), at(&run.u, 1, 10)),
-        (Some(Missing::BadCrc), Some(Missing::Lost), Err(Missing::Blank))
+        (Some(Missing::BadCrc), Some(Missing::Lost), Err(Missing::Open))
     );
     assert_eq!(at(&run.i, 3, 20), Err(Missing::Saturated));
     assert_eq!((run.name.as_str(), run.currents_sampled, run.first_line), ("drive", Sampled::Before, None));
