@@ -5,11 +5,12 @@
 
 use model_core::plant::robot::Nominal;
 
-use super::fit::{Fit, FitOptions, Free, fit_on, profile, starts_of};
+use super::fit::{Fit, FitOptions, Free, fit_on};
 use super::linear::linearise;
 use super::prior::Prior;
 use super::settings::FitSettings;
 use super::shoot::Shots;
+use super::starts::{profile, starts_of};
 use crate::simulate::{Model, Slot};
 
 /// All nominal factors, free within what is believable.

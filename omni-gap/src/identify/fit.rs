@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::linear::{Linearised, Reduced, linearise};
 use super::prior::Prior;
-use super::settings::FitSettings;
-use super::shoot::{Piece, Shots, Starts, first_starts, run_some_windows};
+use super::shoot::{Piece, Shots, Starts, run_some_windows};
+use super::starts::{better_starts, starts_of};
 use super::whiten::Whitener;
 use crate::simulate::{AlignedRun, FreeRun, Model, Slot};
 use model_core::geometry::frames::{BodyTwist, Pose};
@@ -96,12 +96,6 @@ pub fn fit<const N: usize>(
     fit_on((model, starts, linear), shots, options).0
 }
 
-/// Starts from the smoothed measurements, for all windows of all runs.
-pub(super) fn starts_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -> Vec<Starts> {
-    let plant = model.plant();
-    shots.runs.iter().zip(shots.windows).map(|(run, windows)| first_starts(&plant, run, windows)).collect()
-}
-
 /// The same from a model, its starts, and what they are linearised to; and what the fitted model is linearised to.
 pub(super) fn fit_on<const N: usize>(
     (mut model, mut starts, mut linear): (Model<N>, Vec<Starts>, Linearised),
@@ -164,57 +158,6 @@ pub(super) fn fit_on<const N: usize>(
         samples,
     };
     (fitted, linear)
-}
-
-/// The best starts for a model as it is, and each window's Σ error² and count: how well whole runs are predicted.
-pub fn profile<const N: usize>(
-    model: &Model<N>,
-    shots: Shots<'_, N>,
-    settings: &FitSettings,
-) -> (Vec<Starts>, Vec<Vec<(f64, usize)>>) {
-    let none = DVector::zeros(0);
-    let mut starts = starts_of(model, shots);
-    let mut linear = linearise(model, shots, &starts, &[], false);
-    for _ in 0..settings.start_rounds {
-        let moved = linear.starts_after(&starts, &none);
-        let trial = linearise(model, shots, &moved, &[], false);
-        // each window on its own: a start that got worse stays
-        let (old, new) = (linear.cost_by_window(), trial.cost_by_window());
-        for (run, (old, new)) in old.iter().zip(&new).enumerate() {
-            for (k, (old, new)) in old.iter().zip(new).enumerate() {
-                if new.0 < old.0 {
-                    starts[run][k] = moved[run][k];
-                }
-            }
-        }
-        let gained: f64 = old.iter().flatten().zip(new.iter().flatten()).map(|(o, n)| (o.0 - n.0).max(0.0)).sum();
-        linear = linearise(model, shots, &starts, &[], false);
-        if gained < settings.least_gain {
-            break;
-        }
-    }
-    let cost = linear.cost_by_window();
-    (starts, cost)
-}
-
-/// Of two starts of each window the better one: a robot that friction stops at once tells nothing of the speed with which
-/// it began, and a step that is linear all the way goes anywhere.
-fn better_starts<const N: usize>(
-    model: &Model<N>,
-    shots: Shots<'_, N>,
-    stayed: &[Starts],
-    mut moved: Vec<Starts>,
-) -> Vec<Starts> {
-    let [old, new] = [stayed, &moved].map(|starts| linearise(model, shots, starts, &[], false).cost_by_window());
-    for (run, (old, new)) in old.iter().zip(&new).enumerate() {
-        for (k, (old, new)) in old.iter().zip(new).enumerate() {
-            // a cost that is no number is worse than any
-            if new.0.is_nan() || new.0 > old.0 {
-                moved[run][k] = stayed[run][k];
-            }
-        }
-    }
-    moved
 }
 
 /// Σ error² [σ²] of a model and its starts.

@@ -25,6 +25,7 @@ mod settings;
 mod shoot;
 #[cfg(test)]
 mod staged;
+mod starts;
 mod whiten;
 mod window;
 
@@ -34,7 +35,7 @@ pub use answer::model::{
 pub use answer::{answer, number_key};
 pub use disagree::{Disagreement, IndependentEstimate, disagreements};
 pub use dispersion::{fit_with_dispersion, nominal_free};
-pub use fit::{Fit, FitOptions, Free, fit, profile};
+pub use fit::{Fit, FitOptions, Free, fit};
 pub use guess::Guessed;
 pub use identifiability::{Identifiability, TradeOff};
 pub use joint::{GIVEN, IDENTIFIED, Identified, Joint, Refused, joint};
@@ -44,5 +45,6 @@ pub use prior::{FreedPrior, Prior, PriorRow};
 pub use relative::relative_std;
 pub use settings::FitSettings;
 pub use shoot::{Shots, Starts, WINDOW_S, Windows, first_starts, run_windows};
+pub use starts::profile;
 pub use whiten::Whitener;
 pub use window::WindowLinear;

@@ -24,6 +24,9 @@ pub struct Start<const N: usize> {
     pub pose_spread: Option<f64>,
     /// Yaw rate [rad/s], where measured
     pub gyro: Option<f64>,
+    /// True where a speed was measured only after the restart, or only before it, so that a line was prolonged: speeds
+    /// from hall edges, which a wheel at rest does not give
+    pub prolonged: bool,
 }
 
 /// The least-squares line through some points.
@@ -35,6 +38,8 @@ struct Line {
     slope: f64,
     /// Σ(t − t̄)² [s²]
     spread: f64,
+    /// Not between samples.
+    prolonged: bool,
 }
 
 /// The least-squares line through the points, read at time `at`.
@@ -50,13 +55,16 @@ fn line(points: impl Iterator<Item = (f64, f64)> + Clone, at: f64) -> Option<Lin
     }
     let (mean_t, mean_x) = (st / n, sx / n);
     let (mut tt, mut tx) = (0.0, 0.0);
+    let (mut before, mut after) = (false, false);
     for (t, x) in points {
         let d = t - at - mean_t;
         tt += d * d;
         tx += d * (x - mean_x);
+        before |= t <= at;
+        after |= t >= at;
     }
     let slope = if tt > 0.0 { tx / tt } else { 0.0 };
-    Some(Line { value: mean_x - slope * mean_t, slope, spread: tt })
+    Some(Line { value: mean_x - slope * mean_t, slope, spread: tt, prolonged: !(before && after) })
 }
 
 /// The line through one channel around a row.
@@ -75,9 +83,11 @@ pub fn start_at<const N: usize>(run: &AlignedRun<N>, row: usize) -> Start<N> {
     let (t, channels) = (&run.t, AlignedRun::<N>::channels());
     let channel = |c: usize, half: f64| smooth(t, row, half, move |k| run.saw(k, c).then(|| run.measured[k][c]));
     let mut wheel_speed = Some([0.0; N]);
+    let mut prolonged = false;
     for j in 0..N {
         wheel_speed = wheel_speed.zip(channel(channels.wheel_speed(j), SPEED_HALF_S)).map(|(mut w, line)| {
             w[j] = line.value;
+            prolonged |= line.prolonged;
             w
         });
     }
@@ -89,7 +99,7 @@ pub fn start_at<const N: usize>(run: &AlignedRun<N>, row: usize) -> Start<N> {
     let pose = lines.map(|lines| (lines.map(|l| l.value), lines.map(|l| l.slope)));
     let pose_spread = lines.map(|lines| lines[0].spread);
     let gyro = channel(channels.gyro(), SPEED_HALF_S).map(|g| g.value);
-    Start { time: t[row], wheel_speed, pose, pose_spread, gyro }
+    Start { time: t[row], prolonged: prolonged && wheel_speed.is_some(), wheel_speed, pose, pose_spread, gyro }
 }
 
 impl<const N: usize> Start<N> {
@@ -129,8 +139,10 @@ mod tests {
     #[test]
     fn a_line_is_read_at_the_restart_itself() {
         let points = [(0.0, 1.0), (0.1, 1.2), (0.2, 1.4)];
-        let Line { value, slope, spread } = line(points.into_iter(), 0.25).unwrap();
+        let Line { value, slope, spread, prolonged } = line(points.into_iter(), 0.25).unwrap();
         assert!((value - 1.5).abs() < 1e-12 && (slope - 2.0).abs() < 1e-12 && (spread - 0.02).abs() < 1e-12);
+        assert!(prolonged);
+        assert!([0.0, 0.15, 0.2].iter().all(|at| !line(points.into_iter(), *at).unwrap().prolonged));
     }
 
     #[test]
