@@ -50,14 +50,15 @@ fn the_core_stays_with_the_reference() {
 
 #[test]
 fn all_bridges_open_carry_no_current_and_all_driven_are_voltages() {
-    let drop = || with_effect(four::<f64>(), effect("supply_sag"), None, &[0.2]);
+    let drop = || with_effect(four::<f64>(), effect("supply_sag"), None, &[0.2, 0.0]);
     let mut ways = [0; 4].map(|_| Run::from(drop(), [0.0; 3], [0.6, -0.4, 3.0]));
     let u = [3.0, -2.0, 5.0, 1.0];
     for _ in 0..300 {
         let inputs =
             [Input::Bridges([None; 4]), Input::Current([0.0; 4]), Input::Bridges(u.map(Some)), Input::Voltage(u)];
-        let reads: Vec<_> = ways.iter_mut().zip(inputs).map(|(run, input)| run.step(&input, 1e-3)).collect();
-        assert!(reads[0] == reads[1] && reads[2] == reads[3]);
+        let step = |(run, input): (&mut Run<4, f64>, _)| run.step(&input, 1e-3).current;
+        let currents: Vec<_> = ways.iter_mut().zip(inputs).map(step).collect();
+        assert!(currents[0] == currents[1] && currents[2] == currents[3], "{currents:?}");
     }
     assert!(gap(ways[0].twist(), ways[1].twist()) == 0.0 && gap(ways[2].twist(), ways[3].twist()) == 0.0);
 }
@@ -67,7 +68,7 @@ fn a_bridge_that_is_open_draws_nothing_from_the_battery() {
     let mut robot = four::<f64>();
     robot.friction.coulomb = [1e3; 3];
     let (supply, resistance) = (robot.supply, robot.motor.resistance);
-    let mut run = Run::new(with_effect(robot, effect("supply_sag"), None, &[0.5]));
+    let mut run = Run::new(with_effect(robot, effect("supply_sag"), None, &[0.5, 0.0]));
     let (u, open) = (9.0, 2);
     let bridges = std::array::from_fn(|j| (j != open).then_some(u));
     let mut read = run.step(&Input::Bridges(bridges), 1e-3);
