@@ -79,33 +79,35 @@ pub(super) fn better_starts<const N: usize>(
 
 #[cfg(test)]
 mod tests {
+    use model_core::plant::Input;
+
     use super::super::shoot::Windows;
-    use super::super::staged::{Staging, robot, staged};
+    use super::super::staged::robot;
     use super::*;
-    use crate::simulate::SignalGroup;
+    use crate::simulate::{SensorSetup, SignalGroup, record};
 
     /// From this time on the wheels turn fast enough to be seen [s].
-    const FIRST_SEEN: f64 = 0.12;
+    const FIRST_SEEN: f64 = 0.1;
 
     #[test]
     fn a_robot_that_no_sensor_sees_before_it_moves_starts_at_rest() {
-        let model = Model::nominal(&robot(), 12.0);
-        let wheels = AlignedRun::<4>::channels().of(SignalGroup::WheelSpeed).fold(0_u16, |mask, c| mask | 1 << c);
-        let mut runs = staged(&model, &Staging { runs: 3, channels: wheels, ..Staging::default() });
-        for run in &mut runs {
-            let unseen = run.t.partition_point(|t| *t < FIRST_SEEN);
-            run.has[..unseen].fill(0);
+        let (file, rate) = (robot(), 250.0);
+        let model = Model::<4>::nominal(&file, 12.0);
+        let t: Vec<f64> = (0..250).map(|row| f64::from(row) / rate).collect();
+        let sensors = SensorSetup { sensors: file.sensors, ..SensorSetup::default() };
+        let run = record(&model.plant(), "step", &t, &[Input::Voltage([6.0, 3.0, -6.0, -3.0]); 250], &sensors, 1);
+        let mut run = AlignedRun::<4>::new(&run, &file).unwrap();
+        let channels = AlignedRun::<4>::channels();
+        let wheels = channels.of(SignalGroup::WheelSpeed).fold(0_u16, |mask, c| mask | 1 << c);
+        for (has, t) in run.has.iter_mut().zip(&t) {
+            *has &= if *t < FIRST_SEEN { 0 } else { wheels };
         }
-        let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, 0.5)).collect();
-        let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
-        let shots = Shots { runs: &runs, windows: &windows };
-        let plant = model.plant();
-        for ((run, windows), starts) in runs.iter().zip(&windows).zip(starts_of(&model, shots)) {
-            let measured = first_starts(&plant, run, windows);
-            // the line through what was seen, prolonged by 0.12 s and more of a motion that bends
-            assert!(measured[0][3].hypot(measured[0][4]) > 0.1, "{:?}", measured[0]);
-            assert_eq!(starts[0][3..], [0.0; 3]);
-            assert_eq!(starts[1..], measured[1..]);
-        }
+        let windows = [Windows::new(&run, 0.5)];
+        let measured = first_starts(&model.plant(), &run, &windows[0]);
+        let starts = starts_of(&model, Shots { runs: &[&run], windows: &windows });
+        // the line through what was seen, prolonged over a motion that bends
+        assert!(measured[0][3].hypot(measured[0][4]) > 0.1, "{:?}", measured[0]);
+        assert_eq!(starts[0][0][3..], [0.0; 3]);
+        assert_eq!(starts[0][1..], measured[1..]);
     }
 }
