@@ -38,15 +38,17 @@ pub(super) fn uncoupled<T: Real>(body: &Body<T>, x: &[T; 3], dt: T::Plain) -> [T
         })
     };
     let next = after(force);
-    if [(0, 1), (0, 2), (1, 2)].into_iter().all(|(a, b)| mass[a][b].is_constant()) {
+    let constant = |a: usize, b: usize| [mass[a][b], rate[a][b], rate[b][a]].into_iter().all(T::is_constant);
+    if [(0, 1), (0, 2), (1, 2)].into_iter().all(|(a, b)| constant(a, b)) {
         return next;
     }
-    // a coupling of nothing may have derivatives: those of F_a less those of M_ab·(x⁺_b − x_b)/Δt
+    // a coupling of nothing may have derivatives: those of F_a less those of (M_ab/Δt + ½·A_ab)·(x⁺_b − x_b)
     let mut force = *force;
+    let half = T::Plain::lit(0.5);
     for (a, others) in [[1, 2], [0, 2], [0, 1]].into_iter().enumerate() {
         for b in others {
             let gained = next[b].plain() - x[b].plain();
-            force[a].add_chain(Real::zero(), [(&mass[a][b], -(gained / dt))]);
+            force[a].add_chain(Real::zero(), [(&mass[a][b], -(gained / dt)), (&rate[a][b], -(gained * half))]);
         }
     }
     after(&force)
@@ -165,14 +167,22 @@ mod tests {
         type D = Dual<1>;
         let (x, force, dt) = ([0.3, -0.2, 1.0], [3.0, -1.0, 0.2], 1e-3);
         let mass = |c: f64| [[2.0, 0.0, c], [0.0, 2.0, -0.5 * c], [c, -0.5 * c, 0.02]];
-        let mut body = Body { mass: mass(0.0).map(|row| row.map(D::lit)), force: force.map(D::lit), ..Body::default() };
-        for (a, b, slope) in [(0, 2, 1.0), (2, 0, 1.0), (1, 2, -0.5), (2, 1, -0.5)] {
-            body.mass[a][b] = D { re: 0.0, eps: [slope] };
-        }
+        // turning forces: a rate that is not symmetric
+        let rate = |c: f64| [[7.0, 300.0 * c, 0.0], [-300.0 * c, 9.0, 50.0 * c], [0.0, 20.0 * c, 0.1]];
+        let dual = |of: &dyn Fn(f64) -> [[f64; 3]; 3]| {
+            core::array::from_fn(|a| {
+                core::array::from_fn(|b| D { re: of(0.0)[a][b], eps: [of(1.0)[a][b] - of(0.0)[a][b]] })
+            })
+        };
+        let body = Body { mass: dual(&mass), rate: dual(&rate), force: force.map(D::lit), ..Body::default() };
         let exact = uncoupled(&body, &x.map(D::lit), dt);
-        let little = mul_mat_vec(&inverse3(&mass(1e-7)), force.map(|f| f * dt));
+        // H·(x⁺ − x) = Δt·F,  H = M + ½·Δt·A
+        let gained = |c: f64| {
+            let h = core::array::from_fn(|a| core::array::from_fn(|b| mass(c)[a][b] + 0.5 * dt * rate(c)[a][b]));
+            mul_mat_vec(&inverse3(&h), force.map(|f| f * dt))
+        };
         for (k, exact) in exact.iter().enumerate() {
-            let difference = (little[k] - force[k] * dt / mass(0.0)[k][k]) / 1e-7;
+            let difference = (gained(1e-7)[k] - gained(0.0)[k]) / 1e-7;
             assert!((exact.eps[0] - difference).abs() < 1e-4 * difference.abs(), "{k}: {exact:?}, {difference}");
         }
     }
