@@ -178,8 +178,7 @@ pub struct Physics {
     /// The two parameters that are a place on the robot, along its axes (v, vn) [m].
     pub place: Option<[usize; 2]>,
     /// True if the model has a corner where the effect is absent, so that a fit has to start elsewhere: a coefficient of
-    /// friction of zero stands for an infinite one, and the plant leaves out a shaft's dry friction or a contact's creep
-    /// while there is none.
+    /// friction of zero stands for an infinite one, and the plant leaves out a contact's creep while there is none.
     pub corner_at_absent: bool,
     /// How far two runs of some seconds may part that symmetry makes one: of velocities and poses, in SI units.
     pub apart: f64,
@@ -200,7 +199,7 @@ impl Physics {
     /// The same of dry friction at the wheels, about their shafts or along them. Its budgets couple the axes; the sweeps over
     /// them stop once nothing moves by more than 1e-6 m/s, and go through the axes in their order, which a turned robot has
     /// otherwise.
-    pub const DRY_AT_WHEELS: Self = Self { corner_at_absent: true, apart: 1e-4, ..Self::PASSIVE };
+    pub const DRY_AT_WHEELS: Self = Self { apart: 1e-4, ..Self::PASSIVE };
 }
 
 /// An effect's page as data.

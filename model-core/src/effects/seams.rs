@@ -250,7 +250,7 @@ impl<T: Real> Contact<T> {
     /// True if the rollers have friction.
     #[inline]
     pub fn rollers_drag(&self) -> bool {
-        self.roller_friction > T::zero() || self.roller_damping > T::zero()
+        !self.roller_friction.is_nothing() || !self.roller_damping.is_nothing()
     }
 }
 

@@ -121,6 +121,12 @@ pub trait Real:
         if sign < Self::zero() { -self.abs() } else { self.abs() }
     }
 
+    /// True of a zero without derivatives: what it sizes is not there.
+    #[inline(always)]
+    fn is_nothing(self) -> bool {
+        self == Self::zero() && self.is_constant()
+    }
+
     /// The larger of two.
     #[inline]
     fn max(self, other: Self) -> Self {

@@ -36,7 +36,7 @@ impl<const N: usize, T: Real> Push<N, T> {
         let row = c.axle_row();
         self.body.force = add_scaled(self.body.force, -(c.roller_damping * dot(row, x)), row);
         accumulate_upper(&mut self.body.rate, c.roller_damping, row);
-        if c.roller_friction > T::zero() {
+        if !c.roller_friction.is_nothing() {
             self.rollers.get_or_insert([Hold::none(); N])[j] = Hold::new(row, c.roller_friction);
         }
     }
@@ -106,15 +106,14 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             }
             c.add_force(&mut push.body.force, wheel.met.force);
             c.add_rate(&mut push.body.rate, wheel.met.rate);
-            if self.turns && (wheel.inertia > zero || !wheel.inertia.is_constant()) {
+            if self.turns && !wheel.inertia.is_nothing() {
                 let turning = push.turning.get_or_insert([[zero; 3]; 3]);
                 c.add_rate(turning, wheel.inertia * (c.per_radius * c.per_radius));
             }
-            // a budget of zero may still have derivatives
-            if wheel.budget > zero || !wheel.budget.is_constant() {
+            if !wheel.budget.is_nothing() {
                 push.shafts.get_or_insert([Hold::none(); N])[j] = Hold::new(c.row, wheel.budget * c.per_radius);
             }
-            if wheel.bias != zero || !wheel.bias.is_constant() {
+            if !wheel.bias.is_nothing() {
                 c.add_force(&mut push.body.force, -(wheel.bias * c.per_radius));
             }
             if c.rollers_drag() {
