@@ -161,8 +161,12 @@ impl<'a, const N: usize, T: Real> Motion<'a, N, T> {
             return uncoupled(self.body, &x, self.dt);
         }
         self.spend(x.map(T::plain));
-        let onward = self.settled(&x, &h, x.map(T::plain));
-        if self.reverses(&onward) { self.reversed(&x, &h, &onward) } else { onward }
+        let mut onward = self.settled(&x, &h, x.map(T::plain));
+        // what reverses may turn another round; each pass makes a budget of the friction of one direction at least
+        while self.reverses(&onward) {
+            onward = self.reversed(&x, &h, &onward);
+        }
+        onward
     }
 
     /// The same where something reverses within the step, on its way to the twist `onward`.
