@@ -5,9 +5,10 @@ use host_tests::excitation::voltages;
 use host_tests::generic_robot::{GenericRobot, Wheel};
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
 use host_tests::reference::Reference;
+use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::Input;
 
-use crate::fixture::{Run, core_robot, effect, gap, larger, with_effect};
+use crate::fixture::{Run, core_robot, effect, four, gap, larger, with_effect};
 
 /// An effect, and what the wheel that has it looks like on a robot that was built so.
 #[derive(Clone, Copy)]
@@ -79,5 +80,20 @@ impl Built<'_> {
             slope = [slope[0] + cos * left, slope[1] + sin * left, slope[2] + built.distance * left];
         }
         assert!(gap(slope, [0.0; 3]) < 1e-14, "{} on wheel {wheel} of {N}: {slope:?}", self.id);
+    }
+}
+
+#[test]
+fn a_start_rolls_on_the_wheels_that_are_there() {
+    let start = [0.6, -0.4, 3.0];
+    for (id, size) in [("wheel_radius_error", 0.2), ("wheel_misalignment", 0.1), ("wheel_misalignment", -0.1)] {
+        let plant = with_effect(four::<f64>(), effect(id), Some(1), &[size]);
+        let state = plant.start(0.0, Pose::default(), BodyTwist::from_array(start));
+        // no time to move: what is read is what was begun with
+        let mut run = Run::from(with_effect(four::<f64>(), effect(id), Some(1), &[size]), [0.0; 3], start);
+        let read = run.step(&Input::Current([0.0; 4]), 1e-9);
+        assert!(gap(state.wheel_speed, read.wheel_speed) < 1e-12, "{id}: {:?}", state.wheel_speed);
+        assert!(gap(state.wheel_speed, four::<f64>().wheels.wheel_speeds(state.twist)) > 0.1);
+        assert!(gap(plant.twist_of_wheel_speeds(state.wheel_speed).to_array(), start) < 1e-12, "{id}");
     }
 }

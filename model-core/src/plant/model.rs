@@ -176,9 +176,14 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         self.effects.memory()
     }
 
+    /// The contacts as effects describe them that look at nothing but their parameters, else as the robot's do.
+    pub(super) fn usual_contacts(&self) -> &[Contact<T>; N] {
+        self.settled.as_ref().map_or(&self.contact, |settled| &settled.contact)
+    }
+
     /// A state with this pose and velocity, the wheels rolling without slip and the motors without current.
     pub fn start(&self, time: T, pose: Pose<T>, twist: BodyTwist<T>) -> State<N, T> {
-        let wheel_speed = self.robot.wheels.wheel_speeds(twist);
+        let wheel_speed = self.usual_contacts().each_ref().map(|c| c.rim_speed(twist) * c.per_radius);
         let kept = |needed| if needed { T::zero() } else { T::lit(f64::NAN) };
         State {
             time,

@@ -59,9 +59,17 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         truth
     }
 
+    /// The twist that comes nearest to these speeds of the wheels [rad/s], if they roll.
+    pub fn twist_of_wheel_speeds(&self, speed: [T; N]) -> BodyTwist<T> {
+        let contact = self.usual_contacts();
+        self.rolling(contact, core::array::from_fn(|j| contact[j].radius * speed[j]))
+    }
+
     /// The twist that comes nearest to these rim speeds [m/s].
     fn rolling(&self, contact: &[Contact<T>; N], rim: [T; N]) -> BodyTwist<T> {
-        let as_built = |(c, built): (&Contact<T>, &Contact<T>)| c.fixed_direction && c.row == built.row;
+        let as_built = |(c, built): (&Contact<T>, &Contact<T>)| {
+            c.fixed_direction && c.row == built.row && (c.row[2] - built.row[2]).is_nothing()
+        };
         if contact.iter().zip(&self.contact).all(as_built) {
             return self.robot.wheels.twist(rim);
         }

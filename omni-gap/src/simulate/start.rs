@@ -11,6 +11,9 @@ use super::aligned_run::AlignedRun;
 const SPEED_HALF_S: f64 = 0.050;
 const POSE_HALF_S: f64 = 0.100;
 
+/// What lies before and behind an instant over which the rate of a pose is taken [s]
+const RATE_OVER_S: f64 = 1e-3;
+
 /// A smoothed measurement at the instant of a restart.
 #[derive(Clone, Copy, Debug)]
 pub struct Start<const N: usize> {
@@ -117,9 +120,21 @@ impl<const N: usize> Start<N> {
         };
         let truth = plant.invert_sensing(self.time, BodyTwist::default(), reading);
         let mut twist = if self.wheel_speed.is_some() {
-            plant.robot().wheels.twist_of_wheel_speeds(truth.wheel_speed)
-        } else if let Some((_, rate)) = self.pose {
-            measured.to_body(WorldTwist { x: rate[0], y: rate[1], w: rate[2] })
+            plant.twist_of_wheel_speeds(truth.wheel_speed)
+        } else if let Some((_, [x, y, theta])) = self.pose {
+            // the rate of the pose behind the one that is read
+            let behind = |after_s: f64| {
+                let pose = Pose {
+                    x: measured.x + after_s * x,
+                    y: measured.y + after_s * y,
+                    theta: measured.theta + after_s * theta,
+                };
+                plant.invert_sensing(self.time, BodyTwist::default(), Reading { pose, ..reading }).pose
+            };
+            let (from, to, span) = (behind(-RATE_OVER_S), behind(RATE_OVER_S), 2.0 * RATE_OVER_S);
+            let rate = |from: f64, to: f64| (to - from) / span;
+            let rate = WorldTwist { x: rate(from.x, to.x), y: rate(from.y, to.y), w: rate(from.theta, to.theta) };
+            truth.pose.to_body(rate)
         } else {
             before.twist
         };
@@ -134,6 +149,10 @@ impl<const N: usize> Start<N> {
 
 #[cfg(test)]
 mod tests {
+    use model_core::effects::EffectKind;
+    use model_core::effects::active::Effects;
+    use model_core::plant::{Input, paper};
+
     use super::*;
 
     #[test]
@@ -151,5 +170,41 @@ mod tests {
         let sparse = |k: usize| k.is_multiple_of(15).then(|| 3.0 * t[k]);
         assert!((smooth(&t, 50, 0.05, sparse).unwrap().value - 1.5).abs() < 1e-12);
         assert!(smooth(&t, 50, 0.05, |k| (k == 50).then_some(1.0)).is_none());
+    }
+
+    #[test]
+    fn where_only_a_pose_is_read_the_velocity_is_that_of_the_pose_behind_it() {
+        let twist = BodyTwist { v: 0.5, vn: -0.2, w: 1.0 };
+        for (effect, params) in [
+            (EffectKind::CameraRotation, &[0.1][..]),
+            (EffectKind::CameraScale, &[0.05]),
+            (EffectKind::MarkerOffset, &[0.04, -0.03]),
+        ] {
+            let mut effects = Effects::default();
+            effects.add(effect, None, params).expect("parameters of its card");
+            let plant = Plant::new(paper::four_wheels::<f64>(), effects);
+            let mut state = plant.start(0.0, Pose { x: 1.0, y: -0.5, theta: 0.3 }, twist);
+            let (speeds, mut read) = (Input::Speed(state.wheel_speed), Vec::new());
+            let mut at_row = state;
+            for row in 0..3 {
+                at_row = if row == 1 { state } else { at_row };
+                read.push(plant.step(&mut state, &mut [], &speeds, 1e-3).pose);
+            }
+            let of = |pose: Pose<f64>| [pose.x, pose.y, pose.theta];
+            let rate = std::array::from_fn(|k| (of(read[2])[k] - of(read[0])[k]) / 2e-3);
+            let start = Start {
+                time: at_row.time,
+                wheel_speed: None,
+                pose: Some((of(read[1]), rate)),
+                pose_spread: None,
+                gyro: None,
+                prolonged: false,
+            };
+            let found = start.state(&plant, &state);
+            // a chord of 2 ms of a curve: v·ω²·(1 ms)²/6 and less
+            let off =
+                found.twist.to_array().iter().zip(twist.to_array()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-6 && (found.pose.x - at_row.pose.x).abs() < 1e-12, "{effect:?}: {:?}", found.twist);
+        }
     }
 }
