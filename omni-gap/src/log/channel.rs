@@ -19,7 +19,7 @@ pub enum Missing {
     BadCrc,
     /// The row is an instant of another clock of the run: nothing was due.
     NotDue,
-    /// The wheel's bridge was open: no voltage was applied.
+    /// The wheel's bridge was open, or was opened within the row: no voltage was applied throughout.
     Open,
 }
 

@@ -115,9 +115,9 @@ impl Run {
 
     /// Whether on some row a bridge is open while others are driven, as after a fault of one motor.
     pub fn opens_single_bridges(&self) -> bool {
-        let open = self.open_rows();
-        let alone = |(row, u): (usize, _)| u == Err(Missing::Open) && !open[row];
-        self.u.iter().flat_map(|group| &group.channels).any(|channel| channel.iter().enumerate().any(alone))
+        let voltages = self.u.as_ref().map_or(&[][..], |group| &group.channels);
+        let open = |row: usize| voltages.iter().filter(|u| u.get(row) == Err(Missing::Open)).count();
+        (0..self.rows()).any(|row| (1..voltages.len()).contains(&open(row)))
     }
 
     /// Whether no bridge is enabled, row by row; what was true last stays true at instants of other clocks.

@@ -58,7 +58,7 @@ fn signals_of(group: &Option<Group>) -> &[Channel] {
 }
 
 /// A channel row by row; holes hold the last value, zero before the first.
-fn held(channel: &Channel, mut rows: Range<usize>) -> impl Iterator<Item = f64> {
+fn filled(channel: &Channel, mut rows: Range<usize>) -> impl Iterator<Item = f64> {
     let mut last = 0.0;
     std::iter::from_fn(move || {
         last = channel.get(rows.next()?).unwrap_or(last);
@@ -94,7 +94,7 @@ impl<const N: usize> AlignedRun<N> {
 
         let mut input = vec![[0.0; N]; rows];
         for (j, channel) in driving.channels.iter().enumerate().take(N) {
-            input.iter_mut().zip(held(channel, span.clone())).for_each(|(value, held)| value[j] = held);
+            input.iter_mut().zip(filled(channel, span.clone())).for_each(|(value, held)| value[j] = held);
         }
         if chain == Chain::WheelSpeed {
             // a measured speed changes evenly between its rows: hold the middle
@@ -156,7 +156,7 @@ impl<const N: usize> AlignedRun<N> {
             .iter()
             .zip(&robot.wheel)
             .map(|(speed, wheel)| RimSpeed {
-                values: held(speed, span.clone()).map(|speed| speed * wheel.radius_m).collect(),
+                values: filled(speed, span.clone()).map(|speed| speed * wheel.radius_m).collect(),
                 noise: sigma[channels.wheel_speed(0)] * wheel.radius_m,
             })
             .collect();
@@ -256,7 +256,6 @@ impl<const N: usize> AlignedRun<N> {
         let mut held = self.input[row].map(T::lit);
         let open = &self.open[row];
         match self.chain {
-            Chain::Voltage if *open == [true; N] => Input::Current([T::zero(); N]),
             Chain::Voltage if *open == [false; N] => Input::Voltage(held),
             Chain::Voltage => Input::Bridges(std::array::from_fn(|j| (!open[j]).then_some(held[j]))),
             Chain::Current => {

@@ -66,8 +66,7 @@ const BATTERY_NOISE_V: f64 = 0.05;
 
 /// Drives the plant with one input a row, `dt` [s] long, and records what its sensors say.
 ///
-/// The noise is Gaussian, and white unless the camera's is said to be otherwise; the same seed gives the same run. A row
-/// of currents among voltages is one with the bridges open.
+/// The noise is Gaussian, and white unless the camera's is said to be otherwise; the same seed gives the same run.
 pub fn record<const N: usize>(
     plant: &Plant<N, f64>,
     name: &str,
@@ -141,10 +140,8 @@ pub fn record<const N: usize>(
             }
         }
     }
-    let by_current = matches!(input.first(), Some(Input::Current(_)));
     let driven = |wheel: usize, held: &Input<N, f64>| match held {
         Input::Bridges(x) => x[wheel].ok_or(Missing::Open),
-        Input::Current(_) if !by_current => Err(Missing::Open),
         Input::Voltage(x) | Input::Current(x) | Input::Speed(x) => Ok(x[wheel]),
     };
     let opens = |held: &Input<N, f64>| (0..N).all(|wheel| driven(wheel, held) == Err(Missing::Open));

@@ -112,7 +112,7 @@ const TENTHS_OF_A_MILLIVOLT: f64 = 1e4;
 impl<const N: usize> Script<N> {
     /// What drives a plant, row by row; open bridges are motors without current.
     pub fn inputs(&self) -> impl Iterator<Item = Input<N, f64>> + '_ {
-        self.volts.iter().map(|u| u.map_or(Input::Current([0.0; N]), Input::Voltage))
+        self.volts.iter().map(|u| u.map_or(Input::Bridges([None; N]), Input::Voltage))
     }
 
     /// The script as a run that nothing was measured in: `u` and `enable`, blank and zero where the bridges are open.

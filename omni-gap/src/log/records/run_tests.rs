@@ -141,6 +141,9 @@ fn open_bridges_have_no_voltage() {
     // opened within row 9, open up to row 19
     assert!((9..20).all(|row| at(&run.u, 0, row) == Err(Missing::Open)) && at(&run.u, 0, 20).is_ok());
     let open = run.open_bridges::<4>();
+    assert!(run.opens_single_bridges());
+    records.truncate(25);
+    assert!(!run_of(&records).opens_single_bridges(), "all of them opened within row 9");
     assert_eq!((open[5], open[10], open[26]), ([false; 4], [true; 4], [false, false, true, false]));
     assert_eq!((at(&run.u, 2, 26), at(&run.u, 1, 26)), (Err(Missing::Open), Ok(27.0 / 128.0)));
 }
