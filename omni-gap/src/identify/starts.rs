@@ -17,10 +17,16 @@ pub(super) fn starts_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -
     let mut uncertain = false;
     for ((run, windows), starts) in shots.runs.iter().zip(shots.windows).zip(&mut at_rest) {
         for (k, [.., v, vn, w]) in starts.iter_mut().enumerate() {
-            if start_at(run, windows.rows(k).start).prolonged {
-                [*v, *vn, *w] = [0.0; 3];
-                uncertain = true;
+            let start = start_at(run, windows.rows(k).start);
+            if !start.prolonged {
+                continue;
             }
+            [*v, *vn] = [0.0; 2];
+            // what a gyro says is no prolonged line
+            if start.gyro.is_none() {
+                *w = 0.0;
+            }
+            uncertain = true;
         }
     }
     if uncertain { better_starts(model, shots, &measured, at_rest) } else { measured }

@@ -60,7 +60,7 @@ pub(super) fn steps_of_rows<const N: usize>(
 
 /// One wheel's rim speed as measured, row by row.
 pub(super) struct RimSpeed {
-    /// Missing values are those of the row before [m/s]
+    /// Missing values are those of the row before, zero before the first [m/s]
     pub values: Vec<f64>,
     /// One sigma [m/s]
     pub noise: f64,
