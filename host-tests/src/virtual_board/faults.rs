@@ -4,7 +4,7 @@
 
 use model_core::effects::card::{Card, Physics, Scope, Seam, Undone};
 use model_core::effects::seams::{
-    Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, StepOutcome, Supply, Winding,
+    Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, SpeedDrive, StepOutcome, Supply, Winding,
 };
 use model_core::effects::{Effect, EffectSet, EffectState, Needs};
 
@@ -117,6 +117,7 @@ impl EffectSet<f64> for OnBoard {
     }
 
     passed_on! {
+        speed_drive, SpeedDrive;
         supply, Supply;
         bridge, Bridge;
         winding, Winding;

@@ -42,14 +42,15 @@ impl<const N: usize> Drive<N> {
         let mut last: Option<Reading<N, T>> = None;
         let mut signs: Option<Vec<T>> = None;
         for (k, u) in self.voltage.iter().enumerate() {
-            let read = run.step(&Input::Voltage(u.map(T::lit)), 1e-3);
+            let read = run.drive(*u, 1e-3);
             let mut now: Vec<T> = run.state.twist.to_array().into_iter().map(Real::sign).collect();
             // the first steps start the delays
             if k > 20 {
                 // dead time bends at 0.05 A
                 let bends = !run.plant.effects().none_at(Seam::Bridge);
                 let least = if bends { T::lit(0.052) } else { T::zero() };
-                assert!(read.current.iter().all(|i| i.abs() > least), "too near a bend: {:?}", read.current);
+                let driven = run.plant.effects().none_at(Seam::SpeedDrive);
+                assert!(!driven || read.current.iter().all(|i| i.abs() > least), "too near a bend: {:?}", read.current);
                 now.extend(read.wheel_speed.map(Real::sign));
                 // only the bridge and the gear ask for the sign of a current
                 let effects = run.plant.effects();

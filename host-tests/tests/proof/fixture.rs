@@ -4,7 +4,7 @@ use host_tests::excitation::VoltageHold;
 use host_tests::generic_robot::GenericRobot;
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
 use model_core::effects::active::Effects;
-use model_core::effects::card::{Card, Scope};
+use model_core::effects::card::{Card, Scope, Seam};
 use model_core::effects::{Effect, EffectKind, EffectSet};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::geometry::kinematics::{Wheel, Wheels};
@@ -138,9 +138,17 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Run<N, T, E> {
         self.plant.step(&mut self.state, &mut self.memory, input, T::lit(dt))
     }
 
-    /// One step under voltages [V].
+    /// One step under voltages [V]; of a robot whose drives control the speed under as many rad/s.
     pub fn drive(&mut self, u: [f64; N], dt: f64) -> Reading<N, T> {
-        self.step(&Input::Voltage(u.map(T::lit)), dt)
+        if self.plant.effects().none_at(Seam::SpeedDrive) {
+            return self.step(&Input::Voltage(u.map(T::lit)), dt);
+        }
+        self.set_speed(u, dt)
+    }
+
+    /// One step of drives that control the speed [rad/s].
+    pub fn set_speed(&mut self, speed: [f64; N], dt: f64) -> Reading<N, T> {
+        self.step(&Input::SetSpeed(speed.map(T::lit)), dt)
     }
 
     /// Whole holds, `steps` steps a millisecond; `seen` is called after every step.

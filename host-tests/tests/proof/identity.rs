@@ -2,6 +2,7 @@
 
 use host_tests::excitation::voltages;
 use model_core::effects::EffectKind;
+use model_core::effects::card::Seam;
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Plant, Reading, State};
@@ -53,10 +54,24 @@ fn ways_to_be_absent(card: &model_core::effects::card::Card) -> Vec<Vec<f64>> {
     vec![absent(card), shaped]
 }
 
+/// The plain model as [`run`] drives one whose drives control the speed.
+fn run_by_set_speed<const N: usize, T: Bits>(robot: Robot<N, T>) -> Vec<Vec<u64>> {
+    let mut run = Run::from(plain(robot), [0.1, -0.2, 0.3], [0.4, -0.3, 2.0]);
+    let voltages = voltages::<N>(9, 12, 9.0);
+    let each_ms = voltages.iter().flat_map(|hold| std::iter::repeat_n(hold.u, hold.milliseconds as usize));
+    each_ms
+        .map(|u| {
+            let reading = run.set_speed(u, 1e-3);
+            bits(&run.state, &reading)
+        })
+        .collect()
+}
+
 fn every_effect_can_be_absent<const N: usize, T: Bits>(robot: Robot<N, T>) {
-    let without = run(plain(robot));
+    let (by_voltage, by_set_speed) = (run(plain(robot)), run_by_set_speed(robot));
     for effect in &EffectKind::ALL {
         let card = effect.card();
+        let without = if card.seams == [Seam::SpeedDrive] { &by_set_speed } else { &by_voltage };
         for placement in placements(card, N) {
             for params in ways_to_be_absent(card) {
                 let with = run(with_effect(robot, *effect, placement, &params));
@@ -107,12 +122,13 @@ fn absent_effects_leave_imposed_currents_and_speeds_bit_for_bit() {
 
 #[test]
 fn typical_effects_are_seen() {
-    let without = run(plain(four::<f64>()));
+    let (by_voltage, by_set_speed) = (run(plain(four::<f64>())), run_by_set_speed(four::<f64>()));
     for effect in &EffectKind::ALL {
         let card = effect.card();
+        let without = if card.seams == [Seam::SpeedDrive] { &by_set_speed } else { &by_voltage };
         for placement in placements(card, 4) {
             let with = run(with_effect(four::<f64>(), *effect, placement, &typical(card)));
-            assert!(with != without, "{} on {placement:?} changes nothing", card.id);
+            assert!(with != *without, "{} on {placement:?} changes nothing", card.id);
         }
     }
 }

@@ -142,7 +142,7 @@ fn the_steps_error_is_what_the_page_says() {
         (three.join().expect("three wheels"), four)
     });
     let mut page = String::from("# What a step costs\n\n");
-    page += "The largest error over two seconds of random driving at up to 9 V, each model against itself at steps of 10 µs.\n";
+    page += "The largest error over two seconds of random driving at up to 9 V (drives that control the speed: 9 rad/s), each model against itself at steps of 10 µs.\n";
     page += "Every effect has its typical size. Halving the step quarters the error, but where friction depends on the speed\n";
     page += "(gear_efficiency, stribeck), where the bus depends on the currents (supply_sag), and where a wheel with inertia slips:\n";
     page += "there it halves it. Where two directions come to rest in one step (wheel_friction, asymmetric_friction,\n";

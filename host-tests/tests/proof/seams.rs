@@ -3,7 +3,7 @@
 use host_tests::excitation::SeededRng;
 use model_core::effects::card::Seam;
 use model_core::effects::seams::{
-    Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, StepOutcome, Supply, Winding,
+    Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, SpeedDrive, StepOutcome, Supply, Winding,
 };
 use model_core::effects::{Effect, EffectKind, EffectSet, EffectState};
 use model_core::geometry::frames::{BodyTwist, Pose};
@@ -38,6 +38,15 @@ fn at(rng: &mut SeededRng) -> EffectContext<f64> {
         acceleration: [(); 3].map(|()| rng.between(-5.0, 5.0)),
         bus: rng.between(9.0, 13.0),
         nominal_supply: 12.0,
+    }
+}
+
+impl Described for SpeedDrive<f64> {
+    fn random(rng: &mut SeededRng) -> Self {
+        Self::following(rng.between(-40.0, 40.0))
+    }
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.command, self.before, self.mean, self.after]
     }
 }
 
@@ -184,6 +193,7 @@ fn remembered(effect: &Effect<f64>, rng: &mut SeededRng) -> Vec<EffectState<f64>
     for k in 0..40 {
         let done = StepOutcome {
             command: rng.between(-9.0, 9.0),
+            set_speed: rng.between(-40.0, 40.0),
             current: rng.between(-3.0, 3.0),
             wheel_speed: rng.between(-50.0, 50.0),
             heat: rng.between(0.0, 0.1),
@@ -207,6 +217,7 @@ fn hooks_that_a_card_does_not_list_change_nothing_and_those_it_lists_do() {
         let now = |at: &EffectContext<f64>| EffectContext { time: 0.0, ..*at };
         for seam in Seam::ALL {
             let touched = match seam {
+                Seam::SpeedDrive => touches(seed, |at, x| effect.speed_drive(&s, &now(at), x)),
                 Seam::Supply => touches(seed, |at, x| effect.supply(&s, &now(at), x)),
                 Seam::Bridge => touches(seed, |at, x| effect.bridge(&s, &now(at), x)),
                 Seam::Winding => touches(seed, |at, x| effect.winding(&s, &now(at), x)),

@@ -10,6 +10,8 @@ pub const MAX_PARAMS: usize = 8;
 /// Where on the signal path an effect acts, in signal order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Seam {
+    /// Drive that controls wheel speed: speed that is set → speed of the wheel.
+    SpeedDrive,
     /// Battery: bus current → bus voltage.
     Supply,
     /// Bridge: commanded voltage → terminal voltage.
@@ -30,13 +32,22 @@ pub enum Seam {
 
 impl Seam {
     /// All seams in signal order.
-    pub const ALL: [Seam; 8] =
-        [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Shaft, Seam::Gear, Seam::Contact, Seam::Body, Seam::Sense];
+    pub const ALL: [Seam; 9] = [
+        Seam::SpeedDrive,
+        Seam::Supply,
+        Seam::Bridge,
+        Seam::Winding,
+        Seam::Shaft,
+        Seam::Gear,
+        Seam::Contact,
+        Seam::Body,
+        Seam::Sense,
+    ];
 
     /// The stage that a report names for this seam.
     pub const fn stage(self) -> Stage {
         match self {
-            Seam::Supply | Seam::Bridge | Seam::Winding => Stage::Electrical,
+            Seam::SpeedDrive | Seam::Supply | Seam::Bridge | Seam::Winding => Stage::Electrical,
             Seam::Shaft | Seam::Gear => Stage::Drivetrain,
             Seam::Contact => Stage::Contact,
             Seam::Body => Stage::Body,

@@ -4,7 +4,8 @@ use core::fmt::Debug;
 
 use super::card::Card;
 use super::seams::{
-    Body, BodyMotion, Bridge, Contact, EffectContext, Gear, RimMotion, Sense, Shaft, StepOutcome, Supply, Winding,
+    Body, BodyMotion, Bridge, Contact, EffectContext, Gear, RimMotion, Sense, Shaft, SpeedDrive, StepOutcome, Supply,
+    Winding,
 };
 use crate::number::scalar::Real;
 
@@ -82,6 +83,9 @@ pub trait Hooks<T: Real>: Copy + Debug {
     /// What it looks at that the plant keeps up only for effects that need it.
     const NEEDS: Needs = Needs::NOTHING;
 
+    /// Drive that controls wheel speed: speed that is set → speed of the wheel.
+    #[inline]
+    fn speed_drive(&self, s: &Self::State, at: &EffectContext<T>, x: &mut SpeedDrive<T>) {}
     /// Battery: bus current → bus voltage.
     #[inline]
     fn supply(&self, s: &Self::State, at: &EffectContext<T>, x: &mut Supply<T>) {}
@@ -165,6 +169,8 @@ pub trait EffectSet<T: Real>: Copy + Debug {
     fn settles_contact(&self) -> bool;
     /// [`Hooks::NEEDS`]
     fn needs(&self) -> Needs;
+    /// [`Hooks::speed_drive`]
+    fn speed_drive(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut SpeedDrive<T>);
     /// [`Hooks::supply`]
     fn supply(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut Supply<T>);
     /// [`Hooks::bridge`]

@@ -49,6 +49,7 @@ macro_rules! effect_set {
                 match self { $($Set::$Variant(_) => <$Type as $crate::effects::Hooks<$n>>::NEEDS),* }
             }
 
+            $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], speed_drive, SpeedDrive);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], supply, Supply);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], bridge, Bridge);
             $crate::effect_set!(@hook $Set, $State, [$n], [$($Variant, $Type;)*], winding, Winding);

@@ -63,6 +63,27 @@ impl<T: Real> EffectContext<T> {
     }
 }
 
+/// Drive that controls wheel speed: the speed that is set in, the wheel's out. All at the wheel shaft.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SpeedDrive<T> {
+    /// Speed that is set [rad/s]
+    pub command: T,
+    /// Speed of the wheel at the step's beginning, when it is read [rad/s]
+    pub before: T,
+    /// Its mean over the step [rad/s]
+    pub mean: T,
+    /// At the step's end [rad/s]
+    pub after: T,
+}
+
+impl<T: Copy> SpeedDrive<T> {
+    /// One that follows at once.
+    #[inline]
+    pub fn following(command: T) -> Self {
+        Self { command, before: command, mean: command, after: command }
+    }
+}
+
 /// Battery: bus current in, bus voltage out.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Supply<T> {
@@ -294,6 +315,8 @@ pub struct Sense<T> {
 pub struct StepOutcome<T> {
     /// Commanded voltage [V]
     pub command: T,
+    /// Speed that is set, where a drive controls it [rad/s]
+    pub set_speed: T,
     /// Motor current [A]
     pub current: T,
     /// Wheel speed at the wheel shaft [rad/s]

@@ -126,7 +126,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let settled = settled(&effects, contact);
         let shafts = shafts(&effects);
         let needs = effects.iter().fold(Needs::NOTHING, |all, active| all.or(active.effect.needs()));
-        let told = [Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Body, Seam::Sense];
+        let told = [Seam::SpeedDrive, Seam::Supply, Seam::Bridge, Seam::Winding, Seam::Gear, Seam::Body, Seam::Sense];
         let tells = settled.is_none()
             || !told.into_iter().all(|seam| effects.none_at(seam))
             || effects.with_memory().next().is_some();

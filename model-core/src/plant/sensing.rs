@@ -91,6 +91,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 self.enter_wheel(at, state, j, (truth.wheel_speed[j], self.rim_speed(state, j)));
                 let done = StepOutcome {
                     command: source.command(j),
+                    set_speed: source.set_speed(j),
                     current: truth.current[j],
                     wheel_speed: truth.wheel_speed[j],
                     heat: turned.heat.as_ref().map_or_else(|| T::lit(f64::NAN), |heat| heat[j]),

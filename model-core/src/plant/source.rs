@@ -2,7 +2,7 @@
 
 use super::state::State;
 use super::traction::Floor;
-use crate::effects::seams::Contact;
+use crate::effects::seams::{Contact, SpeedDrive};
 use crate::number::scalar::Real;
 
 /// The input of a step in which forces move the body.
@@ -11,7 +11,7 @@ pub(super) enum Source<'a, const N: usize, T> {
     Voltage(&'a [T; N]),
     Bridges(&'a [Option<T>; N]),
     Current(&'a [T; N]),
-    Speed,
+    Speed(&'a [SpeedDrive<T>; N]),
 }
 
 /// What that is to one motor: a mean voltage that is commanded [V], or a current [A].
@@ -29,7 +29,7 @@ impl<const N: usize, T: Real> Source<'_, N, T> {
             Self::Voltage(command) => Some(Applied::Voltage(command[wheel])),
             Self::Bridges(command) => Some(command[wheel].map_or(Applied::Current(T::zero()), Applied::Voltage)),
             Self::Current(current) => Some(Applied::Current(current[wheel])),
-            Self::Speed => None,
+            Self::Speed(_) => None,
         }
     }
 
@@ -39,6 +39,15 @@ impl<const N: usize, T: Real> Source<'_, N, T> {
         match self.applied(wheel) {
             Some(Applied::Voltage(command)) => command,
             Some(Applied::Current(_)) | None => T::zero(),
+        }
+    }
+
+    /// The speed that is set for a wheel [rad/s], zero where no drive controls it.
+    #[inline(always)]
+    pub(super) fn set_speed(&self, wheel: usize) -> T {
+        match self {
+            Self::Speed(drives) => drives[wheel].command,
+            Self::Voltage(_) | Self::Bridges(_) | Self::Current(_) => T::zero(),
         }
     }
 }

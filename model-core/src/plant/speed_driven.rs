@@ -1,4 +1,4 @@
-//! Speed-driven: the wheel speeds are imposed, as by a drive that follows its set speed exactly.
+//! Speed-driven: the wheel speeds are imposed, as measured or as a drive makes them of the speeds that are set.
 //!
 //! A body on rigid wheels has no choice: its twist is the least-squares twist of the rim speeds, along the directions in
 //! which the wheels really drive. Where contacts creep or slip, the floor's force follows from the slip, and the body
@@ -10,34 +10,62 @@ use super::state::{Reading, State};
 use super::step::{Done, Push, Turned};
 use super::traction::Floor;
 use crate::effects::EffectSet;
-use crate::effects::seams::Contact;
+use crate::effects::card::Seam;
+use crate::effects::seams::{Contact, SpeedDrive};
 use crate::geometry::frames::BodyTwist;
 use crate::number::linalg::{accumulate_outer, add_scaled, solve3};
 use crate::number::scalar::Real;
 
 impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
+    /// What the drives of the wheels make of the speeds that are set [rad/s].
+    pub(super) fn speed_drives(
+        &self,
+        state: &State<N, T>,
+        memory: &[E::State],
+        set: &[T; N],
+        dt: T,
+    ) -> [SpeedDrive<T>; N] {
+        let mut at = self.at(state, dt);
+        let mut drives = set.map(SpeedDrive::following);
+        for active in self.effects.at(Seam::SpeedDrive) {
+            for j in (0..N).filter(|j| active.on(*j)) {
+                self.enter_wheel(&mut at, state, j, (state.wheel_speed[j], self.rim_speed(state, j)));
+                active.effect.speed_drive(&memory[active.memory(j)], &at, &mut drives[j]);
+            }
+        }
+        drives
+    }
+
     pub(super) fn step_speed_driven(
         &self,
         state: &mut State<N, T>,
         memory: &mut [E::State],
-        speed: &[T; N],
+        drives: &[SpeedDrive<T>; N],
         dt: T,
     ) -> Reading<N, T> {
         let mut at = self.at(state, dt);
         let contact = self.contacts(&mut at, state, memory);
         let zero = T::zero();
-        let rolling = self.rolling(&contact, core::array::from_fn(|j| contact[j].radius * speed[j]));
+        let rolling = |speed: fn(&SpeedDrive<T>) -> T| {
+            self.rolling(&contact, core::array::from_fn(|j| contact[j].radius * speed(&drives[j])))
+        };
         let yields = contact.iter().all(|c| !c.rolls());
+        let (mean, before) = (rolling(|drive| drive.mean), rolling(|drive| drive.before));
         if !yields {
-            state.twist = rolling;
-            at.twist = rolling;
+            state.twist = mean;
+            at.twist = mean;
         }
-        let mut truth = Reading { current: [zero; N], wheel_speed: *speed, pose: state.pose, gyro: state.twist.w };
+        let mut truth = Reading {
+            current: [zero; N],
+            wheel_speed: drives.map(|drive| drive.before),
+            pose: state.pose,
+            gyro: if yields { state.twist.w } else { before.w },
+        };
         let next = if yields {
             let x = state.twist.to_array();
             let mut push = Push::of([zero; 3], [[zero; 3]; 3]);
-            for (j, (c, speed)) in contact.iter().zip(speed).enumerate() {
-                let (force, slope) = Floor::of(c).force(*speed * c.radius - c.rim_speed(state.twist));
+            for (j, (c, drive)) in contact.iter().zip(drives).enumerate() {
+                let (force, slope) = Floor::of(c).force(drive.mean * c.radius - c.rim_speed(state.twist));
                 // twice the slope: the floor's force is stiff, and this makes the step implicit in it
                 c.add_force(&mut push.body.force, force);
                 c.add_rate(&mut push.body.rate, slope.times(T::Plain::lit(2.0)));
@@ -47,14 +75,14 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             }
             BodyTwist::from_array(self.move_body(&mut at, state, memory, &mut push, dt))
         } else {
-            rolling
+            mean
         };
-        state.wheel_speed = *speed;
-        let (source, turned) = (Source::Speed, Turned::default());
+        state.wheel_speed = drives.map(|drive| drive.after);
+        let (source, turned) = (Source::Speed(drives), Turned::default());
         let done = Done { next, contact: &contact, source: &source, bus: self.robot.supply, turned: &turned };
         self.finish(&mut at, state, memory, &done, &mut truth);
         if !yields {
-            state.twist = next;
+            state.twist = rolling(|drive| drive.after);
         }
         truth
     }

@@ -12,8 +12,10 @@ pub enum Input<const N: usize, T> {
     Bridges([Option<T>; N]),
     /// Current in each motor [A]; all zero is all bridges open
     Current([T; N]),
-    /// Speed of each wheel at its shaft [rad/s], imposed by a drive that follows it exactly
+    /// Speed of each wheel at its shaft [rad/s], as it is: measured, or imposed
     Speed([T; N]),
+    /// Speed at its shaft that each wheel's drive is asked for [rad/s]; without an effect it follows at once
+    SetSpeed([T; N]),
 }
 
 /// Where the robot is in its motion.

@@ -8,7 +8,7 @@ use super::state::{Input, Reading, State};
 use super::wheel::Wheel;
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
-use crate::effects::seams::{Body, Contact, EffectContext};
+use crate::effects::seams::{Body, Contact, EffectContext, SpeedDrive};
 use crate::geometry::frames::BodyTwist;
 use crate::number::linalg::{accumulate_upper, add_scaled, dot};
 use crate::number::scalar::Real;
@@ -54,7 +54,13 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             Input::Voltage(command) => self.step_forces(state, memory, Source::Voltage(command), dt),
             Input::Bridges(command) => self.step_forces(state, memory, Source::Bridges(command), dt),
             Input::Current(current) => self.step_forces(state, memory, Source::Current(current), dt),
-            Input::Speed(speed) => self.step_speed_driven(state, memory, speed, dt),
+            Input::SetSpeed(speed) if !self.effects.none_at(Seam::SpeedDrive) => {
+                let drives = self.speed_drives(state, memory, speed, dt);
+                self.step_speed_driven(state, memory, &drives, dt)
+            }
+            Input::Speed(speed) | Input::SetSpeed(speed) => {
+                self.step_speed_driven(state, memory, &speed.map(SpeedDrive::following), dt)
+            }
         }
     }
 

@@ -262,7 +262,8 @@ impl<const N: usize> AlignedRun<N> {
                 held.iter_mut().zip(open).filter(|(_, open)| **open).for_each(|(i, _)| *i = T::zero());
                 Input::Current(held)
             }
-            Chain::WheelSpeed | Chain::SetSpeed => Input::Speed(held),
+            Chain::WheelSpeed => Input::Speed(held),
+            Chain::SetSpeed => Input::SetSpeed(held),
         }
     }
 

@@ -142,7 +142,7 @@ pub fn record<const N: usize>(
     }
     let driven = |wheel: usize, held: &Input<N, f64>| match held {
         Input::Bridges(x) => x[wheel].ok_or(Missing::Open),
-        Input::Voltage(x) | Input::Current(x) | Input::Speed(x) => Ok(x[wheel]),
+        Input::Voltage(x) | Input::Current(x) | Input::Speed(x) | Input::SetSpeed(x) => Ok(x[wheel]),
     };
     let opens = |held: &Input<N, f64>| (0..N).all(|wheel| driven(wheel, held) == Err(Missing::Open));
     let column = |wheel: usize| input.iter().map(|held| driven(wheel, held)).collect();
@@ -164,7 +164,7 @@ pub fn record<const N: usize>(
         run.enable = Some(Channel::from_values(input.iter().map(|held| if opens(held) { 0.0 } else { 1.0 })));
     }
     match input.first() {
-        Some(Input::Speed(_)) => (run.wset, run.i) = (driving, None),
+        Some(Input::Speed(_) | Input::SetSpeed(_)) => (run.wset, run.i) = (driving, None),
         Some(Input::Current(_)) => run.i = driving,
         _ => run.u = driving,
     }
