@@ -38,6 +38,8 @@ pub struct Scenario {
     pub seed: u64,
     /// Whether yaw rate and battery voltage are logged too.
     pub beside: bool,
+    /// Whether the drives control wheel speed, and are told those at which the motors would idle at the runs' voltages.
+    pub by_set_speed: bool,
 }
 
 impl Default for Scenario {
@@ -52,6 +54,7 @@ impl Default for Scenario {
             voltage: 8.0,
             seed: 1,
             beside: false,
+            by_set_speed: false,
         }
     }
 }
@@ -99,7 +102,11 @@ fn perform<const N: usize>(file: &RobotFile, plan: &Scenario) -> Vec<Run> {
             let wish = Excitation { duration: plan.duration, rate: plan.rate, voltage: plan.voltage };
             let script = excite(&model.robot().wheels, &wish, seed);
             let t: Vec<f64> = (0..script.len()).map(|row| row as f64 / plan.rate).collect();
-            let input: Vec<Input<N, f64>> = script.into_iter().map(Input::Voltage).collect();
+            let command = |u: [f64; N]| match plan.by_set_speed {
+                true => Input::SetSpeed(u.map(|u| u / file.volts_per_wheel_speed())),
+                false => Input::Voltage(u),
+            };
+            let input: Vec<Input<N, f64>> = script.into_iter().map(command).collect();
             let mut run = record(&plant, &format!("run{k:02}"), &t, &input, &how, seed ^ 0x5eed);
             run.path = PathBuf::from(format!("runs/run{k:02}.csv"));
             run

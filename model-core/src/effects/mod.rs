@@ -12,6 +12,8 @@ pub mod card;
 
 pub mod seams;
 
+mod changes;
+
 mod effect;
 pub use effect::{Catalogued, EffectSet, Hooks, Needs, Numbers, State};
 
@@ -22,9 +24,11 @@ pub use crate::effect_set;
 /// Effects between the commanded voltage and the shaft torque.
 pub mod electrical {
     pub mod actuation_delay;
+    pub mod command_deadband;
     pub mod dead_time;
     pub mod drive_gain;
     pub mod motor_mismatch;
+    pub mod speed_loop;
     pub mod supply_sag;
 }
 
@@ -73,6 +77,8 @@ mod list {
 
     // In signal order, which is that in which effects act at a seam that they share
     catalogue! {
+        electrical::command_deadband::CommandDeadband,
+        electrical::speed_loop::SpeedLoop,
         electrical::actuation_delay::ActuationDelay,
         electrical::supply_sag::SupplySag,
         electrical::drive_gain::DriveGain,

@@ -26,8 +26,9 @@
 //! estimated, a part of a PWM period to 10 ms over radio.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use crate::effects::changes::Changes;
 use crate::effects::seams::{Bridge, EffectContext, StepOutcome};
-use crate::effects::{Catalogued, Hooks, Numbers, State};
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
 /// Changes of command that are remembered.
@@ -87,44 +88,6 @@ pub fn outstanding<T: Real>(delay: T, at: &EffectContext<T>, command: T, past: i
     (if at.dt > T::zero() { mean } else { sampled }, sampled)
 }
 
-/// The last changes of command.
-#[derive(Clone, Copy, Debug)]
-pub struct Changes<T> {
-    /// (time, command) of each; the oldest stands at `next`
-    ring: [[T; 2]; SLOTS],
-    /// Where the next one goes
-    next: u8,
-}
-
-impl<T: Real> Changes<T> {
-    /// (time, command), newest first.
-    fn newest_first(&self) -> impl Iterator<Item = [T; 2]> {
-        let (after, before) = self.ring.split_at(usize::from(self.next).min(SLOTS));
-        after.iter().rev().chain(before.iter().rev()).copied()
-    }
-
-    fn remember(&mut self, time: T, command: T) {
-        let Some(slot) = self.ring.get_mut(usize::from(self.next)) else { return };
-        *slot = [time, command];
-        self.next += 1;
-        if usize::from(self.next) >= SLOTS {
-            self.next = 0;
-        }
-    }
-}
-
-impl<T: Real> Numbers<T> for Changes<T> {
-    fn for_each_mut(&mut self, visit: impl FnMut(&mut T)) {
-        self.ring.as_flattened_mut().iter_mut().for_each(visit);
-    }
-}
-
-impl<T: Real> State<T> for Changes<T> {
-    fn start() -> Self {
-        Self { ring: [[T::zero(); 2]; SLOTS], next: 0 }
-    }
-}
-
 /// Delay of the command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActuationDelay<T> {
@@ -140,31 +103,29 @@ impl<T: Copy> Catalogued<T> for ActuationDelay<T> {
 }
 
 impl<T: Real> Hooks<T> for ActuationDelay<T> {
-    type State = Changes<T>;
+    type State = Changes<T, SLOTS>;
 
-    fn bridge(&self, s: &Changes<T>, at: &EffectContext<T>, x: &mut Bridge<T>) {
+    fn bridge(&self, s: &Changes<T, SLOTS>, at: &EffectContext<T>, x: &mut Bridge<T>) {
         let (mean, sampled) = outstanding(self.delay.max(T::zero()), at, x.command, s.newest_first());
         let gain = x.bus / at.nominal_supply;
         x.voltage -= mean * gain;
         x.sampled -= sampled * gain;
     }
 
-    fn advance(&self, s: &mut Changes<T>, at: &EffectContext<T>, done: &StepOutcome<T>) {
-        let last = s.newest_first().next().map_or(T::zero(), |[_, command]| command);
-        if done.command != last {
-            s.remember(at.time, done.command);
-        }
+    fn advance(&self, s: &mut Changes<T, SLOTS>, at: &EffectContext<T>, done: &StepOutcome<T>) {
+        s.remember(at.time, done.command);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effects::State;
 
     const NOMINAL: f64 = 12.0;
 
     /// The drive as the plant describes it, after the hook.
-    fn driven(s: &Changes<f64>, delay: f64, at: &EffectContext<f64>, command: f64, bus: f64) -> Bridge<f64> {
+    fn driven(s: &Changes<f64, SLOTS>, delay: f64, at: &EffectContext<f64>, command: f64, bus: f64) -> Bridge<f64> {
         let voltage = command * (bus / NOMINAL);
         let mut x = Bridge { command, bus, current: 0.3, voltage, sampled: voltage, ..Bridge::default() };
         ActuationDelay { delay }.bridge(s, at, &mut x);
@@ -175,7 +136,7 @@ mod tests {
         EffectContext { time, dt, nominal_supply: NOMINAL, ..EffectContext::default() }
     }
 
-    fn advance(s: &mut Changes<f64>, at: &EffectContext<f64>, command: f64) {
+    fn advance(s: &mut Changes<f64, SLOTS>, at: &EffectContext<f64>, command: f64) {
         ActuationDelay { delay: 0.0 }.advance(s, at, &StepOutcome { command, ..StepOutcome::default() });
     }
 
@@ -236,7 +197,7 @@ mod tests {
 
     #[test]
     fn a_delay_of_two_steps_is_sampled_two_steps_later_whatever_the_rounding() {
-        let mut s = Changes::<f32>::start();
+        let mut s = Changes::<f32, SLOTS>::start();
         let (mut time, mut before) = (0.0_f32, [0.0_f32; 2]);
         for k in 0_u8..=200 {
             let command = f32::from(k % 7);

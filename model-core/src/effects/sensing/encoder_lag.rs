@@ -29,7 +29,7 @@
 //! Source: Low-pass of first order behind a triangle hold: Franklin, Powell, Workman, Digital Control of Dynamic
 //! Systems, 1998, ch. 6; sizes: estimated, windows of 2 to 40 ms.
 
-use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
 use crate::effects::{Catalogued, Hooks, Numbers, State};
 use crate::number::decay;
@@ -55,7 +55,10 @@ pub const CARD: Card = Card {
     }],
     needs_current: false,
     signature: "wheel speed behind by T times its acceleration, and right at constant speed; current and pose right",
-    look_alikes: &[],
+    look_alikes: &[LookAlike {
+        with: "speed_loop",
+        settled_by: "film the wheel, or log a pose: a drive that answers late moves the robot late, an encoder that reads late does not",
+    }],
     code: 25,
     undone: Undone::No("a speed that is smoothed is known late, and the controller does not guess what it is now"),
     physics: Physics::PASSIVE,

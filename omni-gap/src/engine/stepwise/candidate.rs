@@ -1,12 +1,12 @@
 //! What can be the cause: every effect, on every wheel where it can sit on one, and every nominal parameter.
 
 use model_core::effects::EffectKind;
-use model_core::effects::card::{Card, Param, Role, Scope};
+use model_core::effects::card::{Card, Param, Role, Scope, Seam};
 use model_core::plant::robot::Nominal;
 
 use crate::engine::knobs::ScreenKnobs;
 use crate::identify::{FreedPrior, Prior};
-use crate::simulate::EffectInstance;
+use crate::simulate::{Chain, EffectInstance};
 
 /// A cause that a report can name.
 #[derive(Clone, Copy, Debug)]
@@ -82,11 +82,15 @@ pub fn freed_priors() -> Vec<FreedPrior> {
     all
 }
 
-/// Every effect that is not in the nominal model already.
-pub fn candidates<const N: usize>(present: &[EffectInstance], knobs: &ScreenKnobs) -> Vec<Candidate> {
+/// True if an effect has a say in a model that is driven so: the drive's own speed loop, where speeds are set.
+fn has_a_say(card: &Card, chain: Chain) -> bool {
+    chain == Chain::SetSpeed || card.seams != [Seam::SpeedDrive]
+}
+
+/// Every effect that has a say in a model that is driven so, and is not in it already.
+pub fn candidates<const N: usize>(present: &[EffectInstance], chain: Chain, knobs: &ScreenKnobs) -> Vec<Candidate> {
     let mut all = Vec::new();
-    for effect in &EffectKind::ALL {
-        let card = effect.card();
+    for card in EffectKind::ALL.iter().map(|effect| effect.card()).filter(|card| has_a_say(card, chain)) {
         let anywhere = card.scope != Scope::OneWheel;
         let places = anywhere
             .then_some(None)

@@ -64,7 +64,7 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
     let shortened = data.to_fit().first(knobs.runs).shortened(knobs.rows);
     let few = shortened.shots();
     let linear = base.fit.linearised(few);
-    let all = candidates::<N>(&base.fit.model.effects, knobs);
+    let all = candidates::<N>(&base.fit.model.effects, data.fit[0].chain, knobs);
     let mut screened = screen(&base.fit, &linear, prior, few, all, knobs);
     screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     drop(linear);
