@@ -40,7 +40,7 @@ pub const CARD: Card = Card {
     needs_current: false,
     signature: "torque short in step with the wheels' speed; current itself right",
     look_alikes: &[],
-    code: 255,
+    code: 0,
     undone: Undone::No("an invented effect is there to be tested"),
     physics: Physics::PASSIVE,
 };

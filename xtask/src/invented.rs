@@ -14,6 +14,12 @@ const LIST: &str = "model-core/src/effects/mod.rs";
 /// The new effect's file.
 const FILE: &str = "model-core/src/effects/drivetrain/shaft_drag.rs";
 
+/// What stands in it for its number.
+const UNNUMBERED: &str = "code: 0,";
+
+/// The numbers that were given out, one a line.
+const NUMBERS: &str = "host-tests/golden/effect_codes.txt";
+
 /// The lines that the list gets: (after this one, this one).
 const LINES: [(&str, &str); 2] = [
     ("    pub mod rotor_inertia;\n", "    pub mod shaft_drag;\n"),
@@ -48,8 +54,9 @@ fn copied(copy: &Path) -> Result<(), String> {
 
 fn tried(copy: &Path) -> Result<(), String> {
     let write = |path: PathBuf, text: &str| fs::write(&path, text).map_err(|why| format!("{}: {why}", path.display()));
-    write(copy.join(FILE), include_str!("../invented/shaft_drag.rs"))?;
-    let list = fs::read_to_string(copy.join(LIST)).map_err(|why| format!("{LIST}: {why}"))?;
+    let read = |path: &str| fs::read_to_string(copy.join(path)).map_err(|why| format!("{path}: {why}"));
+    write(copy.join(FILE), &with_number(read(NUMBERS)?.lines().count() + 1))?;
+    let list = read(LIST)?;
     write(copy.join(LIST), &with_lines(&list)?)?;
     git(copy, &["add", "--intent-to-add", FILE])?;
     let diff = || Line::of("git -C").word(copy).word("diff").word("--stat").answer().unwrap_or_default();
@@ -65,6 +72,11 @@ fn tried(copy: &Path) -> Result<(), String> {
     }
     println!("written by hand:\n{by_hand}\nwith the pages that are made from the cards:\n{}", diff());
     Ok(())
+}
+
+/// The new effect's file, with the next number that no effect has.
+fn with_number(number: usize) -> String {
+    include_str!("../invented/shaft_drag.rs").replace(UNNUMBERED, &format!("code: {number},"))
 }
 
 /// The list with the new effect's lines.
@@ -83,6 +95,12 @@ fn git(copy: &Path, words: &[&str]) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_new_effect_gets_its_number() {
+        let text = with_number(29);
+        assert!(text.contains("    code: 29,\n") && !text.contains(UNNUMBERED));
+    }
 
     #[test]
     fn the_list_has_the_places_where_the_lines_go() {

@@ -3,7 +3,8 @@
 use host_tests::excitation::{SeededRng, voltages};
 use host_tests::paper::FOUR_WHEELS;
 use host_tests::reference::Reference;
-use model_core::effects::active::Effects;
+use model_core::effects::active::{Effects, MAX_EFFECTS};
+use model_core::effects::card::Seam;
 use model_core::effects::{EffectKind, EffectSet, Numbers};
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
@@ -11,17 +12,25 @@ use model_core::plant::{Input, Plant, Reading};
 
 use crate::fixture::{Run, four, gap, plain, three, typical, usual_placement, with_effect};
 
-/// Every effect alone at its typical size, none, and all together.
+/// Every effect alone at its typical size, none, and as many together as a model has room for: those that voltages show, and
+/// those of drives that control the speed.
 fn models<const N: usize, T: Real>(robot: Robot<N, T>) -> Vec<(String, Plant<N, T>)> {
     let mut all = vec![("nothing".to_string(), plain(robot))];
-    let mut together = Effects::default();
     for effect in &EffectKind::ALL {
         let card = effect.card();
         all.push((card.id.to_string(), with_effect(robot, *effect, usual_placement(card), &typical(card))));
-        let params: Vec<T> = typical(card).into_iter().map(T::lit).collect();
-        together.add(*effect, usual_placement(card), &params).expect("room for one of each");
     }
-    all.push(("all together".to_string(), Plant::new(robot, together)));
+    let of_drives = |effect: &EffectKind| effect.card().seams == [Seam::SpeedDrive];
+    let (by_speed, by_voltage): (Vec<EffectKind>, Vec<_>) = EffectKind::ALL.into_iter().partition(of_drives);
+    for group in by_speed.chunks(MAX_EFFECTS).chain(by_voltage.chunks(MAX_EFFECTS)) {
+        let mut together = Effects::default();
+        for effect in group {
+            let card = effect.card();
+            let params: Vec<T> = typical(card).into_iter().map(T::lit).collect();
+            together.add(*effect, usual_placement(card), &params).expect("room for as many");
+        }
+        all.push((format!("{} and {} more together", group[0].id(), group.len() - 1), Plant::new(robot, together)));
+    }
     all
 }
 
