@@ -36,6 +36,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         drives
     }
 
+    /// Takes one step of `dt` [s] with the wheels turning as their drives make them, and returns the reading at its beginning.
     pub(super) fn step_speed_driven(
         &self,
         state: &mut State<N, T>,
