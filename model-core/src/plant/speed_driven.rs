@@ -51,7 +51,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             self.rolling(&contact, core::array::from_fn(|j| contact[j].radius * speed(&drives[j])))
         };
         let yields = contact.iter().all(|c| !c.rolls());
-        let (mean, before) = (rolling(|drive| drive.mean), rolling(|drive| drive.before));
+        let mean = rolling(|drive| drive.mean);
+        // without an effect a drive follows at once: the wheels turn alike throughout the step
+        let at_instant = |speed| if self.effects.none_at(Seam::SpeedDrive) { mean } else { rolling(speed) };
         if !yields {
             state.twist = mean;
             at.twist = mean;
@@ -60,7 +62,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             current: [zero; N],
             wheel_speed: drives.map(|drive| drive.before),
             pose: state.pose,
-            gyro: if yields { state.twist.w } else { before.w },
+            gyro: if yields { state.twist.w } else { at_instant(|drive| drive.before).w },
         };
         let next = if yields {
             let x = state.twist.to_array();
@@ -83,7 +85,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let done = Done { next, contact: &contact, source: &source, bus: self.robot.supply, turned: &turned };
         self.finish(&mut at, state, memory, &done, &mut truth);
         if !yields {
-            state.twist = rolling(|drive| drive.after);
+            state.twist = at_instant(|drive| drive.after);
         }
         truth
     }
