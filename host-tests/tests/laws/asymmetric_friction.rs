@@ -4,9 +4,10 @@
 
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, PaperRobot, THREE_HEADINGS_DEG, THREE_WHEELS};
 use model_core::plant::Input;
-use model_core::plant::robot::{Friction, Robot};
+use model_core::plant::robot::Robot;
 
 use crate::fixture::{Run, effect, four, gap, three, with_effect};
+use crate::newton::frictionless;
 use crate::one_wheel::OneWheel;
 
 const DT: f64 = 1e-3;
@@ -19,8 +20,7 @@ const ROUNDING: f64 = 1e-11;
 const SIZES: [f64; 2] = [0.02, -0.02];
 
 fn run<const N: usize>(robot: Robot<N, f64>, wheel: usize, torque: f64, twist: [f64; 3]) -> Run<N, f64> {
-    let frictionless = Robot { friction: Friction::default(), ..robot };
-    Run::from(with_effect(frictionless, effect("asymmetric_friction"), Some(wheel), &[torque]), [0.0; 3], twist)
+    Run::from(with_effect(frictionless(robot), effect("asymmetric_friction"), Some(wheel), &[torque]), [0.0; 3], twist)
 }
 
 /// Current of one motor alone that makes a torque at its wheel [A].

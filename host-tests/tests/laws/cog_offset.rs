@@ -4,10 +4,11 @@
 use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
 use model_core::effects::seams::STANDARD_GRAVITY;
-use model_core::plant::robot::{Friction, Robot};
+use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
 
 use crate::fixture::{Run, effect, four, gap, larger, three};
+use crate::newton::{frictionless, runge_kutta};
 
 /// Five times what is typical: M·|c|² is a seventh of J [m]
 const OFFSET: [f64; 2] = [0.03, -0.02];
@@ -17,7 +18,7 @@ fn run<const N: usize>(robot: Robot<N, f64>, others: &[(EffectKind, &[f64])]) ->
     let mut effects = Effects::default();
     effects.add(effect("cog_offset"), None, &OFFSET).expect("room");
     others.iter().for_each(|(kind, params)| effects.add(*kind, None, params).expect("room"));
-    let robot = Robot { friction: Friction::default(), ..robot };
+    let robot = frictionless(robot);
     Run::from(Plant::new(robot, effects), [0.4, -0.1, 0.3], TWIST)
 }
 
@@ -113,23 +114,13 @@ fn rate<const N: usize>(robot: &Robot<N, f64>, [_, _, theta, vx, vy, w]: [f64; 6
     [vx, vy, w, force[0] / robot.mass, force[1] / robot.mass, moment / robot.inertia]
 }
 
-/// The classical Runge–Kutta step.
-fn runge_kutta<const N: usize>(robot: &Robot<N, f64>, at: [f64; 6], u: [f64; N], dt: f64) -> [f64; 6] {
-    let moved = |k: [f64; 6], h: f64| std::array::from_fn(|n| at[n] + h * k[n]);
-    let a = rate(robot, at, u);
-    let b = rate(robot, moved(a, 0.5 * dt), u);
-    let c = rate(robot, moved(b, 0.5 * dt), u);
-    let d = rate(robot, moved(c, dt), u);
-    std::array::from_fn(|n| at[n] + dt / 6.0 * (a[n] + 2.0 * b[n] + 2.0 * c[n] + d[n]))
-}
-
 fn driven<const N: usize>(robot: Robot<N, f64>, u: [f64; N]) {
     second_order("driven", 1e-3, |dt| {
         let mut run = run(robot, &[(effect("coriolis"), &[1.0])]);
         let (mut wanted, mut worst) = (seen(&run), 0.0);
         for _ in 0..(1.0 / dt).round() as usize {
             run.drive(u, dt);
-            wanted = runge_kutta(&robot, wanted, u, dt);
+            wanted = runge_kutta(|at| rate(&robot, at, u), wanted, dt);
             worst = larger(worst, gap(seen(&run), wanted));
         }
         worst

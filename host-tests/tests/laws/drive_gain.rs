@@ -6,9 +6,10 @@ use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THRE
 use host_tests::reference::Reference;
 use model_core::effects::active::Effects;
 use model_core::plant::Plant;
-use model_core::plant::robot::{Friction, Robot};
+use model_core::plant::robot::Robot;
 
 use crate::fixture::{Run, core_robot, effect, four, gap, three, with_effect};
+use crate::newton::frictionless;
 
 const ODD: usize = 1;
 
@@ -48,7 +49,7 @@ fn a_wrong_gain_is_a_motor_with_less_resistance_and_back_emf_behind_a_true_bridg
 
 /// A robot without friction, with an offset on one bridge, after all has settled under voltages [V]: (speeds, currents).
 fn settled<const N: usize>(mut robot: Robot<N, f64>, params: [f64; 2], u: [f64; N]) -> ([f64; N], [f64; N]) {
-    robot.friction = Friction::default();
+    robot = frictionless(robot);
     let mut run = Run::new(with_effect(robot, effect("drive_gain"), Some(ODD), &params));
     // 20 s are some 40 of the slowest time constant, below 0.5 s
     run.play(&[VoltageHold { u, milliseconds: 20_000 }], 1, |_, _| {});

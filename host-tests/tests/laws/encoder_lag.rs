@@ -3,10 +3,11 @@
 use host_tests::excitation::voltages;
 use host_tests::paper::{FOUR_WHEELS, PaperRobot, THREE_WHEELS};
 use model_core::effects::active::Effects;
-use model_core::plant::robot::{Friction, Robot};
+use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
 
 use crate::fixture::{Run, effect, four, plain, three, typical, with_effect};
+use crate::newton::frictionless;
 
 const LAG: f64 = 0.008;
 
@@ -36,7 +37,7 @@ fn on_a_ramp_of_imposed_speeds_the_reading_is_the_closed_form_at_steps_of_any_le
 /// A robot without friction, from rest, all motors at the same voltage: it turns on the spot, and the wheels follow
 /// w = w∞·(1 − e^(−t/τ)), which the low-pass makes w∞·(1 − (τ·e^(−t/τ) − T·e^(−t/T))/(τ − T)).
 fn follows_a_start<const N: usize>(mut robot: Robot<N, f64>, p: &PaperRobot, dt: f64) -> f64 {
-    robot.friction = Friction::default();
+    robot = frictionless(robot);
     let u = 6.0;
     let settled = u / (p.l * p.kv);
     // J·dω/dt = N·d/r·l·Kt·i

@@ -18,6 +18,7 @@ mod encoder_lag;
 mod encoder_scale;
 mod gyro_bias;
 mod marker_offset;
+mod newton;
 mod one_wheel;
 mod roller_friction;
 mod speed_loop;

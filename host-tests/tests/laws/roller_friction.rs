@@ -3,17 +3,14 @@
 use host_tests::excitation::voltages;
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, PaperRobot, THREE_HEADINGS_DEG, THREE_WHEELS};
 use model_core::plant::Input;
-use model_core::plant::robot::{Friction, Robot};
+use model_core::plant::robot::Robot;
 
 use crate::fixture::{Run, effect, four, gap, plain, three, with_effect};
+use crate::newton::frictionless;
 
 /// Friction of each wheel's rollers [N] and [N·s/m]
 const DRY: f64 = 0.3;
 const VISCOUS: f64 = 0.2;
-
-fn frictionless<const N: usize>(robot: Robot<N, f64>) -> Robot<N, f64> {
-    Robot { friction: Friction::default(), ..robot }
-}
 
 /// The axle's direction of a wheel that drives along this angle [°]: a right angle away; its sense does not matter.
 fn axle(heading: f64) -> [f64; 2] {

@@ -2,9 +2,10 @@
 
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, PaperRobot, THREE_HEADINGS_DEG, THREE_WHEELS};
 use model_core::plant::Input;
-use model_core::plant::robot::{Friction, Robot};
+use model_core::plant::robot::Robot;
 
 use crate::fixture::{Run, effect, four, gap, three, with_effect};
+use crate::newton::{frictionless, runge_kutta};
 use crate::one_wheel::OneWheel;
 
 const TORQUE: f64 = 0.02;
@@ -12,10 +13,6 @@ const DAMPING: f64 = 3e-4;
 
 fn with_friction<const N: usize>(robot: Robot<N, f64>, wheel: usize, twist: [f64; 3]) -> Run<N, f64> {
     Run::from(with_effect(robot, effect("wheel_friction"), Some(wheel), &[TORQUE, DAMPING]), [0.0; 3], twist)
-}
-
-fn frictionless<const N: usize>(robot: Robot<N, f64>) -> Robot<N, f64> {
-    Robot { friction: Friction::default(), ..robot }
 }
 
 /// Without currents, v_j of the wheel falls as d|v_j|/dt = −g·(τ_b/r + b·|v_j|/r²), g = 1/M + d²/J, and then stays at zero,
@@ -92,14 +89,7 @@ fn is_driven<const N: usize>(robot: Robot<N, f64>, p: &PaperRobot, headings: [f6
         let (mut x, dt) = (start, 1e-4);
         for _ in 0..5000 {
             run.drive(u, dt);
-            // the classical Runge–Kutta rule
-            let along = |x: [f64; 3], k: [f64; 3], part: f64| std::array::from_fn(|a| x[a] + part * dt * k[a]);
-            let at = |x| rate(p, headings, tight, u, x);
-            let k1 = at(x);
-            let k2 = at(along(x, k1, 0.5));
-            let k3 = at(along(x, k2, 0.5));
-            let k4 = at(along(x, k3, 1.0));
-            x = std::array::from_fn(|a| x[a] + dt / 6.0 * (k1[a] + 2.0 * k2[a] + 2.0 * k3[a] + k4[a]));
+            x = runge_kutta(|x| rate(p, headings, tight, u, x), x, dt);
             // midpoint rule: (λ·Δt)²/12 with λ of 10/s, 1e-7 of speeds of some rad/s
             assert!(gap(run.twist(), x) < 1e-6, "wheel {tight}: {:?}, not {x:?}", run.twist());
         }

@@ -2,11 +2,12 @@
 
 use host_tests::generic_robot::Wheel;
 use model_core::effects::active::Effects;
-use model_core::plant::robot::{Friction, Robot};
+use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
 
 use crate::built_so::Built;
 use crate::fixture::{Run, effect, four, three, with_effect};
+use crate::newton::frictionless;
 
 #[test]
 fn a_misaligned_wheel_is_the_robot_built_with_that_angle() {
@@ -22,7 +23,7 @@ fn a_misaligned_wheel_is_the_robot_built_with_that_angle() {
 /// wheel's direction, both as they lie in the world.
 fn reads_its_contact_point<const N: usize>(robot: Robot<N, f64>) {
     const ANGLE: f64 = 0.4;
-    let robot = Robot { friction: Friction::default(), ..robot };
+    let robot = frictionless(robot);
     for (j, wheel) in robot.wheels.wheels().iter().enumerate() {
         let plant = with_effect(robot, effect("wheel_misalignment"), Some(j), &[ANGLE]);
         let mut run = Run::from(plant, [0.3, -0.2, 0.7], [0.5, -0.3, 4.0]);
@@ -58,7 +59,7 @@ fn its_encoder_reads_how_its_contact_point_moves_along_it() {
 fn all_wheels_turned<const N: usize>(robot: Robot<N, f64>) {
     const ANGLE: f64 = 0.3;
     const CURRENT: f64 = 0.2;
-    let robot = Robot { friction: Friction::default(), ..robot };
+    let robot = frictionless(robot);
     let mut effects = Effects::default();
     (0..N).for_each(|j| effects.add(effect("wheel_misalignment"), Some(j), &[ANGLE]).expect("room"));
     let mut run = Run::new(Plant::new(robot, effects));

@@ -2,10 +2,11 @@
 
 use host_tests::generic_robot::{Drivetrain, Wheel};
 use model_core::plant::Input;
-use model_core::plant::robot::{Friction, Robot};
+use model_core::plant::robot::Robot;
 
 use crate::built_so::Built;
 use crate::fixture::{Run, effect, four, three, with_effect};
+use crate::newton::frictionless;
 
 #[test]
 fn a_wheel_of_another_radius_is_the_robot_built_with_that_radius() {
@@ -20,7 +21,7 @@ fn a_wheel_of_another_radius_is_the_robot_built_with_that_radius() {
 
 /// What the motors give, by the currents and wheel speeds that are read, is what the body gains.
 fn energy_is_kept<const N: usize>(robot: Robot<N, f64>) {
-    let robot = Robot { friction: Friction::default(), ..robot };
+    let robot = frictionless(robot);
     for wheel in 0..N {
         let mut run =
             Run::from(with_effect(robot, effect("wheel_radius_error"), Some(wheel), &[0.3]), [0.0; 3], [0.2; 3]);
