@@ -7,7 +7,7 @@ use host_tests::catalogue::outcome::diagnose_case;
 use host_tests::catalogue::page::by_engine;
 use host_tests::catalogue::sessions::{short_cases, truth};
 use model_core::effects::EffectKind;
-use model_core::effects::card::{Scope, Seam};
+use model_core::effects::card::Scope;
 use omni_gap::engine::findings::{ConsideredCause, EngineRecord, EstimatedBy};
 use omni_gap::engine::{Engine, Evidence, Findings, Knobs, Stepwise};
 use omni_gap::report::Kind;
@@ -64,7 +64,7 @@ fn every_cause_is_considered_at_every_place_where_it_can_sit() {
                 places.extend((0..3).map(Some));
             }
             // where no speed is set there is no loop that could miss it
-            if card.seams == [Seam::SpeedDrive] && !speeds_are_set {
+            if card.of_speed_drive() && !speeds_are_set {
                 places.clear();
             }
             let own = first.iter().filter(|c| c.id == card.id);

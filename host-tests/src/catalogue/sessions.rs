@@ -3,7 +3,7 @@
 use std::fmt;
 
 use model_core::effects::EffectKind;
-use model_core::effects::card::{Card, Scope, Seam};
+use model_core::effects::card::{Card, Scope};
 use omni_gap::error::Result;
 use omni_gap::known_effects;
 use omni_gap::log::Session;
@@ -161,7 +161,7 @@ impl BenchmarkCase {
             HiddenCause::Effect(effect) => {
                 // what only a gyro shows needs one
                 plan.beside = effect.id == EffectKind::GyroBias.id();
-                plan.by_set_speed = effect.card().seams == [Seam::SpeedDrive];
+                plan.by_set_speed = effect.card().of_speed_drive();
                 plan.hidden.push(effect.clone());
             }
             HiddenCause::Nothing => {}

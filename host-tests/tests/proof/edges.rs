@@ -4,7 +4,6 @@ use host_tests::excitation::{SeededRng, voltages};
 use host_tests::paper::FOUR_WHEELS;
 use host_tests::reference::Reference;
 use model_core::effects::active::{Effects, MAX_EFFECTS};
-use model_core::effects::card::Seam;
 use model_core::effects::{EffectKind, EffectSet, Numbers};
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
@@ -20,7 +19,7 @@ fn models<const N: usize, T: Real>(robot: Robot<N, T>) -> Vec<(String, Plant<N, 
         let card = effect.card();
         all.push((card.id.to_string(), with_effect(robot, *effect, usual_placement(card), &typical(card))));
     }
-    let of_drives = |effect: &EffectKind| effect.card().seams == [Seam::SpeedDrive];
+    let of_drives = |effect: &EffectKind| effect.card().of_speed_drive();
     let (by_speed, by_voltage): (Vec<EffectKind>, Vec<_>) = EffectKind::ALL.into_iter().partition(of_drives);
     for group in by_speed.chunks(MAX_EFFECTS).chain(by_voltage.chunks(MAX_EFFECTS)) {
         let mut together = Effects::default();

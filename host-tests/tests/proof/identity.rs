@@ -2,7 +2,6 @@
 
 use host_tests::excitation::voltages;
 use model_core::effects::EffectKind;
-use model_core::effects::card::Seam;
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Plant, Reading, State};
@@ -71,7 +70,7 @@ fn every_effect_can_be_absent<const N: usize, T: Bits>(robot: Robot<N, T>) {
     let (by_voltage, by_set_speed) = (run(plain(robot)), run_by_set_speed(robot));
     for effect in &EffectKind::ALL {
         let card = effect.card();
-        let without = if card.seams == [Seam::SpeedDrive] { &by_set_speed } else { &by_voltage };
+        let without = if card.of_speed_drive() { &by_set_speed } else { &by_voltage };
         for placement in placements(card, N) {
             for params in ways_to_be_absent(card) {
                 let with = run(with_effect(robot, *effect, placement, &params));
@@ -125,7 +124,7 @@ fn typical_effects_are_seen() {
     let (by_voltage, by_set_speed) = (run(plain(four::<f64>())), run_by_set_speed(four::<f64>()));
     for effect in &EffectKind::ALL {
         let card = effect.card();
-        let without = if card.seams == [Seam::SpeedDrive] { &by_set_speed } else { &by_voltage };
+        let without = if card.of_speed_drive() { &by_set_speed } else { &by_voltage };
         for placement in placements(card, 4) {
             let with = run(with_effect(four::<f64>(), *effect, placement, &typical(card)));
             assert!(with != *without, "{} on {placement:?} changes nothing", card.id);

@@ -7,7 +7,7 @@
 use host_tests::excitation::{VoltageHold, voltages};
 use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
-use model_core::effects::card::{Card, Physics, Scope, Seam};
+use model_core::effects::card::{Card, Physics, Scope};
 use model_core::plant::Plant;
 use model_core::plant::robot::Robot;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -214,7 +214,7 @@ fn all_effects_together_keep_the_symmetry_of_four_wheels() {
     let robot = four::<f64>();
     // every one that looks the same from all sides, where voltages drive
     let all: Vec<_> = EffectKind::ALL.iter().filter(|e| e.card().scope != Scope::OneWheel).collect();
-    let all: Vec<_> = all.into_iter().filter(|e| e.card().seams != [Seam::SpeedDrive]).collect();
+    let all: Vec<_> = all.into_iter().filter(|e| !e.card().of_speed_drive()).collect();
     let all: Vec<_> = all.into_iter().filter(|e| e.card().physics.direction.is_none()).collect();
     let together = |turn| {
         let mut effects = Effects::default();

@@ -252,6 +252,11 @@ impl Card {
         self.seams[0].stage()
     }
 
+    /// True if it acts on nothing but a drive that controls wheel speed: only speeds that are set show it.
+    pub fn of_speed_drive(&self) -> bool {
+        self.seams == [Seam::SpeedDrive]
+    }
+
     /// The index of a parameter by its key.
     pub fn param(&self, key: &str) -> Option<usize> {
         self.params.iter().position(|p| p.key == key)

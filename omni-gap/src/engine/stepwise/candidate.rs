@@ -1,7 +1,7 @@
 //! What can be the cause: every effect, on every wheel where it can sit on one, and every nominal parameter.
 
 use model_core::effects::EffectKind;
-use model_core::effects::card::{Card, Param, Role, Scope, Seam};
+use model_core::effects::card::{Card, Param, Role, Scope};
 use model_core::plant::robot::Nominal;
 
 use crate::engine::knobs::ScreenKnobs;
@@ -84,7 +84,7 @@ pub fn freed_priors() -> Vec<FreedPrior> {
 
 /// True if an effect has a say in a model that is driven so: the drive's own speed loop, where speeds are set.
 fn has_a_say(card: &Card, chain: Chain) -> bool {
-    chain == Chain::SetSpeed || card.seams != [Seam::SpeedDrive]
+    chain == Chain::SetSpeed || !card.of_speed_drive()
 }
 
 /// Every effect that has a say in a model that is driven so, and is not in it already.
