@@ -62,6 +62,9 @@ pub struct ScreenKnobs {
     pub promising: f64,
     /// Beyond the best `always_fitted`, a promise below this share of the best is not worth a fit [1]. By trial.
     pub worth_a_fit: f64,
+    /// Share of a promise that is worth a fit below which, at its typical size, an effect is not looked at more closely, at
+    /// other sizes and shapes [1]: there it would have to promise ten times as much.
+    pub closer_look: f64,
     /// Effects that are fitted however far behind the best they are, if they are promising [effects]: a rival at least.
     pub always_fitted: usize,
     /// Effects that are fitted, at the most [effects]: a limit of time.
@@ -220,6 +223,7 @@ impl Default for ScreenKnobs {
             rows: 20_000,
             promising: 9.0,
             worth_a_fit: 0.25,
+            closer_look: 0.1,
             always_fitted: 2,
             fitted_effects: 6,
             fitted_wheels: 2,

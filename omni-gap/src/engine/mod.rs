@@ -6,6 +6,7 @@
 pub mod evidence;
 pub mod findings;
 pub mod knobs;
+mod predictions;
 mod seam;
 mod stepwise;
 

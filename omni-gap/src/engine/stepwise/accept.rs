@@ -18,7 +18,7 @@ pub(super) fn convincing<const N: usize>(
 ) -> bool {
     let (base, scale) = (&ranking.base, ranking.scale);
     let numbers = best.cause.freedom(prior);
-    let (gain, error) = best.scored.better_than(base, scale);
+    let (gain, _) = best.scored.better_than(base, scale);
     if gain < knobs.convincing + knobs.convincing_each * numbers as f64 {
         return false;
     }
@@ -28,7 +28,9 @@ pub(super) fn convincing<const N: usize>(
         Cause::Parameter(_) => !further || taken > knobs.relevant,
         Cause::Effect(..) => {
             let least = if further { knobs.relevant_further } else { knobs.relevant };
-            taken > least && gain > knobs.tie_errors * error && has_size(best, knobs.size_errors)
+            taken > least
+                && best.scored.surely_better_than(base, scale, knobs.tie_errors)
+                && has_size(best, knobs.size_errors)
         }
     }
 }

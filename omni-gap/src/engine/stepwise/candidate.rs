@@ -65,6 +65,8 @@ pub struct Candidate {
     pub wheel: Option<usize>,
     /// Parameter sets to look at, all of them real effects.
     pub trials: Vec<EffectInstance>,
+    /// More of them, for a closer look: other sizes and shapes.
+    pub closer: Vec<EffectInstance>,
 }
 
 /// Every nominal value that can be plainly wrong; friction on all axes together and on each alone.
@@ -101,48 +103,55 @@ pub fn candidates<const N: usize>(present: &[EffectInstance], chain: Chain, knob
             let overlaps = |p: &EffectInstance| p.wheel.is_none() || wheel.is_none() || p.wheel == wheel;
             let taken = present.iter().any(|p| p.id == card.id && overlaps(p));
             if !taken {
-                // on one wheel alone only the plain sizes: the shapes were looked at on all wheels together
-                let trials = trials(card, wheel, wheel.is_none() || !anywhere, knobs);
-                all.push(Candidate { card, wheel, trials });
+                // where it can sit on all wheels, the shapes are looked at on all of them together
+                let closer = if wheel.is_none() || !anywhere { closer(card, wheel, knobs) } else { Vec::new() };
+                all.push(Candidate { card, wheel, trials: trials(card, wheel, knobs), closer });
             }
         }
     }
     all
 }
 
-/// Parameter sets that span what the effect can look like: each size at its typical departure from absent, the others
-/// absent; if `thorough` also at multiples of that, and each shape at a few values.
-fn trials(card: &'static Card, wheel: Option<usize>, thorough: bool, knobs: &ScreenKnobs) -> Vec<EffectInstance> {
-    let base: Vec<f64> = card.params.iter().map(|p| if p.role == Role::Size { p.absent } else { p.typical }).collect();
-    let with = |changes: &[(usize, f64)]| {
-        let mut params = base.clone();
-        for (k, x) in changes {
-            params[*k] = x.clamp(card.params[*k].within.0, card.params[*k].within.1);
-        }
-        EffectInstance { id: card.id, wheel, params }
-    };
-    let sizes: Vec<usize> = (0..card.params.len()).filter(|k| card.params[*k].role == Role::Size).collect();
-    let mut all = Vec::new();
-    for k in sizes {
-        let p = &card.params[k];
-        all.push(with(&[(k, p.typical)]));
-        if !thorough {
-            continue;
-        }
-        for share in &knobs.size_multiples {
-            all.push(with(&[(k, p.absent + share * (p.typical - p.absent))]));
-        }
-        for (s, shape) in card.params.iter().enumerate().filter(|(_, s)| s.role == Role::Shape) {
-            all.extend(others(shape, knobs).into_iter().map(|x| with(&[(k, p.typical), (s, x)])));
-        }
+/// A parameter set: sizes absent, shapes typical, but for some.
+fn with(card: &'static Card, wheel: Option<usize>, changes: &[(usize, f64)]) -> EffectInstance {
+    let mut params: Vec<f64> =
+        card.params.iter().map(|p| if p.role == Role::Size { p.absent } else { p.typical }).collect();
+    for (k, x) in changes {
+        params[*k] = x.clamp(card.params[*k].within.0, card.params[*k].within.1);
     }
-    for (s, shape) in card.params.iter().enumerate().filter(|(_, s)| s.role == Role::Shape && s.absent == s.typical) {
+    EffectInstance { id: card.id, wheel, params }
+}
+
+/// A card's parameters of one role, with their places.
+fn of_role(card: &'static Card, role: Role) -> impl Iterator<Item = (usize, &'static Param)> {
+    card.params.iter().enumerate().filter(move |(_, p)| p.role == role)
+}
+
+/// Parameter sets that span what the effect can look like: each size at its typical departure from absent, the others
+/// absent, and each shape that is an effect of its own.
+fn trials(card: &'static Card, wheel: Option<usize>, knobs: &ScreenKnobs) -> Vec<EffectInstance> {
+    let sizes = of_role(card, Role::Size).map(|(k, p)| with(card, wheel, &[(k, p.typical)]));
+    let own = of_role(card, Role::Shape).filter(|(_, s)| s.absent == s.typical).map(|(s, shape)| {
         // a shape that can be an effect of its own, such as a ratio
         let away = knobs.shape_away * (shape.within.1 - shape.within.0);
-        all.push(with(&[(s, shape.typical + away)]));
-    }
+        with(card, wheel, &[(s, shape.typical + away)])
+    });
+    let mut all: Vec<EffectInstance> = sizes.chain(own).collect();
     if all.is_empty() {
         all.push(EffectInstance::typical(card, wheel));
+    }
+    all
+}
+
+/// The same for a closer look: each size at multiples of its typical departure, and with each shape at a few values.
+fn closer(card: &'static Card, wheel: Option<usize>, knobs: &ScreenKnobs) -> Vec<EffectInstance> {
+    let mut all = Vec::new();
+    for (k, p) in of_role(card, Role::Size) {
+        let scaled = |share: &f64| with(card, wheel, &[(k, p.absent + share * (p.typical - p.absent))]);
+        all.extend(knobs.size_multiples.iter().map(scaled));
+        for (s, shape) in of_role(card, Role::Shape) {
+            all.extend(others(shape, knobs).into_iter().map(|x| with(card, wheel, &[(k, p.typical), (s, x)])));
+        }
     }
     all
 }

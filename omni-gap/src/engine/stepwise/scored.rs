@@ -53,12 +53,35 @@ impl<const N: usize> Scored<N> {
 
     /// How much better (positive) this is than another, and the standard error of that, over windows.
     pub fn better_than(&self, other: &Self, scale: f64) -> (f64, f64) {
-        let differences: Vec<f64> = other.windows.iter().zip(&self.windows).map(|(o, s)| (o - s) / scale).collect();
-        let n = differences.len() as f64;
-        let mean = differences.iter().sum::<f64>() / n;
-        let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
-        (other.score(scale) - self.score(scale), (n * variance).sqrt())
+        (other.score(scale) - self.score(scale), standard_error(&self.gains(other, scale)))
     }
+
+    /// True if this is better than another by more than so many standard errors over windows. A window whose difference is
+    /// the largest by far (a start that no model finds its way from) makes the error as large as the whole gain: where all
+    /// windows are not sure, those without it may be.
+    pub fn surely_better_than(&self, other: &Self, scale: f64, errors: f64) -> bool {
+        sure(other.score(scale) - self.score(scale), self.gains(other, scale), errors)
+    }
+
+    /// What each window gains over another model.
+    fn gains(&self, other: &Self, scale: f64) -> Vec<f64> {
+        other.windows.iter().zip(&self.windows).map(|(o, s)| (o - s) / scale).collect()
+    }
+}
+
+/// True if a gain is more than so many standard errors over its windows, or over them without the largest.
+fn sure(gain: f64, mut windows: Vec<f64>, errors: f64) -> bool {
+    windows.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let beyond = |gain: f64, windows: &[f64]| gain > errors * standard_error(windows);
+    beyond(gain, &windows) || windows.split_last().is_some_and(|(largest, others)| beyond(gain - largest, others))
+}
+
+/// The standard error of a sum.
+fn standard_error(parts: &[f64]) -> f64 {
+    let n = parts.len() as f64;
+    let mean = parts.iter().sum::<f64>() / n;
+    let variance = parts.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
+    (n * variance).sqrt()
 }
 
 /// The free numbers of a model's effects from place `first` of the list given.
@@ -101,5 +124,24 @@ impl<const N: usize> Data<'_, N> {
             extra,
             price: self.knobs.search.price_of_freedom,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sure_of(windows: &[f64]) -> bool {
+        sure(windows.iter().sum(), windows.to_vec(), 2.0)
+    }
+
+    #[test]
+    fn one_window_that_went_wrong_neither_hides_a_gain_that_all_others_show_nor_makes_one() {
+        let others = [40.0, 55.0, 38.0, 61.0, 47.0, 52.0, 44.0];
+        assert!(sure_of(&others));
+        assert!(sure_of(&[&others[..], &[6e5]].concat()), "the others are sure");
+        let nothing = [1.0, -2.0, 0.5, -0.3, 1.4, -1.1, 0.6];
+        assert!(!sure_of(&nothing));
+        assert!(!sure_of(&[&nothing[..], &[6e5]].concat()), "one window alone is no proof");
     }
 }

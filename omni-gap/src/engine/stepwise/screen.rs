@@ -8,16 +8,15 @@
 //! The gain is the drop of Σ error²/φ that the best multiple of s would bring.
 
 use model_core::effects::card::{Card, Role};
-use model_core::geometry::frames::{BodyTwist, Pose};
-use model_core::plant::Plant;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
 use crate::engine::findings::EstimatedNumber;
 use crate::engine::knobs::ScreenKnobs;
-use crate::identify::{Fit, Linearised, Prior, Shots, Starts, Whitener, run_windows};
-use crate::simulate::{AlignedRun, EffectInstance};
+use crate::engine::predictions::predictions;
+use crate::identify::{Fit, Linearised, Prior, Shots};
+use crate::simulate::EffectInstance;
 
 /// A candidate and what the screen says of it.
 #[derive(Clone, Debug)]
@@ -35,7 +34,7 @@ pub struct Screened {
     pub numbers: Vec<EstimatedNumber>,
 }
 
-/// Screens candidates at a fit.
+/// Screens candidates at a fit: all of them at typical sizes, and those that promise something then more closely.
 pub fn screen<const N: usize>(
     fit: &Fit<N>,
     linear: &Linearised,
@@ -48,48 +47,68 @@ pub fn screen<const N: usize>(
     let Some(hess) = reduced.hess.clone().cholesky() else { return Vec::new() };
     let toward: DVector<f64> = hess.solve(&reduced.grad);
     let plain = predictions(&fit.model.plant(), shots, &fit.starts, linear);
-    let tried: Vec<Vec<Trial>> = candidates
-        .par_iter()
-        .map(|candidate| {
-            candidate
-                .trials
-                .iter()
-                .map(|trial| {
-                    let mut model = fit.model.clone();
-                    model.add_effect(trial.clone());
-                    let mut signature = predictions(&model.plant(), shots, &fit.starts, linear);
-                    for (with, without) in signature.iter_mut().flatten().zip(plain.iter().flatten()) {
-                        *with -= without;
-                    }
-                    let (overlap, size, shared) = linear.project(&signature);
-                    let (overlap, size, shared) =
-                        (overlap / fit.dispersion, size / fit.dispersion, shared / fit.dispersion);
-                    // the parameters take their share as well
-                    let own = hess.solve(&shared);
-                    let explains = overlap - shared.dot(&toward);
-                    let left = size - shared.dot(&own);
-                    let determined = left > knobs.least_left * size && left > knobs.least_size;
-                    let amplitude = if determined { explains / left } else { 0.0 };
-                    let (effect, gain, size) = (trial.clone(), explains * amplitude, left.max(0.0).sqrt());
-                    Trial { effect, amplitude, gain, size, determined }
-                })
-                .collect()
-        })
-        .collect();
-    candidates
-        .into_iter()
-        .zip(tried)
-        .map(|(candidate, tried)| {
-            // the first trial is the typical size
-            let visible = tried[0].size;
-            let allowed = |t: &Trial| t.amplitude > 0.0 || both_ways(&candidate, &t.effect);
-            let gain = |t: &Trial| if allowed(t) { t.gain } else { 0.0 };
-            let best = first_best(&tried, gain).unwrap_or(&tried[0]);
-            let numbers = one_step(candidate.card, &tried, best, gain);
-            let (gain, from) = (gain(best), scaled(&candidate, &best.effect, best.amplitude, knobs.start_between));
-            Screened { candidate, gain, visible, from, numbers }
-        })
-        .collect()
+    let look = |trial: &EffectInstance| {
+        let mut model = fit.model.clone();
+        model.add_effect(trial.clone());
+        let mut signature = predictions(&model.plant(), shots, &fit.starts, linear);
+        for (with, without) in signature.iter_mut().flatten().zip(plain.iter().flatten()) {
+            *with -= without;
+        }
+        let (overlap, size, shared) = linear.project(&signature);
+        let (overlap, size, shared) = (overlap / fit.dispersion, size / fit.dispersion, shared / fit.dispersion);
+        // the parameters take their share as well
+        let own = hess.solve(&shared);
+        let explains = overlap - shared.dot(&toward);
+        let left = size - shared.dot(&own);
+        let determined = left > knobs.least_left * size && left > knobs.least_size;
+        let amplitude = if determined { explains / left } else { 0.0 };
+        let (effect, gain, size) = (trial.clone(), explains * amplitude, left.max(0.0).sqrt());
+        Trial { effect, amplitude, gain, size, determined }
+    };
+    let mut looked: Vec<Looked> = candidates.into_par_iter().map(|candidate| Looked::at(candidate, look)).collect();
+    let most = looked.iter().map(Looked::gain).fold(0.0, f64::max);
+    let least = knobs.closer_look * knobs.promising.max(knobs.worth_a_fit * most);
+    looked.par_iter_mut().filter(|looked| looked.gain() >= least).for_each(|looked| looked.closer(look));
+    looked.into_iter().map(|looked| looked.screened(knobs)).collect()
+}
+
+/// A candidate with what was seen of its parameter sets.
+struct Looked {
+    candidate: Candidate,
+    tried: Vec<Trial>,
+}
+
+impl Looked {
+    fn at(candidate: Candidate, look: impl Fn(&EffectInstance) -> Trial) -> Self {
+        let tried = candidate.trials.iter().map(look).collect();
+        Self { candidate, tried }
+    }
+
+    /// Looks more closely.
+    fn closer(&mut self, look: impl Fn(&EffectInstance) -> Trial) {
+        self.tried.extend(self.candidate.closer.iter().map(look));
+    }
+
+    /// The drop of Σ error² that one parameter set promises [σ²]; none that only a size of the wrong sign would bring.
+    fn gain_of(&self, trial: &Trial) -> f64 {
+        let allowed = trial.amplitude > 0.0 || both_ways(&self.candidate, &trial.effect);
+        if allowed { trial.gain } else { 0.0 }
+    }
+
+    /// The largest of them [σ²]
+    fn gain(&self) -> f64 {
+        self.tried.iter().map(|trial| self.gain_of(trial)).fold(0.0, f64::max)
+    }
+
+    fn screened(self, knobs: &ScreenKnobs) -> Screened {
+        // the first trial is the typical size
+        let visible = self.tried[0].size;
+        let gain = |trial: &Trial| self.gain_of(trial);
+        let best = first_best(&self.tried, gain).unwrap_or(&self.tried[0]);
+        let numbers = one_step(self.candidate.card, &self.tried, best, gain);
+        let (gain, from) = (gain(best), scaled(&self.candidate, &best.effect, best.amplitude, knobs.start_between));
+        Screened { candidate: self.candidate, gain, visible, from, numbers }
+    }
 }
 
 /// One parameter set of a candidate, looked at.
@@ -158,47 +177,4 @@ fn scaled(candidate: &Candidate, trial: &EffectInstance, amplitude: f64, between
         }
     }
     from
-}
-
-/// What a plant predicts for every number that was measured, in sigma and whitened, run by run and window by window.
-fn predictions<const N: usize>(
-    plant: &Plant<N, f64>,
-    shots: Shots<'_, N>,
-    starts: &[Starts],
-    linear: &Linearised,
-) -> Vec<Vec<DVector<f64>>> {
-    let count = AlignedRun::<N>::channels().count();
-    let Shots { runs, windows } = shots;
-    (0..runs.len())
-        .map(|k| {
-            let run = runs[k];
-            let mut out: Vec<DVector<f64>> = linear.windows[k].iter().map(|w| DVector::zeros(w.error.len())).collect();
-            let start = |w: usize| {
-                let [x, y, theta, v, vn, w] = starts[k][w];
-                (Pose { x, y, theta }, BodyTwist { v, vn, w })
-            };
-            let mut white = Whitener::<1>::of(run);
-            let (mut at, mut last) = (0, usize::MAX);
-            run_windows(
-                plant,
-                run,
-                &windows[k],
-                start,
-                |_| {},
-                |w, row, predicted| {
-                    if w != last {
-                        (at, last) = (0, w);
-                        white.enter();
-                    }
-                    for c in (0..count).filter(|c| run.saw(row, *c)) {
-                        let mut number = [predicted[c] / run.sigma[c]];
-                        white.whiten(c, run.t[row], &mut number);
-                        out[w][at] = number[0];
-                        at += 1;
-                    }
-                },
-            );
-            out
-        })
-        .collect()
 }
