@@ -94,7 +94,7 @@ pub enum Scope {
     Robot,
     /// On every wheel alike, or on one wheel alone.
     Wheels,
-    /// On one wheel alone: on all of them it would be a nominal parameter.
+    /// On one wheel alone: on all of them it would be a nominal parameter, or each of them has a phase of its own.
     OneWheel,
 }
 
@@ -188,9 +188,13 @@ pub struct Physics {
     pub direction: Option<usize>,
     /// The two parameters that are a place on the robot, along its axes (v, vn) [m].
     pub place: Option<[usize; 2]>,
+    /// The two parameters that are a place in the world (x, y) [m].
+    pub world_place: Option<[usize; 2]>,
     /// True if the model has a corner where the effect is absent, so that a fit has to start elsewhere: a coefficient of
     /// friction of zero stands for an infinite one, and the plant leaves out a contact's creep while there is none.
     pub corner_at_absent: bool,
+    /// True if it goes by how long the robot has run: one that has run for longer then moves otherwise.
+    pub ages: bool,
     /// How far two runs of some seconds may part that symmetry makes one: of velocities and poses, in SI units.
     pub apart: f64,
 }
@@ -203,7 +207,9 @@ impl Physics {
         mirrored: &[],
         direction: None,
         place: None,
+        world_place: None,
         corner_at_absent: false,
+        ages: false,
         apart: 1e-9,
     };
 

@@ -38,7 +38,8 @@ pub struct EffectContext<T> {
     pub heat: T,
     /// l, motor speed over wheel speed [1]
     pub gear_ratio: T,
-    /// Pose in the world frame; at the body seam the heading is that of the middle of the step
+    /// Pose in the world frame; at the body seam the heading is that of the middle of the step, as is
+    /// [`EffectContext::midway`]
     pub pose: Pose<T>,
     /// Velocity in the body frame
     pub twist: BodyTwist<T>,
@@ -60,6 +61,15 @@ impl<T: Real> EffectContext<T> {
         (self.wheel_angle, self.wheel_speed) = (zero, zero);
         (self.rotor_angle, self.rotor_speed) = (zero, zero);
         (self.rim_speed, self.heat) = (zero, zero);
+    }
+
+    /// Where the robot is in the middle of the step, for an effect on the body, whose heading is that of the middle already
+    /// [m, m].
+    #[inline]
+    pub fn midway(&self) -> [T; 2] {
+        let (half, way) = (T::lit(0.5) * self.dt, self.pose.to_world(self.twist));
+        // p + ½·Δt·ṗ
+        [self.pose.x + half * way.x, self.pose.y + half * way.y]
     }
 }
 
@@ -108,8 +118,13 @@ pub struct Bridge<T> {
     pub sampled: T,
     /// Voltage that is lost against the current, whichever way it flows [V]
     pub drop: T,
-    /// Current from which all of it is lost; below, in proportion [A]
+    /// Voltage that is lost besides against a current that brakes the rotor [V]; never more than the back-EMF, which has to
+    /// drive the current through what takes it
+    pub braking_drop: T,
+    /// Current from which all of either is lost; below, in proportion [A]
     pub drop_current: T,
+    /// Most current that the bridge lets flow, either way: it lowers its voltage for that [A]; zero: any
+    pub current_limit: T,
 }
 
 /// Winding: terminal voltage in, shaft torque out. Constants are those of the wheel shaft, the gear ratio included.
@@ -127,6 +142,10 @@ pub struct Winding<T> {
     pub emf_constant: T,
     /// Wheel torque over current, l·K_t [N·m/A]
     pub torque_constant: T,
+    /// Torque on the rotor that no current makes, its mean over the step, at the wheel shaft [N·m]
+    pub torque: T,
+    /// ∂(l·K_t)/∂i of a torque constant that depends on the current [N·m/A²]
+    pub torque_bend: T,
 }
 
 /// Shaft: what connects the rotor with the wheel, gear included. All at the wheel shaft.
@@ -149,6 +168,8 @@ pub struct Shaft<T> {
     pub damping: T,
     /// Twist from one flank of the teeth to the other [rad]
     pub play: T,
+    /// J of a rotor on a shaft that yields where no effect gives it any: it could not move on its own [kg·m²]
+    pub rotor: T,
 }
 
 /// Gear: motor torque in, wheel torque out. All at the wheel shaft.
@@ -293,6 +314,15 @@ impl<T: Real> Body<T> {
     #[inline]
     pub fn total_mass(&self) -> T {
         self.mass[0][0]
+    }
+
+    /// Adds a force (v, vn) [N, N] and its rate −∂force/∂(v, vn) [N·s/m].
+    #[inline]
+    pub fn push(&mut self, force: [T; 2], rate: [[T; 2]; 2]) {
+        // 0 − a, taken away: what is absent keeps even the sign of a zero
+        self.force.iter_mut().zip(force).for_each(|(sum, a)| *sum -= T::zero() - a);
+        let rows = self.rate.iter_mut().zip(rate).flat_map(|(sums, row)| sums.iter_mut().zip(row));
+        rows.for_each(|(sum, a)| *sum -= T::zero() - a);
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! T·dy/dt + y = 0        y(Δt)/y(0) = e⁻ˣ        mean of y over Δt, over y(0) = (1 − e⁻ˣ)/x        x = Δt/T
+//! T·dy/dt + y = s·t/Δt   from y(0) = 0: the mean of s·t/Δt − y over Δt, over s = (1 − (1 − e⁻ˣ)/x)/x
 //! ```
 //!
 //! | symbol | code | unit | meaning |
@@ -40,6 +41,25 @@ pub fn mean_remaining<T: Real>(constant: T, elapsed: T) -> T {
     }
 }
 
+/// How far what follows a ramp is behind it in the mean, over what the ramp gains: (1 − (1 − e⁻ˣ)/x)/x [1].
+#[inline]
+pub fn mean_behind<T: Real>(constant: T, elapsed: T) -> T {
+    if elapsed < T::lit(0.05) * constant {
+        // 1/2·(1 − x/3·(1 − x/4·(…))), up to x⁷
+        let x = elapsed / constant;
+        let mut sum = T::one();
+        for k in [9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0] {
+            sum = T::one() - x * T::lit(1.0 / k) * sum;
+        }
+        T::lit(0.5) * sum
+    } else if elapsed > T::zero() {
+        // T/Δt·(1 − (1 − e⁻ˣ)/x), which is 0 at T = 0 and has its slope there
+        constant / elapsed * (T::one() - mean_remaining(constant, elapsed))
+    } else {
+        T::zero()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -56,6 +76,23 @@ mod tests {
     }
 
     #[test]
+    fn what_is_behind_a_ramp_is_the_sum_of_what_is_left_of_its_parts() {
+        for x in [1.0e-9, 1.0e-3, 0.0499, 0.0501, 0.7, 3.0, 40.0] {
+            // each part ds of the ramp is behind by e^(−(1 − s)·x) at the end, and by the mean of that over the rest before
+            let parts = 20_000;
+            let sum: f64 = (0..parts)
+                .map(|k| 1.0 - (f64::from(k) + 0.5) / f64::from(parts))
+                .map(|rest| rest * mean_remaining(1.0, rest * x))
+                .sum();
+            let behind = mean_behind(1.0, x);
+            // the midpoint rule: 1/24 of x per part squared
+            let within = 1.0e-9 + x / 24.0 / f64::from(parts).powi(2);
+            assert!((behind - sum / f64::from(parts)).abs() < within, "x = {x}: {behind}");
+        }
+        assert_eq!((mean_behind(0.0, 1.0e-3), mean_behind(0.008, 0.0)), (0.0, 0.5));
+    }
+
+    #[test]
     fn what_has_no_time_constant_is_gone_at_once_and_without_time_all_is_left() {
         assert_eq!((remaining(0.0, 1.0e-3), mean_remaining(0.0, 1.0e-3)), (0.0, 0.0));
         assert_eq!((remaining(0.0, 0.0), mean_remaining(0.0, 0.0)), (0.0, 0.0));
@@ -67,5 +104,6 @@ mod tests {
         let (none, dt) = (Dual::<1>::variable(0.0, 0), Dual::<1>::constant(2.0e-3));
         // ∂(T/Δt)/∂T
         assert_eq!((remaining(none, dt).eps, mean_remaining(none, dt).eps), ([0.0], [1.0 / 2.0e-3]));
+        assert_eq!(mean_behind(none, dt).eps, [1.0 / 2.0e-3]);
     }
 }

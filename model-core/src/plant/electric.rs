@@ -7,39 +7,50 @@
 //!
 //! What a bridge loses against the current is solved in closed form; a law that depends on the current otherwise, and the
 //! bus, as a fixed point (`fixed_point.rs`).
+//!
+//! A winding with inductance is on its way to the current i∞ found so. While the rotor gains speed evenly over the step, i∞
+//! falls by c·Δω, and with x = R·Δt/L
+//!
+//! ```text
+//! i(Δt) = i∞ + (i₀ − i∞)·e⁻ˣ − c·Δω·(1 − m)            m = (1 − e⁻ˣ)/x
+//! ī     = i∞ + (i₀ − i∞)·m − c·Δω·(½ − (1 − m)/x)
+//! ```
 
+use super::bridge::{Look, Piece, anywhere};
 use super::fixed_point::{Solved, solve};
 use super::model::Plant;
 use super::source::{Applied, Drive, Source};
 use super::state::State;
+use super::winding::on_the_way;
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{Bridge, Contact, EffectContext, Supply, Winding};
+use crate::number::decay;
 use crate::number::scalar::Real;
-use crate::plant::winding::Motor;
+
+/// When the current of a winding with inductance is sampled: so long after the step's beginning, if it lasts as long [s].
+/// An inductance that vanishes then leads to none.
+const SAMPLED_AFTER: f64 = 10e-6;
 
 /// What a motor does in a step.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Electric<T: Real> {
     /// Torque at the wheel shaft, its mean over the step [N·m]
     pub torque: T,
-    /// −∂torque/∂(rotor speed) [N·m·s]
+    /// −∂torque/∂(rotor speed) [N·m·s]; over a step in which the speed changes evenly, that in its middle counts
     pub slope: T,
-    /// −∂current/∂(rotor speed) [A·s]
+    /// −∂current/∂(rotor speed) [A·s], as it is sampled
     pub current_slope: T,
     /// Current, its mean over the step [A]
     pub mean: T,
     /// Current at the sampling instant, just after the step's beginning, and at the step's end, where they differ [A]
     instants: Option<[T; 2]>,
+    /// −∂(current at the step's end)/∂(speed that the rotor gains in the step) [A·s], where there is inductance
+    pub late: Option<T>,
     /// Resistance of the winding, where an effect looks at its heat [Ω]
     pub resistance: T,
     /// Between which currents torque and currents fall in straight lines over the rotor's speed, if they do anywhere
     straight: Option<[T::Plain; 2]>,
-}
-
-/// All currents.
-fn anywhere<P: Real>() -> [P; 2] {
-    [P::lit(f64::NEG_INFINITY), P::lit(f64::INFINITY)]
 }
 
 impl<T: Real> Electric<T> {
@@ -85,71 +96,22 @@ impl<T: Real> Electric<T> {
         true
     }
 
+    /// Adds a torque that no current makes [N·m].
+    #[inline]
+    fn add_torque(&mut self, torque: T) {
+        if !torque.is_nothing() {
+            self.torque += torque;
+        }
+    }
+
     fn put(&mut self, torque: T, slope: T, current: T, current_slope: T) {
         self.torque = torque;
         self.slope = slope;
         self.current_slope = current_slope;
         self.mean = current;
         self.instants = None;
+        self.late = None;
         self.straight = Some(anywhere());
-    }
-}
-
-/// What bridge and winding say at a current.
-#[derive(Clone, Copy)]
-struct Look<T> {
-    bridge: Bridge<T>,
-    winding: Winding<T>,
-    per_resistance: T,
-}
-
-/// A current on one of the straight pieces of its line over the voltage.
-struct Piece<T: Real> {
-    /// [A]
-    current: T,
-    /// −∂i/∂(back-EMF) [1/Ω]
-    per_emf: T,
-    /// The piece [A]
-    within: [T::Plain; 2],
-}
-
-impl<T: Real> Look<T> {
-    /// l·K_v·ω [V]
-    #[inline]
-    fn emf(&self) -> T {
-        self.winding.emf_constant * self.winding.speed
-    }
-
-    /// The current that a voltage drives.
-    #[inline]
-    fn current(&self, voltage: T) -> Piece<T> {
-        let (driving, drop, ripple) = (voltage - self.emf(), self.bridge.drop, self.bridge.drop_current);
-        let per_resistance = self.per_resistance;
-        if ripple <= T::zero() {
-            // i = (u − l·K_v·ω)/R
-            return Piece { current: driving * per_resistance, per_emf: per_resistance, within: anywhere() };
-        }
-        // u − l·K_v·ω = R·i + u_drop·sat(i/i₀): three straight pieces, which rise
-        let [u, u_drop, i, g] = [driving, drop, ripple, per_resistance].map(T::plain);
-        if u.abs() * g <= i + u_drop * g {
-            let per_emf = per_resistance / (T::one() + drop / ripple * per_resistance);
-            return Piece { current: driving * per_emf, per_emf, within: [-i, i] };
-        }
-        let [least, most] = anywhere();
-        if driving > T::zero() {
-            return Piece { current: (driving - drop) * per_resistance, per_emf: per_resistance, within: [i, most] };
-        }
-        Piece { current: (driving + drop) * per_resistance, per_emf: per_resistance, within: [least, -i] }
-    }
-
-    /// The voltage that is left of the bridge's at a current [V].
-    #[inline]
-    fn voltage_at(&self, current: T) -> T {
-        let Bridge { voltage, drop, drop_current: ripple, .. } = self.bridge;
-        if ripple <= T::zero() {
-            return voltage;
-        }
-        voltage - drop * (current / ripple).clamp(-T::one(), T::one())
     }
 }
 
@@ -170,6 +132,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             inductance: zero,
             emf_constant: self.emf,
             torque_constant: self.kt,
+            torque: zero,
+            torque_bend: zero,
         };
         match drive.source.applied(j) {
             None => motor.put(zero, zero, zero, zero),
@@ -177,6 +141,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 let winding = self.winding(at, memory, Winding { current, ..bare() });
                 motor.put(winding.torque_constant * current, zero, current, zero);
                 motor.resistance = winding.resistance;
+                motor.add_torque(winding.torque);
             }
             Some(Applied::Voltage(command)) => {
                 let u = drive.gain.map_or(command, |gain| command * *gain);
@@ -221,11 +186,12 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     fn solve_winding(&self, last: T, dt: T, look: impl Fn(T) -> Look<T>, motor: &mut Electric<T>) {
         let needs_current = self.effects.needs_current();
         let (solved, look) = if needs_current {
-            let Solved { x, stretch, look } = solve(last, |current| {
+            let found = solve(last, |current| {
                 let look = look(current);
-                (look.current(look.bridge.voltage).current, look)
+                look.current(look.bridge.voltage).current
             });
-            (Some((x, stretch)), look)
+            let look = look(found.x);
+            (Some(found), look)
         } else {
             (None, look(last))
         };
@@ -233,39 +199,44 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let Piece { current: steady, per_emf, within } = look.current(voltage);
         // −∂i/∂ω = (l·K_v/R)/(1 − ∂(steady)/∂i)
         motor.current_slope = w.emf_constant * per_emf;
-        if let Some((_, stretch)) = solved {
+        if let Some(Solved { stretch, .. }) = solved {
             motor.current_slope = motor.current_slope / stretch;
         }
-        motor.slope = w.torque_constant * motor.current_slope;
+        let settled = solved.map_or(steady, |found| found.x);
+        // ∂τ/∂i = l·K_t + i·∂(l·K_t)/∂i
+        motor.slope = (w.torque_constant + settled * w.torque_bend) * motor.current_slope;
         motor.resistance = w.resistance;
-        let current = solved.map_or(steady, |(current, _)| current);
-        if w.inductance > T::zero() {
-            // the winding at the wheel's shaft, with the constants and the voltage found above
-            let wound = Motor {
-                gear_ratio: T::one(),
-                resistance: w.resistance,
-                emf_constant: w.emf_constant,
-                torque_constant: w.torque_constant,
-            };
-            let voltage = look.voltage_at(current);
-            motor.mean = wound.mean_current(last, voltage, w.speed, w.inductance, dt);
-            motor.instants = Some([last, wound.current_after(last, voltage, w.speed, w.inductance, dt)]);
-            motor.straight = None;
-        } else {
-            motor.mean = current;
-            motor.straight = (!needs_current).then_some(within);
-            motor.instants = None;
-            let beside = look.bridge.sampled - voltage;
-            if beside != T::zero() || !beside.is_constant() {
-                // i − (i(u) − i(u_sampled))
-                let sampled = current - (steady - look.current(look.bridge.sampled).current);
-                motor.instants = Some([sampled, current]);
-                if look.bridge.drop_current > T::zero() {
-                    motor.straight = None;
-                }
+        motor.mean = settled;
+        motor.instants = None;
+        motor.late = None;
+        motor.straight = within.filter(|_| !needs_current);
+        let mut sampled = settled;
+        let beside = look.bridge.sampled - voltage;
+        if beside != T::zero() || !beside.is_constant() {
+            // i − (i(u) − i(u_sampled))
+            sampled = settled - (steady - look.current(look.bridge.sampled).current);
+            motor.instants = Some([sampled, settled]);
+            if look.bridge.drop_current > T::zero() || look.bridge.current_limit > T::zero() {
+                motor.straight = None;
             }
         }
+        // an inductance of zero may still have derivatives
+        if !w.inductance.is_nothing() {
+            let (inductance, elapsed) = (w.inductance, w.resistance * dt);
+            let one = T::one();
+            let mean_left = decay::mean_remaining(inductance, elapsed);
+            let sampled_left = decay::remaining(inductance, w.resistance * dt.min(T::lit(SAMPLED_AFTER)));
+            let after = on_the_way(last, settled, decay::remaining(inductance, elapsed));
+            motor.mean = on_the_way(last, settled, mean_left);
+            motor.instants = Some([on_the_way(last, sampled, sampled_left), after]);
+            motor.straight = None;
+            // the mean falls by c·Δω·(½ − (1 − m)/x), of which a step counts a half of slope·Δω
+            motor.slope *= one - T::lit(2.0) * decay::mean_behind(inductance, elapsed);
+            motor.late = Some(motor.current_slope * (one - mean_left));
+            motor.current_slope *= one - sampled_left;
+        }
         motor.torque = w.torque_constant * motor.mean;
+        motor.add_torque(w.torque);
     }
 
     /// The bus voltage [V], where it may differ from the nominal one.
@@ -301,7 +272,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             for active in self.effects.at(Seam::Supply) {
                 active.effect.supply(&memory[active.memory(0)], at, &mut supply);
             }
-            (supply.voltage, ())
+            supply.voltage
         };
         Some(solve(state.bus, supplied).x)
     }

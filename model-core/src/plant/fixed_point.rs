@@ -7,12 +7,10 @@
 use crate::number::scalar::Real;
 
 /// A fixed point that was found.
-pub(super) struct Solved<T, L> {
+pub(super) struct Solved<T> {
     pub x: T,
     /// 1 − g′(x)
     pub stretch: T,
-    /// What the law said there.
-    pub look: L,
 }
 
 /// The fixed point x = g(x) of a falling (or slowly rising) g; `guess` is where to look first.
@@ -20,19 +18,19 @@ pub(super) struct Solved<T, L> {
 /// Newton with a bracket; on a g of straight pieces exact once it is on the right piece. The last step is taken in the
 /// full number type, and a law that says the same for two neighbouring x is returned as it is.
 #[inline]
-pub(super) fn solve<T: Real, L>(guess: T, mut g: impl FnMut(T) -> (T, L)) -> Solved<T, L> {
+pub(super) fn solve<T: Real>(guess: T, mut g: impl FnMut(T) -> T) -> Solved<T> {
     let h = T::lit(1e-3);
     let mut x = guess.value();
     let (mut lo, mut hi): (Option<T>, Option<T>) = (None, None);
-    let mut here = g(x).0;
+    let mut here = g(x);
     let mut rounds = 0;
     loop {
-        let near = g(x + h).0;
+        let near = g(x + h);
         if here == near {
             // flat here; it stands if it is flat where it leads to
-            let (there, look) = g(here.value());
+            let there = g(here.value());
             if there == here || rounds == 8 {
-                return Solved { x: there, stretch: T::one(), look };
+                return Solved { x: there, stretch: T::one() };
             }
         }
         // F(x) = x − g(x),  F′ = 1 − Δg/h,  x ← x − F/F′
@@ -49,12 +47,11 @@ pub(super) fn solve<T: Real, L>(guess: T, mut g: impl FnMut(T) -> (T, L)) -> Sol
         {
             next = (T::lit(0.5) * (lo + hi)).value();
         }
-        let look;
-        (here, look) = g(next);
+        here = g(next);
         rounds += 1;
         let left = next - here;
         if left.abs() <= T::lit(1e-6) * stretch * (next.abs() + T::lit(0.1)) || rounds == 8 {
-            return Solved { x: next - left / stretch, stretch, look };
+            return Solved { x: next - left / stretch, stretch };
         }
         x = next;
     }
@@ -67,7 +64,7 @@ mod tests {
     #[test]
     fn a_law_without_the_current_is_returned_as_it_is() {
         let exact = 0.123_456_789_f64 / 3.0;
-        assert_eq!(solve(0.7, |_| (exact, ())).x.to_bits(), exact.to_bits());
+        assert_eq!(solve(0.7, |_| exact).x.to_bits(), exact.to_bits());
     }
 
     #[test]
@@ -76,7 +73,7 @@ mod tests {
         let (r, v, i0) = (4.3, 0.3, 0.05);
         for k in -60..=60 {
             let y = f64::from(k) * 0.02;
-            let x = solve(0.0, |i: f64| ((y - v * (i / i0).clamp(-1.0, 1.0)) / r, ())).x;
+            let x = solve(0.0, |i: f64| (y - v * (i / i0).clamp(-1.0, 1.0)) / r).x;
             // R·i + V·sat(i/i₀) = y, in closed form
             let exact = if y.abs() <= r * i0 + v { y / (r + v / i0) } else { (y - v * y.signum()) / r };
             assert!((x - exact).abs() < 1e-9, "y {y}: {x} against {exact}");

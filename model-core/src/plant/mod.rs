@@ -55,6 +55,8 @@ mod step;
 
 mod fixed_point;
 
+mod bridge;
+
 mod electric;
 
 mod shaft;

@@ -69,6 +69,10 @@ fn shafts<const N: usize, T: Real, E: EffectSet<T>>(effects: &Effects<N, T, E>) 
         let at = EffectContext { wheel: j, ..EffectContext::default() };
         let mut shaft = Shaft::default();
         effects.on(Seam::Shaft, j).for_each(|active| active.effect.shaft(&[], &at, &mut shaft));
+        if shaft.stiffness > T::zero() && shaft.inertia <= T::zero() {
+            // an inertia of zero may still have derivatives
+            shaft.inertia += shaft.rotor;
+        }
         shaft
     })
 }

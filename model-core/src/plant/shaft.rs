@@ -100,13 +100,14 @@ struct Yields<T> {
 
 impl<T: Real> Yields<T> {
     fn plain(&self) -> Yields<T::Plain> {
-        let Shaft { inertia, stiffness, damping, play } = self.shaft;
+        let Shaft { inertia, stiffness, damping, play, rotor } = self.shaft;
         Yields {
             shaft: Shaft {
                 inertia: inertia.plain(),
                 stiffness: stiffness.plain(),
                 damping: damping.plain(),
                 play: play.plain(),
+                rotor: rotor.plain(),
             },
             twist: self.twist.plain(),
             ballistic: self.ballistic.plain(),

@@ -81,7 +81,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             mean
         };
         state.wheel_speed = drives.map(|drive| drive.after);
-        let (source, turned) = (Source::Speed(drives), Turned::default());
+        // no current is known that would make heat
+        let turned = Turned { heat: self.needs.heat.then_some([zero; N]), ..Turned::default() };
+        let source = Source::Speed(drives);
         let done = Done { next, contact: &contact, source: &source, bus: self.robot.supply, turned: &turned };
         self.finish(&mut at, state, memory, &done, &mut truth);
         if !yields {

@@ -110,6 +110,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             if self.yields {
                 turned.rotors.get_or_insert([Rotor::default(); N])[j] = wheel.rotor;
             }
+            if let Some(late) = wheel.motor.late {
+                turned.late.get_or_insert([zero; N])[j] = late;
+            }
             c.add_force(&mut push.body.force, wheel.met.force);
             c.add_rate(&mut push.body.rate, wheel.met.rate);
             if self.turns && !wheel.inertia.is_nothing() {
@@ -196,7 +199,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         if self.tells {
             self.remember(at, state, memory, (done, truth));
         }
-        if self.needs.angle || self.needs.heat || self.yields {
+        if self.needs.angle || self.needs.heat || self.yields || done.turned.late.is_some() {
             self.turn_wheels(state, done, truth, dt);
         }
         if self.needs.acceleration {
@@ -222,6 +225,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 T::lit(0.5) * (truth.wheel_speed[j] + state.wheel_speed[j])
             };
             state.wheel_angle[j] += dt * mean_speed;
+            // a wheel that slips was solved for at the speed that it ends with
+            let mut gained = if c.rolls() { T::lit(2.0) * (mean_speed - truth.wheel_speed[j]) } else { T::zero() };
             if let Some(heat) = &done.turned.heat {
                 state.heat[j] += heat[j];
             }
@@ -229,8 +234,12 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 && self.yields_at(j)
             {
                 let (speed, twisted) = rotors[j].end(mean_speed, dt);
+                gained = speed - state.rotor_speed[j];
                 state.rotor_speed[j] = speed;
                 state.shaft_twist[j] += twisted;
+            }
+            if let Some(late) = &done.turned.late {
+                state.current[j] -= late[j] * gained;
             }
         }
     }
@@ -262,11 +271,13 @@ pub(super) struct Turned<const N: usize, T> {
     pub heat: Option<[T; N]>,
     /// The rotors, where a shaft yields
     pub rotors: Option<[Rotor<T>; N]>,
+    /// −∂(current at the step's end)/∂(speed that the rotor gains in the step) [A·s], where a winding has inductance
+    pub late: Option<[T; N]>,
 }
 
 impl<const N: usize, T: Real> Default for Turned<N, T> {
     fn default() -> Self {
-        Self { heat: None, rotors: None }
+        Self { heat: None, rotors: None, late: None }
     }
 }
 

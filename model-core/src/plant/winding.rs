@@ -118,7 +118,7 @@ impl<T: Real> Motor<T> {
     pub fn current_after(self, i0: T, voltage: T, wheel_speed: T, inductance: T, dt: T) -> T {
         let settled = self.current(voltage, wheel_speed);
         // i(Δt) = i∞ + (i₀ − i∞)·e⁻ˣ
-        settled + (i0 - settled) * decay::remaining(inductance, self.resistance * dt)
+        on_the_way(i0, settled, decay::remaining(inductance, self.resistance * dt))
     }
 
     /// Mean current [A] over `dt` [s], from `i0` [A], with voltage [V] and speed of the wheel's shaft [rad/s] held and an
@@ -127,8 +127,14 @@ impl<T: Real> Motor<T> {
     pub fn mean_current(self, i0: T, voltage: T, wheel_speed: T, inductance: T, dt: T) -> T {
         let settled = self.current(voltage, wheel_speed);
         // ī = i∞ + (i₀ − i∞)·(1 − e⁻ˣ)/x
-        settled + (i0 - settled) * decay::mean_remaining(inductance, self.resistance * dt)
+        on_the_way(i0, settled, decay::mean_remaining(inductance, self.resistance * dt))
     }
+}
+
+/// A current on the way from `i0` to the settled one, of whose distance a share is left [A].
+#[inline]
+pub(super) fn on_the_way<T: Real>(i0: T, settled: T, left: T) -> T {
+    settled + (i0 - settled) * left
 }
 
 #[cfg(test)]

@@ -66,6 +66,10 @@ pub const CARD: Card = Card {
             with: "wheel_radius_error",
             settled_by: "turn the robot on the spot by hand: a wheel of another radius turns by another angle than the others, an odd motor does not",
         },
+        LookAlike {
+            with: "current_sensor_gain",
+            settled_by: "put an ammeter into a lead of the odd motor while it is held: it agrees with what the robot reads if the motor is the odd one, and not if its sensor is",
+        },
     ],
     code: 4,
     undone: Undone::Folded("the odd motor is driven by its own R, K_v and K_t"),
@@ -121,6 +125,8 @@ mod tests {
         inductance: 3e-4,
         emf_constant: 0.1295,
         torque_constant: 0.1297,
+        torque: 0.0,
+        torque_bend: 0.0,
     };
 
     fn wound(p: [f64; 2]) -> Winding<f64> {
