@@ -8,7 +8,7 @@ use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
 
 use crate::fixture::{Run, effect, four, gap, larger, three};
-use crate::newton::{frictionless, runge_kutta};
+use crate::newton::{frictionless, runge_kutta, second_order};
 
 /// Five times what is typical: M·|c|² is a seventh of J [m]
 const OFFSET: [f64; 2] = [0.03, -0.02];
@@ -34,13 +34,6 @@ fn seen<const N: usize>(run: &Run<N, f64>) -> [f64; 6] {
 fn kinetic<const N: usize>(run: &Run<N, f64>) -> f64 {
     let ([_, _, _, vx, vy, w], robot) = (seen(run), run.plant.robot());
     0.5 * robot.mass * (vx * vx + vy * vy) + 0.5 * robot.inertia * w * w
-}
-
-/// The largest that something is off over a second, by steps of 2 ms and of 1 ms: small, and as the step's square.
-fn second_order(what: &str, most: f64, off: impl Fn(f64) -> f64) {
-    let (coarse, fine) = (off(2e-3), off(1e-3));
-    assert!(fine < most, "{what}: {fine:e}");
-    assert!((3.5..4.5).contains(&(coarse / fine)), "{what}: {coarse:e} and {fine:e}");
 }
 
 fn coast<const N: usize>(mut run: Run<N, f64>, dt: f64, mut off: impl FnMut(&Run<N, f64>) -> f64) -> f64 {

@@ -16,3 +16,10 @@ pub fn runge_kutta<const K: usize>(rate: impl Fn([f64; K]) -> [f64; K], x: [f64;
     let d = rate(moved(c, dt));
     std::array::from_fn(|n| x[n] + dt / 6.0 * (a[n] + 2.0 * b[n] + 2.0 * c[n] + d[n]))
 }
+
+/// Holds the largest that something is off to be small at steps of 1 ms, and to fall as the step's square.
+pub fn second_order(what: &str, most: f64, off: impl Fn(f64) -> f64) {
+    let (coarse, fine) = (off(2e-3), off(1e-3));
+    assert!(fine < most, "{what}: {fine:e}");
+    assert!((3.5..4.5).contains(&(coarse / fine)), "{what}: {coarse:e} and {fine:e}");
+}

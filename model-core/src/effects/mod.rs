@@ -14,6 +14,11 @@ pub mod seams;
 
 mod changes;
 
+mod poses;
+mod ripple;
+
+mod springs;
+
 mod effect;
 pub use effect::{Catalogued, EffectSet, Hooks, Needs, Numbers, State};
 

@@ -23,20 +23,11 @@
 //! Source: Pure delay; sizes: one frame of the paper's camera is 40 ms, vision of the RoboCup small size league adds to
 //! about 20 to 90 ms.
 
-use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
+use crate::effects::poses::Poses;
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
-use crate::effects::{Catalogued, Hooks, Numbers, State};
-use crate::geometry::frames::Pose;
+use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
-
-/// Poses that are remembered.
-const SLOTS: usize = 48;
-
-/// Pieces into which a restart cuts the way that the robot came.
-const PIECES: u8 = 24;
-
-/// Least time between two remembered poses [s]; below 4 ms, so that steps of 4 ms are all kept whatever their rounding.
-const SPACING: f64 = 0.0035;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {
@@ -58,76 +49,14 @@ pub const CARD: Card = Card {
     }],
     needs_current: false,
     signature: "pose behind by velocity times latency, in x, y and heading alike; current and wheel speed right",
-    look_alikes: &[],
+    look_alikes: &[LookAlike {
+        with: "clock_drift",
+        settled_by: "start the robot with a jerk at the beginning of a long run and again at its end: a latency is the same both times, with a clock that drifts the camera sees the second one later or earlier",
+    }],
     code: 12,
     undone: Undone::No("the control loop on the robot does not see the camera"),
     physics: Physics::PASSIVE,
 };
-
-/// The pose a `latency` [s] ago.
-///
-/// `past` holds (time, x, y, θ), newest first. Where it does not reach back far enough, its oldest pose stands.
-#[inline]
-pub fn delayed<T: Real>(latency: T, time: T, now: Pose<T>, past: impl Iterator<Item = [T; 4]>) -> Pose<T> {
-    let (mut newer, mut newer_age) = (now, T::zero());
-    for [then, x, y, theta] in past {
-        let (older, age) = (Pose { x, y, theta }, time - then);
-        if latency <= age && newer_age < age {
-            // on the chord from the newer pose to the older; 0 − a, taken away, keeps even the sign of a zero
-            let share = (latency - newer_age) / (age - newer_age);
-            let chord = |newer: T, older: T| newer - (T::zero() - (older - newer) * share);
-            return Pose {
-                x: chord(newer.x, older.x),
-                y: chord(newer.y, older.y),
-                theta: chord(newer.theta, older.theta),
-            };
-        }
-        (newer, newer_age) = (older, age);
-    }
-    newer
-}
-
-/// The last poses.
-#[derive(Clone, Copy, Debug)]
-pub struct Poses<T> {
-    /// (time, x, y, θ) of each; the oldest stands at `next`
-    ring: [[T; 4]; SLOTS],
-    /// Where the next one goes
-    next: u8,
-    /// How many there are
-    used: u8,
-}
-
-impl<T: Real> Poses<T> {
-    /// (time, x, y, θ), newest first.
-    fn newest_first(&self) -> impl Iterator<Item = [T; 4]> {
-        let (after, before) = self.ring.split_at(usize::from(self.next).min(SLOTS));
-        after.iter().rev().chain(before.iter().rev()).take(usize::from(self.used)).copied()
-    }
-
-    /// Remembers a pose in the place of the oldest.
-    fn remember(&mut self, time: T, pose: Pose<T>) {
-        let Some(slot) = self.ring.get_mut(usize::from(self.next)) else { return };
-        *slot = [time, pose.x, pose.y, pose.theta];
-        self.used = (self.used + 1).min(SLOTS as u8);
-        self.next += 1;
-        if usize::from(self.next) >= SLOTS {
-            self.next = 0;
-        }
-    }
-}
-
-impl<T: Real> Numbers<T> for Poses<T> {
-    fn for_each_mut(&mut self, visit: impl FnMut(&mut T)) {
-        self.ring.as_flattened_mut().iter_mut().for_each(visit);
-    }
-}
-
-impl<T: Real> State<T> for Poses<T> {
-    fn start() -> Self {
-        Self { ring: [[T::zero(); 4]; SLOTS], next: 0, used: 0 }
-    }
-}
 
 /// Latency of the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,7 +76,7 @@ impl<T: Real> Hooks<T> for CameraLatency<T> {
     type State = Poses<T>;
 
     fn sense(&self, s: &Poses<T>, at: &EffectContext<T>, x: &mut Sense<T>) {
-        x.pose = delayed(self.latency.max(T::zero()), at.time, x.pose, s.newest_first());
+        x.pose = s.delayed(self.latency.max(T::zero()), at.time, x.pose);
     }
 
     fn invert_sensing(&self, at: &EffectContext<T>, x: &mut Sense<T>) {
@@ -155,25 +84,19 @@ impl<T: Real> Hooks<T> for CameraLatency<T> {
     }
 
     fn restart(&self, s: &mut Poses<T>, at: &EffectContext<T>) {
-        *s = Poses::start();
-        for k in (0..=PIECES).rev() {
-            let ago = self.latency.max(T::zero()) * T::lit(f64::from(k) / f64::from(PIECES));
-            s.remember(at.time - ago, at.pose.moved(at.twist, -ago));
-        }
+        *s = Poses::along(at, self.latency.max(T::zero()));
     }
 
     fn advance(&self, s: &mut Poses<T>, at: &EffectContext<T>, _: &StepOutcome<T>) {
-        let recent = s.newest_first().next().is_some_and(|[time, ..]| at.time - time < T::lit(SPACING));
-        if !recent {
-            s.remember(at.time, at.pose);
-        }
+        s.pass(at.time, at.pose);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::frames::BodyTwist;
+    use crate::effects::State;
+    use crate::geometry::frames::{BodyTwist, Pose};
 
     const STRAIGHT: BodyTwist<f64> = BodyTwist { v: 0.9, vn: -0.5, w: 0.0 };
     const CURVE: BodyTwist<f64> = BodyTwist { v: 1.5, vn: 0.0, w: 6.0 };
@@ -278,7 +201,8 @@ mod tests {
                 let mut here = EffectContext { time, twist: CURVE, ..EffectContext::default() };
                 CameraLatency { latency }.invert_sensing(&here, &mut x);
                 here.pose = x.pose;
-                let mut s = Poses { ring: [[7.0; 4]; SLOTS], next: 7, used: 9 };
+                // what was remembered before is forgotten
+                let mut s = Poses::along(&at(CURVE, 7.0), 0.1);
                 CameraLatency { latency }.restart(&mut s, &here);
                 assert!(off(read(latency, &s, &here), measured) < 1e-12);
             }
