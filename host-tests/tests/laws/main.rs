@@ -26,3 +26,4 @@ mod uneven;
 mod wheel_friction;
 mod wheel_misalignment;
 mod wheel_radius_error;
+mod winding_inductance;
