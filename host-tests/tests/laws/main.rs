@@ -26,4 +26,5 @@ mod uneven;
 mod wheel_friction;
 mod wheel_misalignment;
 mod wheel_radius_error;
+mod winding_heating;
 mod winding_inductance;

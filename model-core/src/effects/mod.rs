@@ -35,6 +35,7 @@ pub mod electrical {
     pub mod motor_mismatch;
     pub mod speed_loop;
     pub mod supply_sag;
+    pub mod winding_heating;
     pub mod winding_inductance;
 }
 
@@ -90,6 +91,7 @@ mod list {
         electrical::drive_gain::DriveGain,
         electrical::dead_time::DeadTime,
         electrical::motor_mismatch::MotorMismatch,
+        electrical::winding_heating::WindingHeating,
         electrical::winding_inductance::WindingInductance,
         drivetrain::gear_efficiency::GearEfficiency,
         drivetrain::wheel_friction::WheelFriction,
