@@ -22,6 +22,7 @@ mod newton;
 mod one_wheel;
 mod roller_friction;
 mod speed_loop;
+mod torque_saturation;
 mod uneven;
 mod wheel_friction;
 mod wheel_misalignment;

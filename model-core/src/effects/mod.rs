@@ -35,6 +35,7 @@ pub mod electrical {
     pub mod motor_mismatch;
     pub mod speed_loop;
     pub mod supply_sag;
+    pub mod torque_saturation;
     pub mod winding_heating;
     pub mod winding_inductance;
 }
@@ -92,6 +93,7 @@ mod list {
         electrical::dead_time::DeadTime,
         electrical::motor_mismatch::MotorMismatch,
         electrical::winding_heating::WindingHeating,
+        electrical::torque_saturation::TorqueSaturation,
         electrical::winding_inductance::WindingInductance,
         drivetrain::gear_efficiency::GearEfficiency,
         drivetrain::wheel_friction::WheelFriction,
