@@ -13,6 +13,7 @@ mod camera_rotation;
 mod camera_scale;
 mod cog_offset;
 mod command_deadband;
+mod commutation_ripple;
 mod drive_gain;
 mod encoder_lag;
 mod encoder_scale;

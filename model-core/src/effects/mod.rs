@@ -30,6 +30,7 @@ pub use crate::effect_set;
 pub mod electrical {
     pub mod actuation_delay;
     pub mod command_deadband;
+    pub mod commutation_ripple;
     pub mod dead_time;
     pub mod drive_gain;
     pub mod motor_mismatch;
@@ -93,6 +94,7 @@ mod list {
         electrical::dead_time::DeadTime,
         electrical::motor_mismatch::MotorMismatch,
         electrical::winding_heating::WindingHeating,
+        electrical::commutation_ripple::CommutationRipple,
         electrical::torque_saturation::TorqueSaturation,
         electrical::winding_inductance::WindingInductance,
         drivetrain::gear_efficiency::GearEfficiency,
