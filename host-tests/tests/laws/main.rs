@@ -21,6 +21,7 @@ mod gyro_bias;
 mod marker_offset;
 mod newton;
 mod one_wheel;
+mod regeneration_asymmetry;
 mod roller_friction;
 mod speed_loop;
 mod torque_saturation;

@@ -34,6 +34,7 @@ pub mod electrical {
     pub mod dead_time;
     pub mod drive_gain;
     pub mod motor_mismatch;
+    pub mod regeneration_asymmetry;
     pub mod speed_loop;
     pub mod supply_sag;
     pub mod torque_saturation;
@@ -92,6 +93,7 @@ mod list {
         electrical::supply_sag::SupplySag,
         electrical::drive_gain::DriveGain,
         electrical::dead_time::DeadTime,
+        electrical::regeneration_asymmetry::RegenerationAsymmetry,
         electrical::motor_mismatch::MotorMismatch,
         electrical::winding_heating::WindingHeating,
         electrical::commutation_ripple::CommutationRipple,
