@@ -14,6 +14,7 @@ mod camera_scale;
 mod cog_offset;
 mod command_deadband;
 mod commutation_ripple;
+mod current_limit;
 mod drive_gain;
 mod encoder_lag;
 mod encoder_scale;

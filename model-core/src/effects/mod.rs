@@ -31,6 +31,7 @@ pub mod electrical {
     pub mod actuation_delay;
     pub mod command_deadband;
     pub mod commutation_ripple;
+    pub mod current_limit;
     pub mod dead_time;
     pub mod drive_gain;
     pub mod motor_mismatch;
@@ -94,6 +95,7 @@ mod list {
         electrical::drive_gain::DriveGain,
         electrical::dead_time::DeadTime,
         electrical::regeneration_asymmetry::RegenerationAsymmetry,
+        electrical::current_limit::CurrentLimit,
         electrical::motor_mismatch::MotorMismatch,
         electrical::winding_heating::WindingHeating,
         electrical::commutation_ripple::CommutationRipple,
