@@ -12,6 +12,7 @@ mod built_so;
 mod camera_rotation;
 mod camera_scale;
 mod cog_offset;
+mod cogging;
 mod command_deadband;
 mod commutation_ripple;
 mod current_limit;

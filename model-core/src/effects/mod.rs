@@ -29,6 +29,7 @@ pub use crate::effect_set;
 /// Effects between the commanded voltage and the shaft torque.
 pub mod electrical {
     pub mod actuation_delay;
+    pub mod cogging;
     pub mod command_deadband;
     pub mod commutation_ripple;
     pub mod current_limit;
@@ -97,6 +98,7 @@ mod list {
         electrical::regeneration_asymmetry::RegenerationAsymmetry,
         electrical::current_limit::CurrentLimit,
         electrical::motor_mismatch::MotorMismatch,
+        electrical::cogging::Cogging,
         electrical::winding_heating::WindingHeating,
         electrical::commutation_ripple::CommutationRipple,
         electrical::torque_saturation::TorqueSaturation,
