@@ -19,6 +19,7 @@ mod current_limit;
 mod drive_gain;
 mod encoder_lag;
 mod encoder_scale;
+mod friction_warmup;
 mod gyro_bias;
 mod marker_offset;
 mod newton;

@@ -47,6 +47,7 @@ pub mod electrical {
 /// Effects between the shaft torque and the wheel.
 pub mod drivetrain {
     pub mod asymmetric_friction;
+    pub mod friction_warmup;
     pub mod gear_efficiency;
     pub mod rotor_inertia;
     pub mod stribeck;
@@ -107,6 +108,7 @@ mod list {
         drivetrain::wheel_friction::WheelFriction,
         drivetrain::asymmetric_friction::AsymmetricFriction,
         drivetrain::stribeck::Stribeck,
+        drivetrain::friction_warmup::FrictionWarmup,
         drivetrain::rotor_inertia::RotorInertia,
         contact::wheel_radius_error::WheelRadiusError,
         contact::wheel_misalignment::WheelMisalignment,
