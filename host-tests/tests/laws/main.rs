@@ -26,6 +26,7 @@ mod newton;
 mod one_wheel;
 mod regeneration_asymmetry;
 mod roller_friction;
+mod shaft_elasticity;
 mod speed_loop;
 mod torque_saturation;
 mod uneven;

@@ -50,6 +50,7 @@ pub mod drivetrain {
     pub mod friction_warmup;
     pub mod gear_efficiency;
     pub mod rotor_inertia;
+    pub mod shaft_elasticity;
     pub mod stribeck;
     pub mod wheel_friction;
 }
@@ -110,6 +111,7 @@ mod list {
         drivetrain::stribeck::Stribeck,
         drivetrain::friction_warmup::FrictionWarmup,
         drivetrain::rotor_inertia::RotorInertia,
+        drivetrain::shaft_elasticity::ShaftElasticity,
         contact::wheel_radius_error::WheelRadiusError,
         contact::wheel_misalignment::WheelMisalignment,
         contact::wheel_slip::WheelSlip,
