@@ -8,6 +8,7 @@
 mod fixture;
 
 mod asymmetric_friction;
+mod backlash;
 mod built_so;
 mod camera_rotation;
 mod camera_scale;

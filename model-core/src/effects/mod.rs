@@ -47,6 +47,7 @@ pub mod electrical {
 /// Effects between the shaft torque and the wheel.
 pub mod drivetrain {
     pub mod asymmetric_friction;
+    pub mod backlash;
     pub mod friction_warmup;
     pub mod gear_efficiency;
     pub mod rotor_inertia;
@@ -112,6 +113,7 @@ mod list {
         drivetrain::friction_warmup::FrictionWarmup,
         drivetrain::rotor_inertia::RotorInertia,
         drivetrain::shaft_elasticity::ShaftElasticity,
+        drivetrain::backlash::Backlash,
         contact::wheel_radius_error::WheelRadiusError,
         contact::wheel_misalignment::WheelMisalignment,
         contact::wheel_slip::WheelSlip,
