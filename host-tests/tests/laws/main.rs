@@ -31,6 +31,7 @@ mod shaft_elasticity;
 mod speed_loop;
 mod torque_saturation;
 mod uneven;
+mod wheel_eccentricity;
 mod wheel_friction;
 mod wheel_misalignment;
 mod wheel_radius_error;

@@ -60,6 +60,7 @@ pub mod drivetrain {
 pub mod contact {
     pub mod creep;
     pub mod roller_friction;
+    pub mod wheel_eccentricity;
     pub mod wheel_misalignment;
     pub mod wheel_radius_error;
     pub mod wheel_slip;
@@ -115,6 +116,7 @@ mod list {
         drivetrain::shaft_elasticity::ShaftElasticity,
         drivetrain::backlash::Backlash,
         contact::wheel_radius_error::WheelRadiusError,
+        contact::wheel_eccentricity::WheelEccentricity,
         contact::wheel_misalignment::WheelMisalignment,
         contact::wheel_slip::WheelSlip,
         contact::creep::Creep,
