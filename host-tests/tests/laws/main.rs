@@ -27,6 +27,7 @@ mod newton;
 mod one_wheel;
 mod regeneration_asymmetry;
 mod roller_friction;
+mod roller_ripple;
 mod shaft_elasticity;
 mod speed_loop;
 mod torque_saturation;

@@ -60,6 +60,7 @@ pub mod drivetrain {
 pub mod contact {
     pub mod creep;
     pub mod roller_friction;
+    pub mod roller_ripple;
     pub mod wheel_eccentricity;
     pub mod wheel_misalignment;
     pub mod wheel_radius_error;
@@ -117,6 +118,7 @@ mod list {
         drivetrain::backlash::Backlash,
         contact::wheel_radius_error::WheelRadiusError,
         contact::wheel_eccentricity::WheelEccentricity,
+        contact::roller_ripple::RollerRipple,
         contact::wheel_misalignment::WheelMisalignment,
         contact::wheel_slip::WheelSlip,
         contact::creep::Creep,
