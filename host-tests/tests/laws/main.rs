@@ -25,6 +25,7 @@ mod gyro_bias;
 mod marker_offset;
 mod newton;
 mod one_wheel;
+mod quadratic_drag;
 mod regeneration_asymmetry;
 mod roller_friction;
 mod roller_ripple;

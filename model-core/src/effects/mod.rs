@@ -72,6 +72,7 @@ pub mod body {
     pub mod cog_offset;
     pub mod coriolis;
     pub mod floor_tilt;
+    pub mod quadratic_drag;
 }
 
 /// Effects between the truth and the reading.
@@ -126,6 +127,7 @@ mod list {
         body::cog_offset::CogOffset,
         body::coriolis::Coriolis,
         body::floor_tilt::FloorTilt,
+        body::quadratic_drag::QuadraticDrag,
         sensing::camera_latency::CameraLatency,
         sensing::camera_scale::CameraScale,
         sensing::camera_rotation::CameraRotation,
