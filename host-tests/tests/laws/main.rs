@@ -20,6 +20,7 @@ mod current_limit;
 mod drive_gain;
 mod encoder_lag;
 mod encoder_scale;
+mod friction_ellipse;
 mod friction_warmup;
 mod gyro_bias;
 mod marker_offset;

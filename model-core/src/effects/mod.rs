@@ -72,6 +72,7 @@ pub mod body {
     pub mod cog_offset;
     pub mod coriolis;
     pub mod floor_tilt;
+    pub mod friction_ellipse;
     pub mod quadratic_drag;
 }
 
@@ -128,6 +129,7 @@ mod list {
         body::coriolis::Coriolis,
         body::floor_tilt::FloorTilt,
         body::quadratic_drag::QuadraticDrag,
+        body::friction_ellipse::FrictionEllipse,
         sensing::camera_latency::CameraLatency,
         sensing::camera_scale::CameraScale,
         sensing::camera_rotation::CameraRotation,
