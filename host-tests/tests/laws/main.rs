@@ -12,6 +12,7 @@ mod backlash;
 mod built_so;
 mod camera_rotation;
 mod camera_scale;
+mod carpet_nap;
 mod cog_offset;
 mod cogging;
 mod command_deadband;

@@ -69,6 +69,7 @@ pub mod contact {
 
 /// Effects between the forces and the motion of the body.
 pub mod body {
+    pub mod carpet_nap;
     pub mod cog_offset;
     pub mod coriolis;
     pub mod floor_tilt;
@@ -129,6 +130,7 @@ mod list {
         body::coriolis::Coriolis,
         body::floor_tilt::FloorTilt,
         body::quadratic_drag::QuadraticDrag,
+        body::carpet_nap::CarpetNap,
         body::friction_ellipse::FrictionEllipse,
         sensing::camera_latency::CameraLatency,
         sensing::camera_scale::CameraScale,
