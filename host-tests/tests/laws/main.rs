@@ -10,6 +10,7 @@ mod fixture;
 mod asymmetric_friction;
 mod backlash;
 mod built_so;
+mod cable_pull;
 mod camera_rotation;
 mod camera_scale;
 mod carpet_nap;

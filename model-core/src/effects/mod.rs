@@ -69,6 +69,7 @@ pub mod contact {
 
 /// Effects between the forces and the motion of the body.
 pub mod body {
+    pub mod cable_pull;
     pub mod carpet_nap;
     pub mod cog_offset;
     pub mod coriolis;
@@ -129,6 +130,7 @@ mod list {
         body::cog_offset::CogOffset,
         body::coriolis::Coriolis,
         body::floor_tilt::FloorTilt,
+        body::cable_pull::CablePull,
         body::quadratic_drag::QuadraticDrag,
         body::carpet_nap::CarpetNap,
         body::friction_ellipse::FrictionEllipse,
