@@ -22,6 +22,7 @@ mod current_limit;
 mod drive_gain;
 mod encoder_lag;
 mod encoder_scale;
+mod floor_patch;
 mod friction_ellipse;
 mod friction_warmup;
 mod gyro_bias;

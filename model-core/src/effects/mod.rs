@@ -73,6 +73,7 @@ pub mod body {
     pub mod carpet_nap;
     pub mod cog_offset;
     pub mod coriolis;
+    pub mod floor_patch;
     pub mod floor_tilt;
     pub mod friction_ellipse;
     pub mod quadratic_drag;
@@ -133,6 +134,7 @@ mod list {
         body::cable_pull::CablePull,
         body::quadratic_drag::QuadraticDrag,
         body::carpet_nap::CarpetNap,
+        body::floor_patch::FloorPatch,
         body::friction_ellipse::FrictionEllipse,
         sensing::camera_latency::CameraLatency,
         sensing::camera_scale::CameraScale,
