@@ -11,6 +11,7 @@ mod asymmetric_friction;
 mod backlash;
 mod built_so;
 mod cable_pull;
+mod camera_perspective;
 mod camera_rotation;
 mod camera_scale;
 mod carpet_nap;

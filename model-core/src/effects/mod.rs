@@ -82,6 +82,7 @@ pub mod body {
 /// Effects between the truth and the reading.
 pub mod sensing {
     pub mod camera_latency;
+    pub mod camera_perspective;
     pub mod camera_rotation;
     pub mod camera_scale;
     pub mod current_sensor_offset;
@@ -137,6 +138,7 @@ mod list {
         body::floor_patch::FloorPatch,
         body::friction_ellipse::FrictionEllipse,
         sensing::camera_latency::CameraLatency,
+        sensing::camera_perspective::CameraPerspective,
         sensing::camera_scale::CameraScale,
         sensing::camera_rotation::CameraRotation,
         sensing::marker_offset::MarkerOffset,
