@@ -20,6 +20,7 @@ mod cogging;
 mod command_deadband;
 mod commutation_ripple;
 mod current_limit;
+mod current_sensor_gain;
 mod drive_gain;
 mod encoder_lag;
 mod encoder_scale;
