@@ -19,6 +19,7 @@ mod cog_offset;
 mod cogging;
 mod command_deadband;
 mod commutation_ripple;
+mod current_lag;
 mod current_limit;
 mod current_sensor_gain;
 mod drive_gain;

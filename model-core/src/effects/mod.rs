@@ -85,6 +85,7 @@ pub mod sensing {
     pub mod camera_perspective;
     pub mod camera_rotation;
     pub mod camera_scale;
+    pub mod current_lag;
     pub mod current_sensor_gain;
     pub mod current_sensor_offset;
     pub mod encoder_lag;
@@ -145,6 +146,7 @@ mod list {
         sensing::marker_offset::MarkerOffset,
         sensing::encoder_lag::EncoderLag,
         sensing::encoder_scale::EncoderScale,
+        sensing::current_lag::CurrentLag,
         sensing::current_sensor_gain::CurrentSensorGain,
         sensing::current_sensor_offset::CurrentSensorOffset,
         sensing::gyro_bias::GyroBias,
