@@ -15,6 +15,7 @@ mod camera_perspective;
 mod camera_rotation;
 mod camera_scale;
 mod carpet_nap;
+mod clock_drift;
 mod cog_offset;
 mod cogging;
 mod command_deadband;

@@ -85,6 +85,7 @@ pub mod sensing {
     pub mod camera_perspective;
     pub mod camera_rotation;
     pub mod camera_scale;
+    pub mod clock_drift;
     pub mod current_lag;
     pub mod current_sensor_gain;
     pub mod current_sensor_offset;
@@ -140,6 +141,7 @@ mod list {
         body::floor_patch::FloorPatch,
         body::friction_ellipse::FrictionEllipse,
         sensing::camera_latency::CameraLatency,
+        sensing::clock_drift::ClockDrift,
         sensing::camera_perspective::CameraPerspective,
         sensing::camera_scale::CameraScale,
         sensing::camera_rotation::CameraRotation,
