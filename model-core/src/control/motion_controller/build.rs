@@ -146,6 +146,8 @@ fn undone_wheel<const N: usize, T: Real>(settings: &Settings<N, T>, j: usize) ->
         inductance: zero,
         emf_constant: motor.wheel_emf_constant(),
         torque_constant: motor.wheel_torque_constant(),
+        torque: zero,
+        torque_bend: zero,
     };
     let mut shaft = Shaft::default();
     let at = EffectContext { wheel: j, ..EffectContext::default() };

@@ -25,7 +25,7 @@
 //! How to measure it: lay a spirit level on the floor; or drive the same way in both directions and compare.
 //! Source: Gravity on an inclined plane; sizes: estimated for floors of rooms and halls, 0.2 to 2°.
 
-use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, BodyMotion, EffectContext, STANDARD_GRAVITY};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
@@ -61,7 +61,16 @@ pub const CARD: Card = Card {
     ],
     needs_current: false,
     signature: "a constant force in the world frame, at rest too; in the body frame it turns with the heading",
-    look_alikes: &[],
+    look_alikes: &[
+        LookAlike {
+            with: "carpet_nap",
+            settled_by: "lay a spirit level on the floor, or turn the carpet round: the pull of a tilt stays, that of a pile turns with the carpet",
+        },
+        LookAlike {
+            with: "cable_pull",
+            settled_by: "drive the same way once without the cable: what still pulls is the floor",
+        },
+    ],
     code: 11,
     undone: Undone::By("the downhill pull is taken away, the heading being that of the reference"),
     physics: Physics {

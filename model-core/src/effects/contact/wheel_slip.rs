@@ -69,7 +69,13 @@ pub const CARD: Card = Card {
     ],
     needs_current: false,
     signature: "wheels faster than the body at high current; wheels disagree with each other; current itself right",
-    look_alikes: &[LookAlike { with: "creep", settled_by: "drive gently: creep stays at small forces, slip does not" }],
+    look_alikes: &[
+        LookAlike { with: "creep", settled_by: "drive gently: creep stays at small forces, slip does not" },
+        LookAlike {
+            with: "current_limit",
+            settled_by: "lock a wheel and raise its voltage slowly: a limit stops the current, a floor that lets go does not",
+        },
+    ],
     code: 8,
     undone: Undone::No("no current makes the floor hold more; lower the largest acceleration"),
     physics: Physics { corner_at_absent: true, ..Physics::PASSIVE },

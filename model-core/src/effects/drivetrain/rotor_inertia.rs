@@ -57,6 +57,10 @@ pub const CARD: Card = Card {
             with: "inertia",
             settled_by: "lift the wheels off the floor and step the voltage: their run-up shows the rotors without the body",
         },
+        LookAlike {
+            with: "shaft_elasticity",
+            settled_by: "clamp a wheel and step its current: a rotor on a spring swings, one on a rigid shaft stands",
+        },
     ],
     code: 7,
     undone: Undone::Folded("what turns with the wheels is added to M and J: Σ J_w/r²·G_jᵀG_j"),

@@ -25,7 +25,7 @@
 //! Source: Held input behind a pure delay: Åström, Wittenmark, Computer-Controlled Systems, 1997, ch. 2; sizes:
 //! estimated, a part of a PWM period to 10 ms over radio.
 
-use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::changes::Changes;
 use crate::effects::seams::{Bridge, EffectContext, StepOutcome};
 use crate::effects::{Catalogued, Hooks};
@@ -57,7 +57,10 @@ pub const CARD: Card = Card {
     }],
     needs_current: false,
     signature: "current wrong for a moment after every change of voltage, and right in between; speed and pose late with it",
-    look_alikes: &[],
+    look_alikes: &[LookAlike {
+        with: "winding_inductance",
+        settled_by: "lock a wheel, step its voltage and watch the current on an oscilloscope: an inductance bends it at once, a delay leaves it flat and then lets it jump",
+    }],
     code: 1,
     undone: Undone::No("a voltage that arrives late would have to be known before it is asked for"),
     physics: Physics::PASSIVE,

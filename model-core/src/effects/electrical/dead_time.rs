@@ -64,6 +64,10 @@ pub const CARD: Card = Card {
             with: "coulomb_friction",
             settled_by: "compare current with voltage at standstill: friction leaves u = R·i, dead time does not",
         },
+        LookAlike {
+            with: "regeneration_asymmetry",
+            settled_by: "accelerate and brake a lifted wheel with the same change of voltage: dead time takes the same from both currents, diodes only from the one that brakes",
+        },
     ],
     code: 3,
     undone: Undone::By("the voltage lost is added"),

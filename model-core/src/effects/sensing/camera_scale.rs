@@ -46,10 +46,16 @@ pub const CARD: Card = Card {
     }],
     needs_current: false,
     signature: "x and y change by one share more than the wheels say, in all directions alike; heading and wheel speed right",
-    look_alikes: &[LookAlike {
-        with: "wheel_radius",
-        settled_by: "drive a metre along a tape measure: a camera of a wrong scale reads another length than the tape",
-    }],
+    look_alikes: &[
+        LookAlike {
+            with: "wheel_radius",
+            settled_by: "drive a metre along a tape measure: a camera of a wrong scale reads another length than the tape",
+        },
+        LookAlike {
+            with: "camera_perspective",
+            settled_by: "move the robot along a tape measure on both sides of the floor: a wrong scale reads both too long by the same share",
+        },
+    ],
     code: 21,
     undone: Undone::No("the control loop on the robot does not see the camera"),
     physics: Physics::PASSIVE,

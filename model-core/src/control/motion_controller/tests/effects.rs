@@ -5,6 +5,7 @@ use crate::effects::Effect;
 use crate::effects::body::coriolis::Coriolis;
 use crate::effects::body::floor_tilt::FloorTilt;
 use crate::effects::card::Seam;
+use crate::effects::sensing::current_sensor_gain::CurrentSensorGain;
 use crate::effects::sensing::current_sensor_offset::CurrentSensorOffset;
 
 /// Shorter than anything that happens [s].
@@ -26,12 +27,12 @@ impl Case {
 
 #[test]
 fn every_effect_that_is_undone_is_tried() {
-    // an offset of a sensor has a test of its own: the body does not feel it
+    // an error of a sensor has a test of its own: the body does not feel it
     let tried = |kind: &EffectKind| kind.home() == Seam::Sense || CASES.iter().any(|case| case.id == kind.id());
     assert!(EffectKind::ALL.iter().filter(|kind| kind.undone()).all(tried));
 }
 
-const CASES: [Case; 14] = [
+const CASES: [Case; 16] = [
     Case { id: "coriolis", wheel: None, params: &[1.0], by_current: true },
     Case { id: "floor_tilt", wheel: None, params: &[0.0175, 0.5], by_current: true },
     Case { id: "stribeck", wheel: None, params: &[0.5, 0.5, 2.0], by_current: true },
@@ -46,6 +47,8 @@ const CASES: [Case; 14] = [
     Case { id: "wheel_friction", wheel: Some(1), params: &[0.05, 0.0], by_current: true },
     Case { id: "asymmetric_friction", wheel: Some(0), params: &[0.06], by_current: true },
     Case { id: "asymmetric_friction", wheel: Some(2), params: &[-0.06], by_current: true },
+    Case { id: "quadratic_drag", wheel: None, params: &[0.5], by_current: true },
+    Case { id: "carpet_nap", wheel: None, params: &[0.4, 0.5, 0.05], by_current: true },
 ];
 
 /// The worst error of the body's acceleration over random motions, undone and not [m/s², with rad/s² a tenth].
@@ -190,21 +193,22 @@ fn the_wanted_speed_of_a_creeping_wheel_is_the_one_it_has() {
 }
 
 #[test]
-fn a_loop_closed_on_a_sensor_with_an_offset_gives_the_current_wanted() {
+fn a_loop_closed_on_a_sensor_with_an_error_gives_the_current_wanted() {
     let robot = paper::four_wheels::<f64>();
-    let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
-    let offset = CurrentSensorOffset { offset: 0.2 }.into();
-    effects.put(offset, Some(2)).unwrap();
-    compensation.add(offset, Some(2)).unwrap();
-    let plant = Plant::new(robot, effects);
-    let (x, a) = (BodyTwist { v: 0.4, vn: -0.2, w: 1.0 }, BodyTwist { v: 2.0, vn: 1.0, w: -5.0 });
-    let demand = Controller::new(&Settings { compensation, ..settings(robot) }).feedforward(x, a, 0.0);
-    let plain = Controller::new(&settings(robot)).feedforward(x, a, 0.0);
-    // the true currents are the plain ones, and the sensors show what is asked of the loops
-    let mut state = plant.start(0.0, Pose::default(), x);
-    let reading = plant.step(&mut state, &mut [], &Input::Current(plain.current), MOMENT);
-    assert!(gap(reading.current, demand.current) < 1e-15 && gap(demand.current, plain.current) > 0.19);
-    assert_eq!(demand.voltage, plain.voltage);
+    for error in [CurrentSensorOffset { offset: 0.2 }.into(), CurrentSensorGain { gain_error: -0.4 }.into()] {
+        let (mut effects, mut compensation) = (Effects::default(), Compensation::none());
+        effects.put(error, Some(3)).unwrap();
+        compensation.add(error, Some(3)).unwrap();
+        let plant = Plant::new(robot, effects);
+        let (x, a) = (BodyTwist { v: 0.4, vn: -0.2, w: 1.0 }, BodyTwist { v: 2.0, vn: 1.0, w: -5.0 });
+        let demand = Controller::new(&Settings { compensation, ..settings(robot) }).feedforward(x, a, 0.0);
+        let plain = Controller::new(&settings(robot)).feedforward(x, a, 0.0);
+        // the true currents are the plain ones, and the sensors show what is asked of the loops
+        let mut state = plant.start(0.0, Pose::default(), x);
+        let reading = plant.step(&mut state, &mut [], &Input::Current(plain.current), MOMENT);
+        assert!(gap(reading.current, demand.current) < 1e-15 && gap(demand.current, plain.current) > 0.19);
+        assert_eq!(demand.voltage, plain.voltage);
+    }
 }
 
 #[test]
