@@ -10,6 +10,7 @@ mod cases;
 
 use cases::{ALL, Expected, Spoiled};
 use host_tests::golden;
+use model_core::effects::EffectKind;
 use omni_gap::check::{Fault, check};
 use omni_gap::simulate::{AlignedRun, steps_taken};
 use omni_gap::{Options, Report, Session, Verdict, diagnose, known_effects};
@@ -42,8 +43,8 @@ fn outcome(spoiled: &Spoiled) -> Result<Outcome, String> {
     Ok(Outcome { faults, report, rows, one_pass, steps: steps_taken() - before })
 }
 
-/// Passes over the recordings that no diagnosis needs more of.
-const MOST_PASSES: u64 = 600;
+/// Passes over the recordings that no diagnosis needs more of: 21 for each effect, which is tried at every place.
+const MOST_PASSES: u64 = 21 * EffectKind::ALL.len() as u64;
 /// Steps of the plant a row that no recording that passes the door needs more of: half a second in steps of 2.6 ms, shorter than any that are taken.
 const MOST_STEPS_A_ROW: u64 = 200;
 

@@ -82,7 +82,7 @@ impl Hooks<f64> for YieldingShaft {
     type State = ();
 
     fn shaft(&self, _: &(), _: &EffectContext<f64>, x: &mut Shaft<f64>) {
-        *x = Shaft { inertia: self.rotor, stiffness: self.stiffness, damping: self.damping, play: self.play };
+        *x = Shaft { inertia: self.rotor, stiffness: self.stiffness, damping: self.damping, play: self.play, ..*x };
     }
 }
 

@@ -2,7 +2,7 @@
 
 use host_tests::excitation::voltages;
 use model_core::effects::EffectKind;
-use model_core::effects::active::Effects;
+use model_core::effects::active::{Effects, MAX_EFFECTS};
 use model_core::effects::card::{Card, Role, Scope, Seam, Stage};
 use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
@@ -22,20 +22,22 @@ fn energy<const N: usize, T: Real + Into<f64>>(run: &Run<N, T>, inertia: f64) ->
     sum
 }
 
-/// Every effect of some kind that can sit on all wheels or on the robot, typical and together, and the inertia that they
-/// add to a wheel [kg·m²].
-fn everything<const N: usize, T: Real>(of: impl Fn(&Card) -> bool) -> (Effects<N, T>, f64) {
-    let (mut all, mut inertia) = (Effects::default(), 0.0);
-    for effect in &EffectKind::ALL {
-        let card = effect.card();
-        if card.scope != Scope::OneWheel && of(card) {
-            let params = typical(card);
-            inertia += card.physics.inertia.map_or(0.0, |k| params[k]);
+/// Every effect of some kind that can sit on all wheels or on the robot, typical, as many together as a model has room for
+/// beside another, and the inertia that they add to a wheel [kg·m²].
+fn everything<const N: usize, T: Real>(of: impl Fn(&Card) -> bool) -> Vec<(Effects<N, T>, f64)> {
+    let wanted = |effect: &&EffectKind| effect.card().scope != Scope::OneWheel && of(effect.card());
+    let all: Vec<&EffectKind> = EffectKind::ALL.iter().filter(wanted).collect();
+    let together = |group: &[&EffectKind]| {
+        let (mut effects, mut inertia) = (Effects::default(), 0.0);
+        for effect in group {
+            let params = typical(effect.card());
+            inertia += effect.card().physics.inertia.map_or(0.0, |k| params[k]);
             let params: Vec<T> = params.into_iter().map(T::lit).collect();
-            all.add(*effect, None, &params).expect("room");
+            effects.add(**effect, None, &params).expect("room for as many");
         }
-    }
-    (all, inertia)
+        (effects, inertia)
+    };
+    all.chunks(MAX_EFFECTS - 1).map(together).collect()
 }
 
 /// Each friction-like effect at several sizes, and all at once.
@@ -64,8 +66,9 @@ fn friction_like<const N: usize>(robot: Robot<N, f64>, check: impl Fn(&str, Plan
             }
         }
     }
-    let (all, inertia) = everything(|card| card.physics.passive);
-    check("all together", Plant::new(robot, all), inertia);
+    for (all, inertia) in everything(|card| card.physics.passive) {
+        check("all together", Plant::new(robot, all), inertia);
+    }
     check("nothing", plain(robot), 0.0);
 }
 
@@ -203,18 +206,27 @@ fn a_robot_with_friction_on_its_shafts_stays_exactly_where_it_is() {
             .filter(|card| card.seams == [Seam::Gear] && card.scope != Scope::OneWheel)
         {
             let alone = |other: &Card| other.id == card.id;
-            assert!(!moves(three::<f64>(), 0.08, everything(alone).0, theta), "three wheels, {}, {theta}", card.id);
-            assert!(!moves(four::<f64>(), 0.08, everything(alone).0, theta), "four wheels, {}, {theta}", card.id);
-            assert!(!moves(four::<f32>(), 0.08, everything(alone).0, theta), "single precision, {}, {theta}", card.id);
+            assert!(!moves(three::<f64>(), 0.08, everything(alone)[0].0, theta), "three wheels, {}, {theta}", card.id);
+            assert!(!moves(four::<f64>(), 0.08, everything(alone)[0].0, theta), "four wheels, {}, {theta}", card.id);
+            assert!(
+                !moves(four::<f32>(), 0.08, everything(alone)[0].0, theta),
+                "single precision, {}, {theta}",
+                card.id
+            );
         }
         // with the turning force, and all that lies between command and wheel; a contact that gives way does not hold
-        let held = |card: &Card| card.physics.direction.is_none() && card.stage() != Stage::Contact;
-        assert!(!moves(three::<f64>(), 0.08, everything(held).0, theta), "three wheels, {theta}");
-        assert!(!moves(four::<f64>(), 0.08, everything(held).0, theta), "four wheels, {theta}");
-        assert!(!moves(four::<f32>(), 0.08, everything(held).0, theta), "four wheels, single precision, {theta}");
+        let held = |card: &Card| card.physics.passive && card.stage() != Stage::Contact;
+        let stays = |moves: bool, what: &str| assert!(!moves, "{what}, {theta}");
+        everything(held)
+            .into_iter()
+            .for_each(|(all, _)| stays(moves(three::<f64>(), 0.08, all, theta), "three wheels"));
+        everything(held).into_iter().for_each(|(all, _)| stays(moves(four::<f64>(), 0.08, all, theta), "four wheels"));
+        everything(held)
+            .into_iter()
+            .for_each(|(all, _)| stays(moves(four::<f32>(), 0.08, all, theta), "single precision"));
     }
     // static friction is 1.5 times the kinetic: between the two a robot at rest stays
-    assert!(!moves(four::<f64>(), 0.1, everything(|card| card.id == "stribeck").0, 0.5), "stribeck holds 0.12");
+    assert!(!moves(four::<f64>(), 0.1, everything(|card| card.id == "stribeck")[0].0, 0.5), "stribeck holds 0.12");
     assert!(moves(four::<f64>(), 0.1, Effects::default(), 0.5));
 }
 

@@ -27,6 +27,12 @@ fn smooth_at_1_ms(id: &str) -> [f64; 5] {
     match id {
         // c·ω² bends by 2·c·(ω̇² + ω·ω̈), some 500 m/s⁴ at 40 rad/s and 100 rad/s²: times Δt²/12 over 0.3 s, 12 µm/s more
         "cog_offset" => [2.4e-5, 1.2e-4, 8e-6, 2e-5, 2.4e-5],
+        // 700 rad/s of ringing are (ω₀·Δt)²/12, 4 %, slow: after a step of 0.5 N·m they have 17 rad/s of the rotor, 0.5 A, and
+        // by a share J/J_load of it, a tenth, of the body
+        "shaft_elasticity" => [2.5e-3, 2.8e-2, 2e-4, 8e-4, 4.5e-2],
+        // where a motor begins to brake or stops braking, the force's slope is that of the step's beginning: a·Δt²/(2·τ) of
+        // 8 m/s² and 100 rad/s² more, 13 µm/s and 290 µrad/s
+        "regeneration_asymmetry" => [2.1e-5, 4.1e-4, 8e-6, 4e-5, 2.2e-5],
         _ => SMOOTH_AT_1_MS,
     }
 }
@@ -38,12 +44,37 @@ fn late_at_1_ms(id: &str) -> Option<[f64; 5]> {
         "supply_sag" => [2e-4, 3e-3, 1e-4, 1e-3, 2e-4],
         // the budget of a wheel is that of its speed at the step's beginning: a part of its friction, up to a half of
         // 1.6 m/s² and of 12 rad/s², is a step late at every start and reversal
-        "gear_efficiency" | "stribeck" | "supply_sag, dead_time, gear_efficiency" => [8e-4, 8e-3, 3e-4, 2e-3, 8e-4],
+        // (friction_ellipse: that of the body is the share of an axis in the speed at the step's beginning)
+        "friction_ellipse" | "gear_efficiency" | "stribeck" | "supply_sag, dead_time, gear_efficiency" => {
+            [8e-4, 8e-3, 3e-4, 2e-3, 8e-4]
+        }
         // where two directions come to rest in one step, the instant of one changes with the other's friction, which is not
         // looked at again: that friction, 0.6 N at one rim of the light body, is up to a step late
-        "wheel_friction" | "asymmetric_friction" | "roller_friction" => [3.2e-4, 3.2e-3, 1e-4, 1e-3, 4e-4],
+        "wheel_friction" | "asymmetric_friction" | "roller_friction" | "friction_warmup" => {
+            [3.2e-4, 3.2e-3, 1e-4, 1e-3, 4e-4]
+        }
+        // Near rest a detent more or less is passed, which lends 2·√(τ_c² + τ_s²)/(N·l) = 48 µJ: 1 cm/s at a rim that moves as
+        // 1 kg, and 0.5 mm from one to the next
+        "cogging" => [1e-2, 6e-2, 5e-4, 6e-3, 1e-2],
+        // the radius is that at the step's beginning: 5e-3 of 16 N on 1 kg, and on 0.0169 kg·m² at 89 mm, for half a step twice
+        "wheel_eccentricity" | "roller_ripple" => [8e-5, 5e-4, 1e-5, 6e-5, 8e-5],
+        // the instant at which teeth meet is up to a step late: a rotor that 0.1 N·m has driven through the play turns 7 rad/s
+        // faster, which is 0.2 A, and 0.013 N·s at a rim
+        "backlash" => [1e-2, 0.13, 1e-3, 4e-3, 0.25],
+        // the resistance is that of the step's beginning, half a step late: it rises by α·R_θ/τ times up to 70 W, 0.07/s, so
+        // that 4 A are 0.14 mA off, and the speed by as much as such a current makes in 0.1 s
+        "winding_heating" => [3e-5, 3e-4, 1e-5, 5e-5, 1.4e-4],
+        // where friction holds until the current has risen enough, a part of L/R = 0.12 ms of it is not spent, in any step
+        // that is longer: 1.6 m/s² and 12 rad/s²
+        "winding_inductance" => [1.9e-4, 1.4e-3, 6e-5, 5e-4, 3e-4],
+        // along its way a ripple is a row of hills, a·n·l/r = 320/m of the force: on their crests a slow wheel's error grows
+        // by e in 1/√(320/m·1 m/s²) = 56 ms, by 400 in a third of a second
+        "commutation_ripple" => [3.2e-3, 4.8e-2, 1.6e-3, 8e-3, 4e-3],
         // poses are remembered 4 ms apart, with chords between them: 100 rad/s² and 8 m/s² times (4 ms)²/8, at any step
-        "camera_latency" => [8e-6, 1.2e-4, 3e-5, 4e-4, 1e-5],
+        "camera_latency" | "clock_drift" => [8e-6, 1.2e-4, 3e-5, 4e-4, 1e-5],
+        // what is read is the mean over a step, half a step later than its beginning: of a jump by 18 V, 4.2 A, which a lag
+        // of 2 ms smooths, Δt/(2·T) at the most
+        "current_lag" => [8e-6, 1.2e-4, 4e-6, 2e-5, 1.05],
         // a wheel that slips and has inertia ends an implicit step, first order: it spins up by 0.2 N·m/J_w = 2600 rad/s²,
         // so that its speed is 1.3 rad/s late in a step of 1 ms and its current 40 mA; the force that is late with it turns
         // the light body
@@ -144,9 +175,15 @@ fn the_steps_error_is_what_the_page_says() {
     let mut page = String::from("# What a step costs\n\n");
     page += "The largest error over two seconds of random driving at up to 9 V (drives that control the speed: 9 rad/s), each model against itself at steps of 10 µs.\n";
     page += "Every effect has its typical size. Halving the step quarters the error, but where friction depends on the speed\n";
-    page += "(gear_efficiency, stribeck), where the bus depends on the currents (supply_sag), and where a wheel with inertia slips:\n";
-    page += "there it halves it. Where two directions come to rest in one step (wheel_friction, asymmetric_friction,\n";
-    page += "roller_friction), it depends on the instants, up to a step late.\n";
+    page +=
+        "or on its direction (gear_efficiency, stribeck, friction_ellipse), where the bus depends on the currents\n";
+    page += "(supply_sag), where a wheel with inertia slips, where a mean over the step is read (current_lag), where the radius\n";
+    page += "is that at a step's beginning (wheel_eccentricity, roller_ripple), and where a motor is as warm as before the step\n";
+    page += "(winding_heating): there it halves it. Where two directions come to rest in one step (wheel_friction,\n";
+    page += "asymmetric_friction, roller_friction, friction_warmup), where teeth meet (backlash), and where a current rises while\n";
+    page += "friction still holds (winding_inductance), it depends on the instants, up to a step late. Which detent a robot stops\n";
+    page += "in or starts from is decided by the smallest differences (cogging), and along a ripple (commutation_ripple) errors\n";
+    page += "grow.\n";
     let _ =
         page.write_str("`host-tests/tests/proof/integration.rs` makes this page and holds its figures to bounds.\n");
     for (wheels, rows) in [("Three wheels", &three), ("Four wheels", &four)] {

@@ -10,7 +10,7 @@ use model_core::effects::{EffectKind, causes};
 use model_core::plant::robot::Nominal;
 
 /// Units that parameters may have, and the suffix of a key that has it.
-const UNITS: [(&str, &str); 25] = [
+const UNITS: [(&str, &str); 30] = [
     ("1", ""),
     ("V", "_V"),
     ("A", "_A"),
@@ -35,7 +35,12 @@ const UNITS: [(&str, &str); 25] = [
     ("N·m·s", "_Nms"),
     ("N·s/m", "_N_s_per_m"),
     ("N·m/rad", "_Nm_per_rad"),
+    ("rad/(N·m)", "_rad_per_Nm"),
     ("V/A", "_V_per_A"),
+    ("1/m", "_per_m"),
+    ("N·s²/m²", "_N_s2_per_m2"),
+    ("K/W", "_K_per_W"),
+    ("1/A²", "_per_A2"),
 ];
 
 /// Most numbers that an effect may remember for one wheel: twelve effects on four wheels still fit in 48 kB of f32.
@@ -191,7 +196,8 @@ fn cards_say_how_an_effect_is_undone_or_why_not_and_what_physics_says_of_it() {
         let known = |k: usize| card.params.get(k).unwrap_or_else(|| panic!("{} has no parameter {k}", card.id));
         assert!(physics.inertia.is_none_or(|k| known(k).unit == "kg·m²"), "{}: an inertia", card.id);
         assert!(physics.direction.is_none_or(|k| known(k).unit == "rad"), "{}: a direction", card.id);
-        assert!(physics.place.iter().flatten().all(|k| known(*k).unit == "m"), "{}: a place", card.id);
+        let places = physics.place.iter().chain(&physics.world_place).flatten();
+        assert!(places.into_iter().all(|k| known(*k).unit == "m"), "{}: a place", card.id);
         for p in physics.mirrored.iter().map(|k| known(*k)) {
             assert_eq!(p.within.0, -p.within.1, "{}.{}: what a mirror turns round has both signs", card.id, p.key);
         }

@@ -63,10 +63,21 @@ impl Described for Bridge<f64> {
     fn random(rng: &mut SeededRng) -> Self {
         let voltage = rng.between(-12.0, 12.0);
         let current = rng.between(-4.0, 4.0);
-        Self { command: voltage, bus: 12.0, current, voltage, sampled: voltage, drop: 0.1, drop_current: 0.02 }
+        Self {
+            command: voltage,
+            bus: 12.0,
+            current,
+            voltage,
+            sampled: voltage,
+            drop: 0.1,
+            braking_drop: 0.1,
+            drop_current: 0.02,
+            current_limit: 3.0,
+        }
     }
     fn numbers(&self) -> Vec<f64> {
-        vec![self.command, self.bus, self.current, self.voltage, self.sampled, self.drop, self.drop_current]
+        let Self { command, bus, current, voltage, sampled, drop, braking_drop, drop_current, current_limit } = *self;
+        vec![command, bus, current, voltage, sampled, drop, braking_drop, drop_current, current_limit]
     }
 }
 
@@ -79,10 +90,13 @@ impl Described for Winding<f64> {
             inductance: rng.between(0.0, 1e-3),
             emf_constant: rng.between(0.05, 0.2),
             torque_constant: rng.between(0.05, 0.2),
+            torque: rng.between(-0.01, 0.01),
+            torque_bend: rng.between(-1e-3, 0.0),
         }
     }
     fn numbers(&self) -> Vec<f64> {
-        vec![self.current, self.speed, self.resistance, self.inductance, self.emf_constant, self.torque_constant]
+        let Self { current, speed, resistance, inductance, emf_constant, torque_constant, torque, torque_bend } = *self;
+        vec![current, speed, resistance, inductance, emf_constant, torque_constant, torque, torque_bend]
     }
 }
 
@@ -93,10 +107,11 @@ impl Described for Shaft<f64> {
             stiffness: rng.between(0.0, 50.0),
             damping: rng.between(0.0, 1e-2),
             play: rng.between(0.0, 0.05),
+            rotor: rng.between(0.0, 1e-4),
         }
     }
     fn numbers(&self) -> Vec<f64> {
-        vec![self.inertia, self.stiffness, self.damping, self.play]
+        vec![self.inertia, self.stiffness, self.damping, self.play, self.rotor]
     }
 }
 
@@ -186,10 +201,13 @@ fn touches<D: Described>(seed: u64, hook: impl Fn(&EffectContext<f64>, &mut D)) 
     })
 }
 
-/// A memory as it is after some steps.
+/// When the hooks are asked: when a run has gone on long enough for what grows with time to show [s].
+const NOW: f64 = 10.0;
+
+/// A memory as it is after some steps, just before then.
 fn remembered(effect: &Effect<f64>, rng: &mut SeededRng) -> Vec<EffectState<f64>> {
     let mut s: Vec<_> = effect.start().into_iter().collect();
-    effect.restart(&mut s, &EffectContext { time: -0.1, ..at(rng) });
+    effect.restart(&mut s, &EffectContext { time: NOW - 0.1, ..at(rng) });
     for k in 0..40 {
         let done = StepOutcome {
             command: rng.between(-9.0, 9.0),
@@ -200,7 +218,7 @@ fn remembered(effect: &Effect<f64>, rng: &mut SeededRng) -> Vec<EffectState<f64>
             bus_current: rng.between(-1.0, 9.0),
             bus: 12.0,
         };
-        effect.advance(&mut s, &EffectContext { time: -0.1 + 2.5e-3 * f64::from(k), ..at(rng) }, &done);
+        effect.advance(&mut s, &EffectContext { time: NOW - 0.1 + 2.5e-3 * f64::from(k), ..at(rng) }, &done);
     }
     s
 }
@@ -214,7 +232,7 @@ fn hooks_that_a_card_does_not_list_change_nothing_and_those_it_lists_do() {
         let s = remembered(&effect, &mut rng);
         let seed = rng.bits();
         // the description is asked just after what is remembered
-        let now = |at: &EffectContext<f64>| EffectContext { time: 0.0, ..*at };
+        let now = |at: &EffectContext<f64>| EffectContext { time: NOW, ..*at };
         for seam in Seam::ALL {
             let touched = match seam {
                 Seam::SpeedDrive => touches(seed, |at, x| effect.speed_drive(&s, &now(at), x)),
@@ -263,9 +281,11 @@ fn only_a_law_that_says_so_looks_at_the_current() {
         let s = remembered(&effect, &mut SeededRng::new(2));
         let mut rng = SeededRng::new(6);
         let looks = (0..50).any(|_| {
-            let at = EffectContext { time: 0.0, ..at(&mut rng) };
+            let at = EffectContext { time: NOW, ..at(&mut rng) };
             let (mut a, mut b) = (Bridge::random(&mut rng), Winding::random(&mut rng));
-            let (mut c, mut d) = (Bridge { current: -a.current, ..a }, Winding { current: -b.current, ..b });
+            // a law may look at the sign of the current, or at its size
+            let other = rng.between(-4.0, 4.0);
+            let (mut c, mut d) = (Bridge { current: other, ..a }, Winding { current: other, ..b });
             effect.bridge(&s, &at, &mut a);
             effect.bridge(&s, &at, &mut c);
             effect.winding(&s, &at, &mut b);
