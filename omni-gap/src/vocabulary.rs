@@ -83,6 +83,15 @@ pub enum Axis {
 impl Axis {
     /// All axes: v, vn, ω.
     pub const ALL: [Axis; 3] = [Axis::V, Axis::Vn, Axis::W];
+
+    /// Its symbol.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Axis::V => "v",
+            Axis::Vn => "vn",
+            Axis::W => "ω",
+        }
+    }
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ pub mod findings;
 pub mod knobs;
 mod predictions;
 mod seam;
+pub mod selftest;
 mod stepwise;
 
 pub use evidence::Evidence;

@@ -8,6 +8,7 @@ mod changes;
 mod considered;
 mod gap;
 mod place;
+mod selftest;
 mod traces;
 
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,7 @@ pub use changes::{EffectChange, FileChanges, NumberChange};
 pub use considered::{ConsideredCause, EstimatedBy, EstimatedNumber};
 pub use gap::{Gap, HorizonError, Shrink, SignalGap};
 pub use place::{Regime, Where};
+pub use selftest::{Rival, SeenCause, SelfTest, WithSensor};
 pub use traces::{SignalTrace, Traces};
 
 use super::knobs::Knobs;

@@ -85,7 +85,7 @@ pub fn freed_priors() -> Vec<FreedPrior> {
 }
 
 /// True if an effect has a say in a model that is driven so: the drive's own speed loop, where speeds are set.
-fn has_a_say(card: &Card, chain: Chain) -> bool {
+pub fn has_a_say(card: &Card, chain: Chain) -> bool {
     chain == Chain::SetSpeed || !card.of_speed_drive()
 }
 

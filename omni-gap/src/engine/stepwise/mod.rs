@@ -29,7 +29,7 @@ use super::seam::Engine;
 use crate::identify::Windows;
 use crate::simulate::{Model, supply_seen};
 use crate::vocabulary::{Progress, Verdict};
-use candidate::Cause;
+pub(super) use candidate::{Cause, freed_priors, has_a_say};
 use distances::Plants;
 use scored::Data;
 use search::{Outcome, Search};

@@ -1,0 +1,95 @@
+//! What the self-test says: of each cause, from what size on it would be found and told from its rivals.
+
+use serde::Serialize;
+
+use crate::vocabulary::{Axis, Kind};
+
+/// What recordings of a robot could show.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SelfTest {
+    /// The robot's name.
+    pub robot: String,
+    /// The groups of signals that are logged.
+    pub logged: Vec<&'static str>,
+    /// How many numbers are measured.
+    pub numbers: usize,
+    /// Every cause, in the order of the catalogue; of effects on one wheel, that wheel where they show least.
+    pub causes: Vec<SeenCause>,
+    /// What one more sensor would bring.
+    pub with_sensor: Vec<WithSensor>,
+}
+
+/// A cause, and how well recordings show it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SeenCause {
+    /// Its id.
+    pub cause: &'static str,
+    /// Effect or parameter.
+    pub kind: Kind,
+    /// The wheel that it sits on.
+    pub wheel: Option<usize>,
+    /// The body axis, of friction that is wrong on one alone.
+    pub axis: Option<Axis>,
+    /// The number that sizes it: of an effect the first, of a parameter its relative error.
+    pub parameter: &'static str,
+    /// That number's unit.
+    pub unit: &'static str,
+    /// The typical value of that number; of a parameter 10 %.
+    pub typical: f64,
+    /// How far the typical size moves the recordings beyond what starts and nominal numbers can imitate [σ], all numbers
+    /// taken together.
+    pub sigma: f64,
+    /// The share of its signature, squared, that nominal numbers imitate [1].
+    pub imitated: f64,
+    /// True if it shows the more the smaller that number is, as a coefficient of friction; the sizes below are then the
+    /// largest.
+    pub shows_below: bool,
+    /// The size from which on a diagnosis finds something; none where the number has no such value.
+    pub seen_from: Option<f64>,
+    /// The same as a multiple of the typical departure [1].
+    pub seen_times: Option<f64>,
+    /// The size from which on it also tells the cause from every other; none where the number has no such value.
+    pub named_from: Option<f64>,
+    /// The same as a multiple of the typical departure [1].
+    pub named_times: Option<f64>,
+    /// Causes that it is not told from at its typical size, the nearest first.
+    pub rivals: Vec<Rival>,
+}
+
+/// A cause that another can be mistaken for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Rival {
+    /// Its id.
+    pub cause: &'static str,
+    /// Its body axis, of friction that is wrong on one alone.
+    pub axis: Option<Axis>,
+    /// The angle between what is left of both [rad]; 0: no recording of this kind tells them apart.
+    pub angle_rad: f64,
+}
+
+/// What a sensor would bring.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WithSensor {
+    /// The group of signals.
+    pub sensor: &'static str,
+    /// Causes that would then be seen at their typical size.
+    pub seen: Vec<&'static str>,
+    /// Causes that would then be told from all others at their typical size.
+    pub named: Vec<&'static str>,
+}
+
+impl SelfTest {
+    /// What a faster camera would bring, by the answer with one.
+    pub fn with_faster_camera(&self, faster: &SelfTest) -> WithSensor {
+        let newly = |times: &dyn Fn(&SeenCause) -> Option<f64>| -> Vec<&'static str> {
+            let shows = |cause: &SeenCause| times(cause).is_some_and(|times| times <= 1.0);
+            let pairs = self.causes.iter().zip(&faster.causes);
+            let mut ids: Vec<&str> =
+                pairs.filter(|(now, then)| !shows(now) && shows(then)).map(|(now, _)| now.cause).collect();
+            ids.dedup();
+            ids
+        };
+        let (seen, named) = (newly(&|cause| cause.seen_times), newly(&|cause| cause.named_times));
+        WithSensor { sensor: "a camera twice as fast", seen, named }
+    }
+}

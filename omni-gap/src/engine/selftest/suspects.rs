@@ -1,0 +1,90 @@
+//! Who can be the cause, and which columns of signatures are whose.
+
+use std::ops::Range;
+
+use model_core::effects::EffectKind;
+use model_core::effects::card::{Card, Role, Scope};
+use model_core::plant::robot::Nominal;
+
+use crate::engine::stepwise::{Cause, freed_priors, has_a_say};
+use crate::simulate::{Chain, EffectInstance};
+
+/// A cause, and where its signatures stand.
+#[derive(Clone, Debug)]
+pub(super) struct Suspect {
+    pub cause: Cause,
+    /// Its signature at its typical size.
+    pub typical: usize,
+    /// What a fit of it can make of its free numbers: each alone.
+    pub free: Range<usize>,
+}
+
+/// What one column is the signature of.
+#[derive(Clone, Debug)]
+pub(super) enum Column {
+    /// An effect that is there.
+    Effect(EffectInstance),
+    /// Nominal factors that are wrong together.
+    Factors(Vec<Nominal>),
+}
+
+/// All suspects of a model that is driven so and carries these effects already, and their columns.
+pub(super) fn suspects<const N: usize>(
+    present: &[EffectInstance],
+    chain: Chain,
+    shape_moved: f64,
+) -> (Vec<Suspect>, Vec<Column>) {
+    let (mut suspects, mut columns) = (Vec::new(), Vec::new());
+    let absent = |card: &&Card| !present.iter().any(|effect| effect.id == card.id);
+    for card in EffectKind::ALL.iter().map(|kind| kind.card()).filter(|card| has_a_say(card, chain)).filter(absent) {
+        let places: Vec<Option<usize>> =
+            if card.scope == Scope::OneWheel { (0..N).map(Some).collect() } else { vec![None] };
+        for wheel in places {
+            put(Cause::Effect(card, wheel), of_effect(card, wheel, shape_moved), &mut suspects, &mut columns);
+        }
+    }
+    for release in freed_priors() {
+        let own = |p: &Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
+        let factors: Vec<Nominal> = Nominal::ALL.into_iter().filter(own).collect();
+        let each = factors.iter().map(|factor| Column::Factors(vec![*factor])).collect();
+        put(Cause::Parameter(release), (Column::Factors(factors.clone()), each), &mut suspects, &mut columns);
+    }
+    (suspects, columns)
+}
+
+fn put(cause: Cause, (typical, free): (Column, Vec<Column>), suspects: &mut Vec<Suspect>, columns: &mut Vec<Column>) {
+    let at = columns.len();
+    columns.push(typical);
+    let alone = free.len() < 2;
+    if !alone {
+        columns.extend(free);
+    }
+    suspects.push(Suspect { cause, typical: at, free: if alone { at..at + 1 } else { at + 1..columns.len() } });
+}
+
+/// The effect at its typical size; and each of its sizes alone, and with each shape moved by a share of its typical value.
+fn of_effect(card: &'static Card, wheel: Option<usize>, shape_moved: f64) -> (Column, Vec<Column>) {
+    let typical = EffectInstance::typical(card, wheel);
+    let with = |change: &dyn Fn(&mut Vec<f64>)| {
+        let mut effect = typical.clone();
+        change(&mut effect.params);
+        Column::Effect(effect)
+    };
+    let sizes: Vec<usize> = (0..card.params.len()).filter(|k| card.params[*k].role == Role::Size).collect();
+    let each_size = sizes.iter().map(|size| {
+        with(&|params| {
+            for other in sizes.iter().filter(|other| *other != size) {
+                params[*other] = card.params[*other].absent;
+            }
+        })
+    });
+    let shapes = card.params.iter().enumerate().filter(|(_, p)| p.role == Role::Shape);
+    let each_shape = shapes.map(|(k, p)| {
+        let (low, high) = p.within;
+        let by = if low < 0.0 { shape_moved * 0.5 * (high - low) } else { shape_moved * p.typical };
+        let moved = if p.typical + by <= high { p.typical + by } else { p.typical - by };
+        with(&|params| params[k] = moved)
+    });
+    let free = each_size.chain(each_shape).collect();
+    (Column::Effect(typical.clone()), free)
+}
