@@ -16,5 +16,7 @@ mod folders;
 mod manners;
 #[path = "cli/robot.rs"]
 mod robot;
+#[path = "cli/selftest.rs"]
+mod selftest;
 #[path = "cli/validate.rs"]
 mod validate;

@@ -14,6 +14,7 @@
 //! | [`check`](fn@check) | [`Fault`]s of the recordings, each with a code and a mend |
 //! | [`experiments`], [`rehearse`] | [`PlannedExperiments`]: what to play so that a robot's numbers can be told |
 //! | [`sensitivity`](fn@sensitivity) | [`Sensitivity`]: which numbers of a robot file its motion depends on |
+//! | [`selftest`](fn@selftest) | [`SelfTest`]: which causes planned recordings could show, and from what size on |
 //! | [`export`], [`record`](fn@record) | the parameter block of a robot file; a [`Run`] of what a robot sent, and its frames |
 //!
 //! Sessions come from files ([`Session::load`]) or from memory ([`Session`] has public fields). Whatever is wrong with
@@ -25,10 +26,13 @@ mod experiment;
 mod identify;
 mod predict;
 mod record;
+mod selftest;
 mod simulate;
 
 pub use crate::check::{Fault, check};
 pub use crate::diagnosis::{Diagnosis, Options, diagnose};
+pub use crate::engine::findings::SelfTest;
+pub use crate::engine::knobs::SelftestKnobs;
 pub use crate::engine::{Findings, Knobs};
 pub use crate::error::Error;
 pub use crate::known::known_effects;
@@ -42,4 +46,5 @@ pub use experiment::{PlannedExperiments, PlannedScript, experiments, rehearse};
 pub use identify::{FitRemark, FittedNumber, Identification, identify};
 pub use predict::predict;
 pub use record::{Recorded, Recording, record};
+pub use selftest::{Driven, FASTER_CAMERA, PlannedRuns, selftest};
 pub use simulate::simulate;

@@ -19,6 +19,7 @@ mod identify;
 mod output_path;
 mod predict;
 mod record;
+mod selftest;
 mod sensitivity;
 mod simulate;
 mod validate;
@@ -54,6 +55,7 @@ enum Command {
     Validate(validate::Validate),
     Simulate(simulate::Simulate),
     Sensitivity(sensitivity::Sensitivity),
+    Selftest(selftest::Selftest),
     Explain(explain::Explain),
     Export(export::Export),
     Record(record::Record),
@@ -77,6 +79,7 @@ impl Cli {
             Command::Validate(c) => c.run(&console),
             Command::Simulate(c) => c.run(&console),
             Command::Sensitivity(c) => c.run(&console),
+            Command::Selftest(c) => c.run(&console),
             Command::Explain(c) => c.run(&console),
             Command::Export(c) => c.run(&console),
             Command::Record(c) => c.run(&console),

@@ -18,6 +18,7 @@ mod picture;
 #[cfg(test)]
 mod sample;
 mod scale;
+mod selftest;
 mod sensitivity;
 mod terminal;
 mod validate;
@@ -30,6 +31,7 @@ pub use instructions::{Instructions, ScriptSaid, instructions};
 pub use model::{About, Fault, Report, SCHEMA};
 pub use number::{estimate, num, percent};
 pub use picture::{MEASURED, Panel, Pictures, Series};
+pub use selftest::{selftest_html, selftest_json, selftest_terminal, write_selftest};
 pub use sensitivity::{sensitivity_html, sensitivity_terminal, write_sensitivity};
 pub use terminal::terminal;
 pub use write::{Written, write};

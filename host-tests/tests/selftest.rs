@@ -1,0 +1,125 @@
+//! The self-test against what it speaks of: recordings, and what a diagnosis finds in them.
+
+use std::path::Path;
+
+use host_tests::paper_source::tree;
+use omni_gap::api::{Driven, PlannedRuns, SelfTest, SelftestKnobs, selftest};
+use omni_gap::engine::findings::SeenCause;
+use omni_gap::log::{Channel, Group, RobotFile, Run};
+use omni_gap::simulate::{EffectInstance, SignalGroup};
+use omni_gap::synthesize::{Scenario, synthesize};
+use omni_gap::{Options, diagnose, known_effects};
+
+/// What is planned: runs, length [s], rows a second [1/s], camera frames a second [1/s] and largest voltage [V].
+const RUNS: usize = 6;
+const DURATION: f64 = 6.0;
+const RATE: f64 = 200.0;
+const CAMERA: f64 = 60.0;
+const VOLTAGE: f64 = 8.0;
+
+fn text(name: &str) -> String {
+    std::fs::read_to_string(tree().join("examples").join(name).join("robot.toml")).expect("an example")
+}
+
+fn robot(text: &str) -> RobotFile {
+    RobotFile::parse(text, Path::new("robot.toml"), &known_effects()).unwrap_or_else(|why| panic!("{why}"))
+}
+
+fn planned() -> PlannedRuns {
+    let driven = Driven::Random { runs: RUNS, duration: DURATION, rate: RATE, voltage: VOLTAGE };
+    PlannedRuns {
+        driven,
+        logged: vec![SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose],
+        camera_rate: CAMERA,
+    }
+}
+
+fn said(file: &RobotFile, plan: &PlannedRuns) -> SelfTest {
+    selftest(file, plan, &SelftestKnobs::default()).unwrap_or_else(|why| panic!("{why}"))
+}
+
+fn of<'a>(said: &'a SelfTest, id: &str) -> &'a SeenCause {
+    said.causes.iter().find(|cause| cause.cause == id).unwrap_or_else(|| panic!("{id} is not judged"))
+}
+
+/// A script: voltages (u₀, u₁, u₂, u₃) by time, with currents, wheel speeds and poses logged.
+fn script(u: impl Fn(f64) -> [f64; 4]) -> PlannedRuns {
+    let t: Vec<f64> = (0..2000).map(|row| f64::from(row) / RATE).collect();
+    let volts: Vec<Channel> = (0..4).map(|j| Channel::from_values(t.iter().map(|t| u(*t)[j]))).collect();
+    let logged = |count: usize| Some(Group::new(vec![Channel::from_values(t.iter().map(|_| 0.0)); count]));
+    let run = Run { u: Some(Group::new(volts)), i: logged(4), w: logged(4), pose: logged(3), ..Run::default() };
+    PlannedRuns::of_script(Run { name: "script".to_owned(), t_s: t.clone(), ..run })
+}
+
+#[test]
+fn motion_along_one_axis_does_not_show_coriolis_and_motion_along_all_does() {
+    let file = robot(&text("feup-4w"));
+    // wheels at 90°, 180°, 270°, 0°: forwards, wheels 1 and 3 turn against each other
+    let ahead = |t: f64| 6.0 * (1.3 * t).sin();
+    let straight = said(&file, &script(|t| [0.0, -ahead(t), 0.0, ahead(t)]));
+    let turning = said(&file, &script(|t| [4.0, 4.0 - ahead(t), 4.0, 4.0 + ahead(t)]));
+    // a robot that does not turn has no Coriolis force, but for the noise in its starts
+    assert!(of(&straight, "coriolis").sigma < 0.1 * of(&turning, "coriolis").sigma);
+    assert_eq!(of(&straight, "coriolis").seen_times, None);
+    assert!(of(&turning, "coriolis").seen_times.is_some());
+}
+
+#[test]
+fn half_the_noise_shows_twice_as_much_where_nothing_is_stated_to_hide_behind() {
+    let coarse = robot(&text("feup-4w"));
+    let mut fine = coarse.clone();
+    let s = &mut fine.sensors;
+    for noise in
+        [&mut s.current_noise_a, &mut s.wheel_speed_noise_rad_s, &mut s.position_noise_m, &mut s.heading_noise_rad]
+    {
+        *noise *= 0.5;
+    }
+    let (coarse, fine) = (said(&coarse, &planned()), said(&fine, &planned()));
+    for id in ["dead_time", "floor_tilt", "encoder_scale", "marker_offset"] {
+        let ratio = of(&fine, id).sigma / of(&coarse, id).sigma;
+        // what starts and numbers imitate, and starts read off noisy recordings, move by a few per cent
+        assert!((1.8..2.2).contains(&ratio), "{id}: {ratio}");
+    }
+}
+
+#[test]
+fn a_sensor_that_is_not_there_shows_nothing_and_is_what_to_add() {
+    let said = said(&robot(&text("feup-3w")), &planned());
+    assert_eq!(of(&said, "gyro_bias").sigma, 0.0);
+    let gyro = said.with_sensor.iter().find(|with| with.sensor == "gyro").expect("a sensor to add");
+    assert!(gyro.seen.contains(&"gyro_bias") && gyro.named.contains(&"gyro_bias"), "{gyro:?}");
+}
+
+/// The id that a diagnosis gives to recordings as planned of a robot that hides an effect whose first number is `size`.
+fn named(text: &str, cause: &SeenCause, size: f64, seed: u64) -> Option<String> {
+    let card = model_core::effects::EffectKind::find(cause.cause).expect("an effect").card();
+    let mut hidden = EffectInstance::typical(card, cause.wheel);
+    let first = card.param(cause.parameter).expect("its own number");
+    hidden.params[first] = size;
+    let plan = Scenario {
+        hidden: vec![hidden],
+        uncertain: false,
+        runs: RUNS,
+        duration: DURATION,
+        rate: RATE,
+        voltage: VOLTAGE,
+        seed,
+        ..Scenario::default()
+    };
+    let session = synthesize(text, &plan, &known_effects()).expect("a sound robot file");
+    diagnose(&session, &Options::default()).causes.first().cloned()
+}
+
+#[test]
+fn a_diagnosis_names_what_is_thrice_the_size_to_be_named_and_not_what_is_half_of_that_to_be_seen() {
+    let text = text("feup-4w");
+    let said = said(&robot(&text), &planned());
+    for id in ["dead_time", "floor_tilt", "encoder_scale"] {
+        let cause = of(&said, id);
+        let (Some(seen_from), Some(named_from)) = (cause.seen_from, cause.named_from) else {
+            panic!("{id} is never named: {cause:?}");
+        };
+        assert_eq!(named(&text, cause, 3.0 * named_from, 5).as_deref(), Some(id));
+        assert_eq!(named(&text, cause, 0.5 * seen_from, 5), None, "{id} at half of {seen_from}");
+    }
+}

@@ -1,0 +1,129 @@
+//! Self-test: what recordings of a robot could show, before anybody drives.
+
+use model_core::plant::Input;
+
+use crate::engine::findings::SelfTest;
+use crate::engine::knobs::SelftestKnobs;
+use crate::engine::selftest::{self as engine, Sensors};
+use crate::error::Result;
+use crate::log::{RobotFile, Run};
+use crate::simulate::{Excitation, Model, SensorSetup, SignalGroup, drivable, excite, record, supply_seen};
+
+/// Recordings that somebody means to make.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedRuns {
+    /// What drives the robot.
+    pub driven: Driven,
+    /// What is logged.
+    pub logged: Vec<SignalGroup>,
+    /// Camera frames a second [1/s]
+    pub camera_rate: f64,
+}
+
+/// What drives the robot.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Driven {
+    /// Random steps of all three axes at once, with rests and reversals: so many runs.
+    Random {
+        /// Runs.
+        runs: usize,
+        /// Length of each [s]
+        duration: f64,
+        /// Rows a second [1/s]
+        rate: f64,
+        /// Largest voltage on any motor [V]
+        voltage: f64,
+    },
+    /// The inputs of a run, on its clock.
+    Script(Box<Run>),
+}
+
+impl PlannedRuns {
+    /// Those of a script: what it logs is logged, and as many frames as it has.
+    pub fn of_script(script: Run) -> Self {
+        let has = |group: &SignalGroup| match group {
+            SignalGroup::Current => script.i.is_some(),
+            SignalGroup::WheelSpeed => script.w.is_some(),
+            SignalGroup::Pose => script.pose.is_some(),
+            SignalGroup::Gyro => script.gyro.is_some(),
+            SignalGroup::Battery => script.vbat.is_some(),
+        };
+        let logged = SignalGroup::ALL.into_iter().filter(has).collect();
+        let frames = script.pose.as_ref().map_or(0, |pose| pose.channels[0].present().count());
+        let duration = script.t_s.last().copied().unwrap_or(0.0) - script.t_s.first().copied().unwrap_or(0.0);
+        let camera_rate = if duration > 0.0 { frames as f64 / duration } else { 0.0 };
+        Self { driven: Driven::Script(Box::new(script)), logged, camera_rate }
+    }
+}
+
+/// How many times as fast the camera is that might be had in place of the planned one.
+pub const FASTER_CAMERA: f64 = 2.0;
+/// Plant steps of a recorded robot in a row, as a simulation takes them.
+const STEPS_A_ROW: usize = 10;
+/// Seed of the excitation; a self-test is the same whenever it is asked.
+const SEED: u64 = 1;
+
+/// What recordings could show, and what a further sensor would add, a faster camera among them.
+///
+/// # Errors
+/// Where nothing in a script can drive the model.
+pub fn selftest(robot: &RobotFile, plan: &PlannedRuns, knobs: &SelftestKnobs) -> Result<SelfTest> {
+    let might_be_added = SignalGroup::ALL.into_iter().filter(|group| !plan.logged.contains(group)).collect();
+    let sensors = Sensors { logged: plan.logged.clone(), might_be_added };
+    let mut said = with_camera(robot, plan, plan.camera_rate, &sensors, knobs)?;
+    if plan.logged.contains(&SignalGroup::Pose) && plan.camera_rate > 0.0 {
+        let alone = Sensors { logged: plan.logged.clone(), might_be_added: Vec::new() };
+        let faster = with_camera(robot, plan, FASTER_CAMERA * plan.camera_rate, &alone, knobs)?;
+        said.with_sensor.push(said.with_faster_camera(&faster));
+    }
+    Ok(said)
+}
+
+fn with_camera(
+    robot: &RobotFile,
+    plan: &PlannedRuns,
+    camera_rate: f64,
+    sensors: &Sensors,
+    knobs: &SelftestKnobs,
+) -> Result<SelfTest> {
+    let runs = match robot.wheel.len() {
+        3 => recorded::<3>(robot, plan, camera_rate),
+        _ => recorded::<4>(robot, plan, camera_rate),
+    }?;
+    Ok(engine::selftest(robot, &runs, sensors, knobs))
+}
+
+fn recorded<const N: usize>(robot: &RobotFile, plan: &PlannedRuns, camera_rate: f64) -> Result<Vec<Run>> {
+    let mut how = SensorSetup {
+        steps_a_row: STEPS_A_ROW,
+        camera_rate,
+        dropouts: 0.0,
+        sensors: robot.sensors,
+        gyro: true,
+        battery: true,
+        ..SensorSetup::default()
+    };
+    match &plan.driven {
+        Driven::Random { runs, duration, rate, voltage } => {
+            let plant = Model::<N>::nominal(robot, *voltage).plant();
+            let wish = Excitation { duration: *duration, rate: *rate, voltage: *voltage };
+            let one = |k: usize| {
+                let seed = SEED + k as u64;
+                let input: Vec<Input<N, f64>> =
+                    excite(&plant.robot().wheels, &wish, seed).into_iter().map(Input::Voltage).collect();
+                let t: Vec<f64> = (0..input.len()).map(|row| row as f64 / rate).collect();
+                record(&plant, &format!("run{k:02}"), &t, &input, &how, seed)
+            };
+            Ok((0..*runs).map(one).collect())
+        }
+        Driven::Script(script) => {
+            let aligned = drivable::<N>(script, robot)?;
+            let plant = Model::<N>::nominal(robot, supply_seen([&aligned])).plant();
+            let rows = aligned.rows();
+            let mean: usize = (0..rows).map(|row| aligned.steps(row)).sum::<usize>().div_ceil(rows);
+            how.steps_a_row *= mean;
+            let input: Vec<Input<N, f64>> = (0..rows).map(|row| aligned.input(row)).collect();
+            Ok(vec![record(&plant, &script.name, &aligned.t, &input, &how, SEED)])
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! What recordings could show of a robot: as a table in the terminal, on a page, in files.
+
+mod phrases;
+mod picture;
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use super::html::page::{page, section};
+use super::write::put;
+use crate::engine::findings::{SelfTest, WithSensor};
+use crate::error::Result;
+use crate::vocabulary::Kind;
+use phrases::{HEADS, line};
+
+fn table(out: &mut String, lines: &[[String; 6]]) {
+    let heads = HEADS.map(str::to_owned);
+    let wide = |k: usize| lines.iter().chain([&heads]).map(|line| line[k].chars().count()).max().unwrap_or(0);
+    let widths: [usize; 6] = std::array::from_fn(wide);
+    for line in [&heads].into_iter().chain(lines) {
+        let [first, .., last] = line;
+        let middle: String =
+            (1..5).map(|k| format!("  {}{}", " ".repeat(widths[k] - line[k].chars().count()), line[k])).collect();
+        let space = " ".repeat(widths[0] - first.chars().count());
+        let _ = writeln!(out, "{}", format!("  {first}{space}{middle}  {last}").trim_end());
+    }
+}
+
+fn with_sensor(with: &WithSensor) -> String {
+    let list = |what: &str, ids: &[&str]| match ids {
+        [] => String::new(),
+        ids => format!(" {what} {};", ids.join(", ")),
+    };
+    let brings = list("would be seen:", &with.seen) + &list("would be named:", &with.named);
+    let brings = if brings.is_empty() { " nothing new at typical sizes".to_owned() } else { brings };
+    format!("  {}:{}", with.sensor, brings.trim_end_matches(';'))
+}
+
+/// The answer in plain text.
+pub fn selftest_terminal(said: &SelfTest) -> String {
+    let mut out = format!(
+        "{}: what such recordings could show ({} numbers of {})\n\n",
+        said.robot,
+        said.numbers,
+        said.logged.join(", ")
+    );
+    for (kind, title) in [(Kind::Effect, "Effects"), (Kind::Parameter, "Numbers of the robot file that are wrong by")] {
+        let lines: Vec<_> = said.causes.iter().filter(|cause| cause.kind == kind).map(line).collect();
+        if !lines.is_empty() {
+            let _ = writeln!(out, "{title}");
+            table(&mut out, &lines);
+            out.push('\n');
+        }
+    }
+    out.push_str("What one sensor more would bring\n");
+    for with in &said.with_sensor {
+        let _ = writeln!(out, "{}", with_sensor(with));
+    }
+    out
+}
+
+/// The answer on a page.
+pub fn selftest_html(said: &SelfTest) -> String {
+    let title = format!("What recordings of {} could show", said.robot);
+    page(&title, |m| {
+        m.leaf("h1", &[], &title);
+        let logged = format!("{} numbers of {}.", said.numbers, said.logged.join(", "));
+        m.leaf("p", &[], &logged);
+        let explained = "A bar begins where a diagnosis finds the cause and turns dark where it also tells it from every \
+            other; the line is its typical size. Sizes are multiples of the typical one.";
+        section(m, "From what size on", explained, |m| picture::bars(m, &said.causes));
+        let explained = "How far the typical size moves the recordings beyond what starts and nominal numbers can \
+            imitate, and the angle to the causes that it could be taken for.";
+        section(m, "Sizes", explained, |m| {
+            m.within("table", &[], |m| {
+                m.within("tr", &[], |m| HEADS.iter().for_each(|head| m.leaf("th", &[], head)));
+                for cause in &said.causes {
+                    m.within("tr", &[], |m| line(cause).iter().for_each(|cell| m.leaf("td", &[], cell)));
+                }
+            });
+        });
+        section(m, "One sensor more", "At typical sizes.", |m| {
+            m.within("ul", &[], |m| {
+                said.with_sensor.iter().for_each(|with| m.leaf("li", &[], with_sensor(with).trim()));
+            });
+        });
+    })
+}
+
+/// The answer as JSON, in the form of its types.
+pub fn selftest_json(said: &SelfTest) -> String {
+    serde_json::to_string_pretty(said).expect("numbers and names have a form in JSON") + "\n"
+}
+
+/// Writes `selftest.json` and `selftest.html` into a folder.
+///
+/// # Errors
+/// Where they cannot be written.
+pub fn write_selftest(dir: &Path, said: &SelfTest) -> Result<[PathBuf; 2]> {
+    put(dir, [("selftest.json", &selftest_json(said)), ("selftest.html", &selftest_html(said))])
+}
