@@ -1,6 +1,6 @@
 //! The board's own test, on a board: `cargo fw-test`. Bridges stay open and nothing turns by itself.
 //!
-//! Those that need a wire or a hand are in `by_hand.rs`: `cargo fw-hand`, after `firmware/HARDWARE.md` has been read.
+//! The model's bits are in `hil_parity.rs`, an image of their own. Those tests that need a wire or a hand are in `by_hand.rs`: `cargo fw-hand`, after `firmware/HARDWARE.md` has been read.
 #![no_std]
 #![no_main]
 
@@ -13,12 +13,11 @@ use panic_probe as _;
 mod tests {
     use crate::on_board::{self, group, wait};
     use cortex_m::peripheral::NVIC;
-    use defmt::{assert, assert_eq, info, unwrap};
+    use defmt::{assert, assert_eq, info};
     use firmware::board::{self, Parts, pac::Interrupt};
     use firmware::codes::{Codes, MOTORS, PERIODS_PER_SECOND};
     use firmware::motion::MotionOutput;
     use firmware::offsets;
-    use firmware::parity;
     use firmware::protection::TripLimits;
     use firmware::registers::timing;
     use firmware::winding_config::WindingConfig;
@@ -32,8 +31,6 @@ mod tests {
     const FORWARD: [u8; 6] = [1, 3, 2, 6, 4, 5];
     /// Cycles that polling for the end of a group may be late by.
     const POLL: u32 = 60;
-    /// The bits that host and emulator agree on.
-    const PARITY: &str = include_str!("../golden/parity.txt");
 
     #[init]
     fn init() -> Parts {
@@ -207,14 +204,6 @@ mod tests {
         info!("a turn takes {} cycles of {} that it may", most, timing::TURN);
         assert!(driven > 2_000, "all four would have been driven");
         assert!(most < timing::TURN);
-    }
-
-    #[test]
-    fn the_model_has_the_same_bits_as_on_the_host() {
-        let golden = unwrap!(u64::from_str_radix(PARITY.trim(), 16).ok());
-        let began = board::ticks();
-        assert_eq!(parity::hash(), golden);
-        info!("{} results in {} cycles", parity::RESULTS, board::ticks().wrapping_sub(began));
     }
 
     #[test]

@@ -51,8 +51,8 @@ pub const STEPS: &[Step] = &[
     },
     Step {
         name: "lints, board",
-        command: "cargo clippy -p firmware --bins --test hil --test by_hand --features f405 --target thumbv7em-none-eabihf \
-                  -- -D warnings",
+        command: "cargo clippy -p firmware --bins --test hil --test hil_parity --test by_hand --features f405 \
+                  --target thumbv7em-none-eabihf -- -D warnings",
         env: &[],
     },
     Step { name: "tests", command: "cargo test --workspace", env: &[] },
@@ -60,8 +60,8 @@ pub const STEPS: &[Step] = &[
     Step { name: "board image", command: BOARD_IMAGE, env: &[] },
     Step {
         name: "board tests",
-        command: "cargo test --no-run --profile firmware -p firmware --test hil --test by_hand --features f405 \
-                  --target thumbv7em-none-eabihf --target-dir target/f405",
+        command: "cargo test --no-run --profile firmware -p firmware --test hil --test hil_parity --test by_hand \
+                  --features f405 --target thumbv7em-none-eabihf --target-dir target/f405",
         env: &[],
     },
     Step { name: "image", command: CHECK_IMAGE, env: &[] },
