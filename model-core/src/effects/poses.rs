@@ -6,7 +6,7 @@
 
 use super::effect::{Numbers, State};
 use super::seams::EffectContext;
-use crate::geometry::frames::Pose;
+use crate::geometry::frames::{BodyTwist, Pose};
 use crate::number::scalar::Real;
 
 /// Poses that are remembered.
@@ -14,6 +14,9 @@ const SLOTS: usize = 48;
 
 /// Pieces into which the way is cut that a robot came before a restart.
 const PIECES: u8 = 24;
+
+/// Least time over which that way is remembered [s].
+const SHORT: f64 = 0.004;
 
 /// Least time between two remembered poses [s]; below 4 ms, so that steps of 4 ms are all kept whatever their rounding.
 const SPACING: f64 = 0.0035;
@@ -30,10 +33,12 @@ pub struct Poses<T> {
 }
 
 impl<T: Real> Poses<T> {
-    /// Those of a robot that came to where it is with its constant velocity, over a time [s].
+    /// Those of a robot that came to where it is with its constant velocity, over a time and a piece of it more [s]: what
+    /// will be looked for after that time lies on a chord, and has its derivatives there.
     pub fn along(at: &EffectContext<T>, time: T) -> Self {
         let mut poses = Self::start();
-        for k in (0..=PIECES).rev() {
+        let time = T::from_plain(time.max(T::lit(SHORT)).plain());
+        for k in (0..=PIECES + 1).rev() {
             let ago = time * T::lit(f64::from(k) / f64::from(PIECES));
             poses.remember(at.time - ago, at.pose.moved(at.twist, -ago));
         }
@@ -85,6 +90,15 @@ impl<T: Real> Poses<T> {
             self.next = 0;
         }
     }
+}
+
+/// The pose after a while [s] with a constant velocity, the heading taken at its middle. The time may have derivatives,
+/// which that of [`Pose::moved`] has not.
+#[inline]
+pub fn onward<T: Real>(pose: Pose<T>, twist: BodyTwist<T>, time: T) -> Pose<T> {
+    let middle = Pose { theta: pose.theta + T::lit(0.5) * time * twist.w, ..pose };
+    let way = middle.to_world(twist);
+    Pose { x: pose.x + time * way.x, y: pose.y + time * way.y, theta: pose.theta + time * way.w }
 }
 
 impl<T: Real> Numbers<T> for Poses<T> {

@@ -46,7 +46,7 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "current behind by L/R after every change of voltage, too short for most logs; speed late with it by as much",
+    signature: "a current read sooner than some L/R after a change of voltage is still near its old value; speed late by L/R",
     look_alikes: &[LookAlike {
         with: "actuation_delay",
         settled_by: "lock a wheel, step its voltage and watch the current on an oscilloscope: an inductance bends it at once, a delay leaves it flat and then lets it jump",

@@ -24,7 +24,7 @@
 //! about 20 to 90 ms.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::poses::Poses;
+use crate::effects::poses::{Poses, onward};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
@@ -80,7 +80,7 @@ impl<T: Real> Hooks<T> for CameraLatency<T> {
     }
 
     fn invert_sensing(&self, at: &EffectContext<T>, x: &mut Sense<T>) {
-        x.pose = x.pose.moved(at.twist, self.latency.max(T::zero()));
+        x.pose = onward(x.pose, at.twist, self.latency.max(T::zero()));
     }
 
     fn restart(&self, s: &mut Poses<T>, at: &EffectContext<T>) {
@@ -97,6 +97,7 @@ mod tests {
     use super::*;
     use crate::effects::State;
     use crate::geometry::frames::{BodyTwist, Pose};
+    use crate::number::dual::Dual;
 
     const STRAIGHT: BodyTwist<f64> = BodyTwist { v: 0.9, vn: -0.5, w: 0.0 };
     const CURVE: BodyTwist<f64> = BodyTwist { v: 1.5, vn: 0.0, w: 6.0 };
@@ -238,5 +239,28 @@ mod tests {
         };
         let (there, back) = (behind(STRAIGHT), behind(back));
         assert!((there[0] + back[0]).abs() < 1e-12 && (there[1] + back[1]).abs() < 1e-12);
+    }
+
+    #[test]
+    fn just_after_a_restart_too_the_pose_is_behind_by_the_velocity_for_every_second_of_latency() {
+        let lit = |x: f64| Dual::<1>::constant(x);
+        for latency in [0.0, 0.040, 0.15] {
+            let camera = CameraLatency { latency: Dual::variable(latency, 0) };
+            let twist = BodyTwist { v: lit(0.9), vn: lit(-0.5), w: lit(0.0) };
+            let pose = Pose { x: lit(0.3), y: lit(0.1), theta: lit(1.0) };
+            let here = EffectContext { time: lit(20.0), pose, twist, ..EffectContext::default() };
+            let (mut s, mut x) = (Poses::start(), Sense { pose, ..Sense::default() });
+            camera.restart(&mut s, &here);
+            camera.sense(&s, &here, &mut x);
+            // ∂(x, y)_read/∂t_d = −R(θ)·(v, vn)
+            let (sin, cos) = 1.0_f64.sin_cos();
+            let exact = [-(0.9 * cos + 0.5 * sin), -(0.9 * sin - 0.5 * cos)];
+            assert!((x.pose.x.eps[0] - exact[0]).abs() < 1e-9, "{:?} against {exact:?} at {latency} s", x.pose.x.eps);
+            assert!((x.pose.y.eps[0] - exact[1]).abs() < 1e-9, "{:?} against {exact:?} at {latency} s", x.pose.y.eps);
+            // the measured pose, and what follows of it, stays what was measured
+            let mut back = x;
+            camera.invert_sensing(&here, &mut back);
+            assert!(back.pose.x.eps[0].abs() < 1e-9 && back.pose.y.eps[0].abs() < 1e-9, "{:?}", back.pose);
+        }
     }
 }

@@ -32,14 +32,10 @@
 //! frames by.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::poses::Poses;
+use crate::effects::poses::{Poses, onward};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
 use crate::effects::{Catalogued, Hooks};
-use crate::geometry::frames::{BodyTwist, Pose};
 use crate::number::scalar::Real;
-
-/// Time over which the way to a restart is remembered where nothing is late yet [s].
-const SHORT: f64 = 0.004;
 
 /// The effect's page as data.
 pub const CARD: Card = Card {
@@ -77,14 +73,6 @@ pub fn late<T: Real>(rate_error: T, time: T) -> T {
     rate_error * time / (T::one() + rate_error)
 }
 
-/// The pose after a while [s] with a constant velocity, the heading taken at its middle.
-#[inline]
-pub fn onward<T: Real>(pose: Pose<T>, twist: BodyTwist<T>, time: T) -> Pose<T> {
-    let middle = Pose { theta: pose.theta + T::lit(0.5) * time * twist.w, ..pose };
-    let way = middle.to_world(twist);
-    Pose { x: pose.x + time * way.x, y: pose.y + time * way.y, theta: pose.theta + time * way.w }
-}
-
 /// Drift of the camera's clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClockDrift<T> {
@@ -118,9 +106,7 @@ impl<T: Real> Hooks<T> for ClockDrift<T> {
     }
 
     fn restart(&self, s: &mut Poses<T>, at: &EffectContext<T>) {
-        // cut where the pose of now will be looked for; how late it is has its derivatives on the chord
-        let late = T::from_plain(late(self.rate_error, at.time).plain());
-        *s = Poses::along(at, if late > T::zero() { late } else { T::lit(SHORT) });
+        *s = Poses::along(at, late(self.rate_error, at.time));
     }
 
     fn advance(&self, s: &mut Poses<T>, at: &EffectContext<T>, _: &StepOutcome<T>) {
@@ -132,6 +118,7 @@ impl<T: Real> Hooks<T> for ClockDrift<T> {
 mod tests {
     use super::*;
     use crate::effects::State;
+    use crate::geometry::frames::{BodyTwist, Pose};
     use crate::number::dual::Dual;
 
     const STRAIGHT: BodyTwist<f64> = BodyTwist { v: 0.9, vn: -0.5, w: 0.0 };
