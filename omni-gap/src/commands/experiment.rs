@@ -11,7 +11,7 @@ use omni_gap::simulate_experiments::drag_a_load;
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
-use super::given::volts;
+use super::given::{volts, within_supply};
 use super::output_path::{self, NewFolder};
 
 /// Write the scripts of the experiments that tell a robot's parameters, and how to do them
@@ -78,12 +78,7 @@ impl Experiments {
     }
 
     fn plan(&self, file: &RobotFile) -> Result<Plan, CliError> {
-        let voltage = self.voltage.unwrap_or_else(|| usual_voltage(file));
-        if let Some(supply) = file.supply.filter(|supply| voltage > supply.voltage_v) {
-            let problem =
-                format!("its supply gives {} V, --voltage asks for {} V", num(supply.voltage_v), num(voltage));
-            return Err(Error::input(&self.robot, problem, "Ask for no more than the supply gives").into());
-        }
+        let voltage = within_supply(self.voltage.unwrap_or_else(|| usual_voltage(file)), &self.robot, file)?;
         Ok(Plan {
             rate: self.rate.unwrap_or_else(|| self.rehearse.map_or(USUAL_RATE, Sensing::rate)),
             voltage,

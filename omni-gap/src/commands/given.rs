@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use omni_gap::log::{Columns, RobotFile, Run};
-use omni_gap::{Session, known_effects};
+use omni_gap::report::num;
+use omni_gap::{Error, Session, known_effects};
 
 use super::cli_error::CliError;
 use super::console::Console;
@@ -106,5 +107,17 @@ pub fn volts(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
         _ => Err("expected a voltage above zero, in volts, such as 6".to_owned()),
+    }
+}
+
+/// The voltage that was asked for [V], if the robot's supply gives it.
+pub fn within_supply(voltage: f64, robot: &Path, file: &RobotFile) -> Result<f64, CliError> {
+    match file.supply {
+        Some(supply) if voltage > supply.voltage_v => {
+            let problem =
+                format!("its supply gives {} V, --voltage asks for {} V", num(supply.voltage_v), num(voltage));
+            Err(Error::input(robot, problem, "Ask for no more than the supply gives").into())
+        }
+        _ => Ok(voltage),
     }
 }

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use omni_gap::api::{Driven, Error, PlannedRuns, RobotFile, SelftestKnobs, known_effects, selftest};
-use omni_gap::report::{num, selftest_json, selftest_terminal, write_selftest};
+use omni_gap::api::{Driven, PlannedRuns, RobotFile, SelftestKnobs, known_effects, selftest};
+use omni_gap::report::{selftest_json, selftest_terminal, write_selftest};
 use omni_gap::simulate::{SignalGroup, usual_voltage};
 
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
-use super::given::{robot_and_run, seconds, volts};
+use super::given::{robot_and_run, seconds, volts, within_supply};
 use super::output_path::{self, NewFolder};
 
 /// Say what recordings of a robot could show: which causes, from what size on, mistaken for which others
@@ -113,12 +113,7 @@ impl Selftest {
     }
 
     fn random(&self, file: &RobotFile) -> Result<PlannedRuns, CliError> {
-        let voltage = self.voltage.unwrap_or_else(|| usual_voltage(file));
-        if let Some(supply) = file.supply.filter(|supply| voltage > supply.voltage_v) {
-            let problem =
-                format!("its supply gives {} V, --voltage asks for {} V", num(supply.voltage_v), num(voltage));
-            return Err(Error::input(&self.robot, problem, "Ask for no more than the supply gives").into());
-        }
+        let voltage = within_supply(self.voltage.unwrap_or_else(|| usual_voltage(file)), &self.robot, file)?;
         let Self { runs, duration, rate, .. } = *self;
         let rows = duration * rate;
         if !(2.0..=MOST_ROWS).contains(&rows) {

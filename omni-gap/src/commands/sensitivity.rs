@@ -2,13 +2,12 @@
 
 use std::path::PathBuf;
 
-use omni_gap::api::{Error, RobotFile, StepPlan, known_effects, sensitivity};
-use omni_gap::report::{num, sensitivity_terminal, write_sensitivity};
+use omni_gap::api::{RobotFile, StepPlan, known_effects, sensitivity};
+use omni_gap::report::{sensitivity_terminal, write_sensitivity};
 
-use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
-use super::given::volts;
+use super::given::{volts, within_supply};
 use super::output_path::{self, NewFolder};
 
 /// Say which numbers of a robot file its motion depends on, axis by axis
@@ -44,7 +43,7 @@ impl Sensitivity {
         }
         let file = RobotFile::load(&self.robot, &known_effects())?;
         let voltage =
-            self.voltage.map_or(Ok(StepPlan::usual(&file).voltage), |volts| self.within_supply(volts, &file))?;
+            within_supply(self.voltage.unwrap_or_else(|| StepPlan::usual(&file).voltage), &self.robot, &file)?;
         console.phase("driving each axis");
         let said = sensitivity(&file, &StepPlan { voltage, time: self.time });
         let mut text = sensitivity_terminal(&said);
@@ -56,17 +55,6 @@ impl Sensitivity {
         }
         console.say(&text)?;
         Ok(DONE)
-    }
-
-    fn within_supply(&self, voltage: f64, file: &RobotFile) -> Result<f64, CliError> {
-        match file.supply {
-            Some(supply) if voltage > supply.voltage_v => {
-                let problem =
-                    format!("its supply gives {} V, --voltage asks for {} V", num(supply.voltage_v), num(voltage));
-                Err(Error::input(&self.robot, problem, "Ask for no more than the supply gives").into())
-            }
-            _ => Ok(voltage),
-        }
     }
 }
 
