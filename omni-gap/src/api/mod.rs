@@ -46,5 +46,5 @@ pub use experiment::{PlannedExperiments, PlannedScript, experiments, rehearse};
 pub use identify::{FitRemark, FittedNumber, Identification, identify};
 pub use predict::predict;
 pub use record::{Recorded, Recording, record};
-pub use selftest::{Driven, FASTER_CAMERA, PlannedRuns, selftest};
+pub use selftest::{Driven, PlannedRuns, selftest};
 pub use simulate::simulate;

@@ -38,6 +38,13 @@ pub struct FreedPrior {
     pub axis: Option<usize>,
 }
 
+impl FreedPrior {
+    /// True if it speaks of a factor.
+    pub fn speaks_of(&self, factor: Nominal) -> bool {
+        factor.cause() == self.cause && (self.axis.is_none() || self.axis == factor.axis())
+    }
+}
+
 impl Prior {
     /// What a robot file states of its own uncertainty.
     pub fn stated(robot: &RobotFile) -> Self {
@@ -51,8 +58,7 @@ impl Prior {
 
     /// The statements that speak of a parameter cause.
     pub fn rows_of(&self, release: FreedPrior) -> Vec<usize> {
-        let own = |p: Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
-        let speaks = |row: &PriorRow| row.stated && row.terms.iter().any(|(p, _)| own(*p));
+        let speaks = |row: &PriorRow| row.stated && row.terms.iter().any(|(p, _)| release.speaks_of(*p));
         (0..self.rows.len()).filter(|k| speaks(&self.rows[*k])).collect()
     }
 

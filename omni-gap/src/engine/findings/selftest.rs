@@ -70,26 +70,10 @@ pub struct Rival {
 /// What a sensor would bring.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WithSensor {
-    /// The group of signals.
+    /// The group of signals, or what takes the place of one.
     pub sensor: &'static str,
     /// Causes that would then be seen at their typical size.
     pub seen: Vec<&'static str>,
     /// Causes that would then be told from all others at their typical size.
     pub named: Vec<&'static str>,
-}
-
-impl SelfTest {
-    /// What a faster camera would bring, by the answer with one.
-    pub fn with_faster_camera(&self, faster: &SelfTest) -> WithSensor {
-        let newly = |times: &dyn Fn(&SeenCause) -> Option<f64>| -> Vec<&'static str> {
-            let shows = |cause: &SeenCause| times(cause).is_some_and(|times| times <= 1.0);
-            let pairs = self.causes.iter().zip(&faster.causes);
-            let mut ids: Vec<&str> =
-                pairs.filter(|(now, then)| !shows(now) && shows(then)).map(|(now, _)| now.cause).collect();
-            ids.dedup();
-            ids
-        };
-        let (seen, named) = (newly(&|cause| cause.seen_times), newly(&|cause| cause.named_times));
-        WithSensor { sensor: "a camera twice as fast", seen, named }
-    }
 }

@@ -15,7 +15,6 @@ use crate::engine::stepwise::Cause;
 use crate::identify::Prior;
 use crate::log::{RobotFile, Run};
 use crate::simulate::{AlignedRun, Model, SignalGroup, supply_seen};
-use crate::vocabulary::{Axis, Kind};
 
 /// What recordings of the robot of a file could show. `runs` are such recordings by a robot that is just what the file
 /// says, with every sensor there is; `sensors` says which of these would be logged, and others that might be added.
@@ -35,13 +34,10 @@ fn of_wheels<const N: usize>(file: &RobotFile, runs: &[Run], sensors: &Sensors, 
         groups.iter().flat_map(|g| AlignedRun::<N>::channels().of(*g)).fold(0_u16, |mask, c| mask | 1 << c)
     };
     let logged = mask(&sensors.logged);
-    let added = sensors.might_be_added.iter().map(|group| logged | mask(&[*group]));
+    let with_each = sensors.might_be_added.iter().map(|group| logged | mask(&[*group]));
     let laid = Laid::new(file, model, &aligned, knobs);
-    let left = laid.left(&columns, &std::iter::once(logged).chain(added).collect::<Vec<_>>());
-    let prior = Prior::stated(file);
-    let standings = |left: &Left| -> Vec<Standing> {
-        suspects.iter().map(|s| Standing::of(s, &suspects, left, s.cause.freedom(&prior), knobs)).collect()
-    };
+    let left = laid.left(&columns, &std::iter::once(logged).chain(with_each).collect::<Vec<_>>());
+    let standings = |left: &Left| Standing::of_all(&suspects, left, file, knobs);
     let now = standings(&left[0]);
     // of effects on one wheel, the wheel where they show least
     let mut shown: Vec<usize> = Vec::new();
@@ -62,20 +58,24 @@ fn of_wheels<const N: usize>(file: &RobotFile, runs: &[Run], sensors: &Sensors, 
         };
         now[*k].as_seen(&suspects[*k], seen_times, left[0].share_taken(&suspects[*k]), knobs.wrong)
     };
-    let with = |(sensor, left): (&SignalGroup, &Left)| {
-        let then = standings(left);
+    let replaced = sensors.might_replace.iter().map(|(name, runs)| {
+        let aligned: Vec<AlignedRun<N>> = runs.iter().filter_map(|run| AlignedRun::new(run, file)).collect();
+        (*name, standings(&Laid::new(file, laid.model.clone(), &aligned, knobs).left(&columns, &[logged])[0]))
+    });
+    let added = sensors.might_be_added.iter().zip(&left[1..]).map(|(group, left)| (group.name(), standings(left)));
+    let with = |(sensor, then): (&'static str, Vec<Standing>)| {
         let newly = |is: fn(&Standing) -> bool| -> Vec<&'static str> {
             let comes = shown.iter().filter(|k| !is(&now[**k]) && is(&then[**k]));
             let mut ids: Vec<&'static str> = comes.map(|k| suspects[*k].cause.id()).collect();
             ids.dedup();
             ids
         };
-        WithSensor { sensor: sensor.name(), seen: newly(Standing::is_seen), named: newly(Standing::is_named) }
+        WithSensor { sensor, seen: newly(Standing::is_seen), named: newly(Standing::is_named) }
     };
     SelfTest {
         numbers: left[0].numbers(),
         causes: shown.par_iter().map(cause).collect(),
-        with_sensor: sensors.might_be_added.iter().zip(&left[1..]).map(with).collect(),
+        with_sensor: added.chain(replaced).map(with).collect(),
         ..sensors.show_nothing(file)
     }
 }
@@ -93,6 +93,11 @@ struct Standing {
 }
 
 impl Standing {
+    fn of_all(suspects: &[Suspect], left: &Left, file: &RobotFile, knobs: &SelftestKnobs) -> Vec<Self> {
+        let prior = Prior::stated(file);
+        suspects.iter().map(|s| Self::of(s, suspects, left, s.cause.freedom(&prior), knobs)).collect()
+    }
+
     fn of(suspect: &Suspect, all: &[Suspect], left: &Left, freedom: usize, knobs: &SelftestKnobs) -> Self {
         let search = &knobs.engine.search;
         // a cause is judged by the runs that are held out
@@ -112,7 +117,7 @@ impl Standing {
                 if angle_rad > knobs.same_angle_rad { (search.tie / (held * beside)).sqrt() } else { f64::INFINITY };
             told = told.max(times);
             if times > 1.0 {
-                rivals.push(Rival { cause: rival.cause.id(), axis: axis(&rival.cause), angle_rad });
+                rivals.push(Rival { cause: rival.cause.id(), axis: rival.cause.axis(), angle_rad });
             }
         }
         rivals.sort_by(|a, b| a.angle_rad.total_cmp(&b.angle_rad));
@@ -148,9 +153,9 @@ impl Standing {
         let named_times = named_times.filter(|times| times.is_finite() && *times > 0.0);
         SeenCause {
             cause: suspect.cause.id(),
-            kind: if matches!(suspect.cause, Cause::Effect(..)) { Kind::Effect } else { Kind::Parameter },
+            kind: suspect.cause.kind(),
             wheel: suspect.cause.wheel(),
-            axis: axis(&suspect.cause),
+            axis: suspect.cause.axis(),
             parameter: sizing.key,
             unit: sizing.unit,
             typical: sizing.typical,
@@ -168,8 +173,4 @@ impl Standing {
 
 fn has_size(card: &Card) -> bool {
     card.params.iter().any(|p| p.role == Role::Size)
-}
-
-fn axis(cause: &Cause) -> Option<Axis> {
-    cause.axis().map(|axis| Axis::ALL[axis])
 }

@@ -16,7 +16,7 @@ use crate::simulate::{AlignedRun, Model, Slot};
 
 /// Recordings, and all that a signature is compared with on them.
 pub(super) struct Laid<'a, const N: usize> {
-    model: Model<N>,
+    pub model: Model<N>,
     runs: Vec<LaidRun<'a, N>>,
     free: Vec<Free>,
     prior: Prior,

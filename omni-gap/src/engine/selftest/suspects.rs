@@ -44,8 +44,7 @@ pub(super) fn suspects<const N: usize>(
         }
     }
     for release in freed_priors() {
-        let own = |p: &Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
-        let factors: Vec<Nominal> = Nominal::ALL.into_iter().filter(own).collect();
+        let factors: Vec<Nominal> = Nominal::ALL.into_iter().filter(|factor| release.speaks_of(*factor)).collect();
         let each = factors.iter().map(|factor| Column::Factors(vec![*factor])).collect();
         put(Cause::Parameter(release), (Column::Factors(factors.clone()), each), &mut suspects, &mut columns);
     }

@@ -7,6 +7,7 @@ use model_core::plant::robot::Nominal;
 use crate::engine::knobs::ScreenKnobs;
 use crate::identify::{FreedPrior, Prior};
 use crate::simulate::{Chain, EffectInstance};
+use crate::vocabulary::{Axis, Kind};
 
 /// A cause that a report can name.
 #[derive(Clone, Copy, Debug)]
@@ -34,11 +35,19 @@ impl Cause {
         }
     }
 
-    /// The body axis (v, vn, ω: 0, 1, 2) that it speaks of alone.
-    pub fn axis(&self) -> Option<usize> {
+    /// Effect or parameter.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Cause::Effect(..) => Kind::Effect,
+            Cause::Parameter(_) => Kind::Parameter,
+        }
+    }
+
+    /// The body axis that it speaks of alone.
+    pub fn axis(&self) -> Option<Axis> {
         match self {
             Cause::Effect(..) => None,
-            Cause::Parameter(release) => release.axis,
+            Cause::Parameter(release) => release.axis.map(|axis| Axis::ALL[axis]),
         }
     }
 

@@ -12,7 +12,6 @@ use crate::engine::findings::{ConsideredCause, EstimatedBy, EstimatedNumber};
 use crate::identify::relative_std;
 use crate::log::RobotFile;
 use crate::simulate::Slot;
-use crate::vocabulary::{Axis, Kind};
 
 /// All of them, round by round, effects first.
 pub(super) fn considered<const N: usize>(search: &Search<N>, robot: &RobotFile) -> Vec<ConsideredCause> {
@@ -98,12 +97,9 @@ fn entry<const N: usize>(
     let score = fitted.map(|r| r.scored.score(ranking.scale));
     ConsideredCause {
         id: cause.id().to_owned(),
-        kind: match cause {
-            Cause::Effect(..) => Kind::Effect,
-            Cause::Parameter(_) => Kind::Parameter,
-        },
+        kind: cause.kind(),
         wheel: cause.wheel(),
-        axis: cause.axis().map(|a| Axis::ALL[a]),
+        axis: cause.axis(),
         round: 0,
         taken_up: false,
         estimated_by: if fitted.is_some() { EstimatedBy::Fit } else { EstimatedBy::Screen },

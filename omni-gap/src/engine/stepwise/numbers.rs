@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use model_core::plant::robot::Nominal;
-
 use super::candidate::Cause;
 use super::search::Search;
 use crate::engine::findings::{Corrected, Estimate, FileChanges};
@@ -41,8 +39,7 @@ pub(super) fn of_cause<const N: usize>(cause: &Cause, fit: &Fit<N>, robot: &Robo
 
 /// The robot file's numbers that a parameter cause speaks of.
 pub(super) fn own_keys(release: FreedPrior) -> impl Iterator<Item = &'static NominalKey> {
-    let own = move |p: &Nominal| p.cause() == release.cause && (release.axis.is_none() || release.axis == p.axis());
-    NOMINAL_KEYS.iter().filter(move |key| key.factors.iter().any(own))
+    NOMINAL_KEYS.iter().filter(move |key| key.factors.iter().any(|factor| release.speaks_of(*factor)))
 }
 
 /// The robot file's numbers before and after.

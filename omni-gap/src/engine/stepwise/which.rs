@@ -11,7 +11,6 @@ use crate::engine::findings::Which;
 use crate::engine::knobs::{Knobs, ProbabilityKnobs};
 use crate::identify::Fit;
 use crate::log::RobotFile;
-use crate::vocabulary::{Axis, Kind};
 
 /// Every cause considered, most probable first, with the pseudo-causes.
 pub(super) fn which<const N: usize>(search: &Search<N>, robot: &RobotFile, knobs: &Knobs) -> Vec<Which> {
@@ -90,12 +89,11 @@ fn pseudo(id: &str) -> Which {
 }
 
 fn bare(cause: &Cause) -> Which {
-    let (kind, title) = match cause {
-        Cause::Effect(card, _) => (Kind::Effect, Some(card.title.to_owned())),
-        Cause::Parameter(_) => (Kind::Parameter, None),
+    let title = match cause {
+        Cause::Effect(card, _) => Some(card.title.to_owned()),
+        Cause::Parameter(_) => None,
     };
-    let axis = cause.axis().map(|a| Axis::ALL[a]);
-    Which { kind: Some(kind), title, wheel: cause.wheel(), axis, ..pseudo(cause.id()) }
+    Which { kind: Some(cause.kind()), title, wheel: cause.wheel(), axis: cause.axis(), ..pseudo(cause.id()) }
 }
 
 /// A fitted cause with its numbers.
