@@ -33,6 +33,7 @@ fn at(rng: &mut SeededRng) -> EffectContext<f64> {
         rim_speed: rng.between(-2.0, 2.0),
         heat: rng.between(0.0, 500.0),
         gear_ratio: rng.between(1.0, 20.0),
+        reach: rng.between(0.05, 0.5),
         pose: pose(rng),
         twist: BodyTwist { v: rng.between(-2.0, 2.0), vn: rng.between(-2.0, 2.0), w: rng.between(-9.0, 9.0) },
         acceleration: [(); 3].map(|()| rng.between(-5.0, 5.0)),
@@ -216,6 +217,7 @@ fn remembered(effect: &Effect<f64>, rng: &mut SeededRng) -> Vec<EffectState<f64>
             wheel_speed: rng.between(-50.0, 50.0),
             heat: rng.between(0.0, 0.1),
             bus_current: rng.between(-1.0, 9.0),
+            mean_twist: BodyTwist { v: rng.between(-2.0, 2.0), vn: rng.between(-2.0, 2.0), w: rng.between(-9.0, 9.0) },
             bus: 12.0,
         };
         effect.advance(&mut s, &EffectContext { time: NOW - 0.1 + 2.5e-3 * f64::from(k), ..at(rng) }, &done);

@@ -195,6 +195,8 @@ pub struct Physics {
     pub corner_at_absent: bool,
     /// True if it goes by how long the robot has run: one that has run for longer then moves otherwise.
     pub ages: bool,
+    /// The effect without which nothing of a run depends on this one.
+    pub shows_beside: Option<&'static str>,
     /// How far two runs of some seconds may part that symmetry makes one: of velocities and poses, in SI units.
     pub apart: f64,
 }
@@ -210,6 +212,7 @@ impl Physics {
         world_place: None,
         corner_at_absent: false,
         ages: false,
+        shows_beside: None,
         apart: 1e-9,
     };
 

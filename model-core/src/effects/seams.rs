@@ -38,6 +38,8 @@ pub struct EffectContext<T> {
     pub heat: T,
     /// l, motor speed over wheel speed [1]
     pub gear_ratio: T,
+    /// Mean distance of the wheels' contacts from the centre [m]
+    pub reach: T,
     /// Pose in the world frame; at the body seam the heading is that of the middle of the step, as is
     /// [`EffectContext::midway`]
     pub pose: Pose<T>,
@@ -340,7 +342,7 @@ pub struct Sense<T> {
 }
 
 /// What happened in a step, for effects that remember. An effect of wheels gets its own wheel's numbers; one of the
-/// robot the supply's, with `command`, `current` and `wheel_speed` zero.
+/// robot the supply's and the body's, with `command`, `current` and `wheel_speed` zero.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StepOutcome<T> {
     /// Commanded voltage [V]
@@ -351,11 +353,12 @@ pub struct StepOutcome<T> {
     pub current: T,
     /// Wheel speed at the wheel shaft [rad/s]
     pub wheel_speed: T,
-    /// Heat that the current made in this wheel's winding [J]; see
-    /// [`Needs`](crate::effects::Needs)
+    /// Heat that the current made in this wheel's winding [J]; see [`Needs`](crate::effects::Needs)
     pub heat: T,
     /// Current drawn from the battery [A]
     pub bus_current: T,
+    /// Mean of the velocity over the step, in the body frame, of an effect of the robot
+    pub mean_twist: BodyTwist<T>,
     /// Bus voltage [V]
     pub bus: T,
 }

@@ -44,6 +44,8 @@ pub struct Plant<const N: usize, T: Real, E: EffectSet<T> = Effect<T>> {
     pub(super) shafts: [Shaft<T>; N],
     /// The contacts with what the effects make of them, and what they take, where that is the same in every step
     pub(super) settled: Option<Settled<N, T>>,
+    /// Mean distance of the wheels' contacts from the centre [m]
+    pub(super) reach: T,
     /// Each wheel's share of the body's Coulomb friction, as a torque at its shaft [N·m]
     pub(super) coulomb_share: [T; N],
     /// The body's mass matrix
@@ -75,6 +77,12 @@ fn shafts<const N: usize, T: Real, E: EffectSet<T>>(effects: &Effects<N, T, E>) 
         }
         shaft
     })
+}
+
+/// The mean distance of the contacts from the centre [m].
+fn mean_distance<const N: usize, T: Real>(contact: &[Contact<T>; N]) -> T {
+    let distance = |[x, y]: [T; 2]| (x * x + y * y).sqrt();
+    contact.iter().fold(T::zero(), |sum, c| sum + distance(c.position)) / T::lit(N as f64)
 }
 
 /// The contacts as effects change them that look at nothing but their parameters; `None` where one looks at more.
@@ -152,6 +160,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             contact,
             shafts,
             settled,
+            reach: mean_distance(&contact),
             coulomb_share,
             plain_decoupled: !couples(|a, b| motor_rate[a][b].plain()),
             mass,
@@ -244,6 +253,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         if self.tells {
             at.time = state.time;
             at.gear_ratio = self.robot.motor.gear_ratio;
+            at.reach = self.reach;
             at.pose = state.pose;
             at.twist = state.twist;
             at.acceleration = state.acceleration;

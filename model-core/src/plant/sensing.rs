@@ -75,7 +75,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         memory: &mut [E::State],
         (done, truth): (&Done<'_, N, T>, &Reading<N, T>),
     ) {
-        let Done { source, bus, turned, .. } = done;
+        let Done { next, source, bus, turned, .. } = done;
         for active in self.effects.with_memory() {
             if active.whole() {
                 at.leave_wheel();
@@ -83,7 +83,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 for j in 0..N {
                     drawn += source.command(j) / self.robot.supply * truth.current[j];
                 }
-                let done = StepOutcome { bus: *bus, bus_current: drawn, ..StepOutcome::default() };
+                let mean_twist = state.twist.mean(*next);
+                let done = StepOutcome { bus: *bus, bus_current: drawn, mean_twist, ..StepOutcome::default() };
                 active.effect.advance(&mut memory[active.memory(0)], at, &done);
                 continue;
             }
