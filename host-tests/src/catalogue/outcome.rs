@@ -12,7 +12,7 @@ use omni_gap::report::{Estimate, Report, Verdict};
 use omni_gap::simulate::{AlignedRun, Model, NOMINAL_KEYS, NominalKey};
 use omni_gap::{Diagnosis, Options, known_effects};
 
-use super::sessions::{BenchmarkCase, HiddenCause, truth};
+use super::sessions::{BenchmarkCase, HiddenCause};
 
 /// The engines that stand in the table.
 pub const ENGINES: [&dyn Engine; 1] = [&Stepwise];
@@ -92,7 +92,7 @@ pub fn diagnose_case(case: &BenchmarkCase, engine: &dyn Engine) -> Result<Benchm
     let start = Instant::now();
     let report = Diagnosis::by(engine, &session, &options).report;
     let seconds = start.elapsed().as_secs_f64();
-    let file = RobotFile::parse(truth(case.wheels), Path::new("robot.toml"), &known_effects())?;
+    let file = RobotFile::parse(&case.truth()?, Path::new("robot.toml"), &known_effects())?;
     let evidence = Evidence::of(&session, &options.knobs.layout).expect("a staged session has all signals");
     let horizon_s = options.knobs.measure.horizon_s;
     let oracle = match &evidence.runs {

@@ -6,7 +6,7 @@ use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Scope};
 use omni_gap::error::Result;
 use omni_gap::known_effects;
-use omni_gap::log::Session;
+use omni_gap::log::{Change, EffectEntry, Session, corrected};
 use omni_gap::simulate::EffectInstance;
 use omni_gap::synthesize::{Scenario, synthesize};
 
@@ -141,7 +141,7 @@ fn numbered(first_seed: u64, nothing_each: usize, length: Length) -> Vec<Benchma
     seeded.map(|(seed, (wheels, hidden))| BenchmarkCase { seed, wheels, hidden, length }).collect()
 }
 
-/// The text of the true robot's file.
+/// The text of a true robot's file without any effect.
 pub fn truth(wheels: usize) -> &'static str {
     match wheels {
         3 => include_str!("../../../examples/feup-3w/robot.toml"),
@@ -150,6 +150,21 @@ pub fn truth(wheels: usize) -> &'static str {
 }
 
 impl BenchmarkCase {
+    /// The text of its true robot's file. What shows beside another effect alone is hidden in a robot that has the other one,
+    /// and whose simulator knows it.
+    ///
+    /// # Errors
+    /// Where the example is not sound.
+    pub fn truth(&self) -> Result<String> {
+        let text = truth(self.wheels);
+        let HiddenCause::Effect(hidden) = &self.hidden else { return Ok(text.to_owned()) };
+        let Some(beside) = hidden.card().physics.shows_beside.and_then(EffectKind::find) else {
+            return Ok(text.to_owned());
+        };
+        let params = beside.card().params.iter().map(|p| (p.key.to_owned(), p.typical)).collect();
+        corrected(text, &[Change::Effect(EffectEntry { id: beside.id().to_owned(), wheel: None, params })])
+    }
+
     /// How it is staged: as noisy and as uncertain as [`Scenario`] is by default.
     pub fn plan(&self) -> Scenario {
         let mut plan = match self.length {
@@ -185,7 +200,7 @@ impl BenchmarkCase {
     pub fn session_with(&self, more: &[EffectInstance]) -> Result<Session> {
         let mut plan = self.plan();
         plan.hidden.extend_from_slice(more);
-        synthesize(truth(self.wheels), &plan, &known_effects())
+        synthesize(&self.truth()?, &plan, &known_effects())
     }
 }
 

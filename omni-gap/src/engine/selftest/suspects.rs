@@ -35,8 +35,9 @@ pub(super) fn suspects<const N: usize>(
     shape_moved: f64,
 ) -> (Vec<Suspect>, Vec<Column>) {
     let (mut suspects, mut columns) = (Vec::new(), Vec::new());
-    let absent = |card: &&Card| !present.iter().any(|effect| effect.id == card.id);
-    for card in EffectKind::ALL.iter().map(|kind| kind.card()).filter(|card| has_a_say(card, chain)).filter(absent) {
+    let suspected =
+        |card: &&Card| has_a_say(card, chain, present) && !present.iter().any(|effect| effect.id == card.id);
+    for card in EffectKind::ALL.iter().map(|kind| kind.card()).filter(suspected) {
         let places: Vec<Option<usize>> =
             if card.scope == Scope::OneWheel { (0..N).map(Some).collect() } else { vec![None] };
         for wheel in places {

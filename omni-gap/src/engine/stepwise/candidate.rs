@@ -93,15 +93,17 @@ pub fn freed_priors() -> Vec<FreedPrior> {
     all
 }
 
-/// True if an effect has a say in a model that is driven so: the drive's own speed loop, where speeds are set.
-pub fn has_a_say(card: &Card, chain: Chain) -> bool {
-    chain == Chain::SetSpeed || !card.of_speed_drive()
+/// True if an effect has a say in a model that is driven so and carries these effects: the drive's own speed loop, where
+/// speeds are set; what shows beside another effect alone, where that is there.
+pub fn has_a_say(card: &Card, chain: Chain, present: &[EffectInstance]) -> bool {
+    let shows = |beside: &str| present.iter().any(|effect| effect.id == beside);
+    (chain == Chain::SetSpeed || !card.of_speed_drive()) && card.physics.shows_beside.is_none_or(shows)
 }
 
 /// Every effect that has a say in a model that is driven so, and is not in it already.
 pub fn candidates<const N: usize>(present: &[EffectInstance], chain: Chain, knobs: &ScreenKnobs) -> Vec<Candidate> {
     let mut all = Vec::new();
-    for card in EffectKind::ALL.iter().map(|effect| effect.card()).filter(|card| has_a_say(card, chain)) {
+    for card in EffectKind::ALL.iter().map(|effect| effect.card()).filter(|card| has_a_say(card, chain, present)) {
         let anywhere = card.scope != Scope::OneWheel;
         let places = anywhere
             .then_some(None)
