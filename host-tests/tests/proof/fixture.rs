@@ -92,6 +92,23 @@ pub fn with_effect<const N: usize, T: Real>(
     Plant::new(robot, effects)
 }
 
+/// A plant with the effects at typical size beside which alone another shows, and with that one if it is wanted.
+pub fn beside<const N: usize, T: Real>(
+    robot: Robot<N, T>,
+    effect: EffectKind,
+    with: Option<(Option<usize>, &[f64])>,
+) -> Plant<N, T> {
+    let mut effects = Effects::default();
+    let lit = |params: &[f64]| params.iter().map(|p| T::lit(*p)).collect::<Vec<T>>();
+    if let Some(other) = effect.card().physics.shows_beside.map(self::effect) {
+        effects.add(other, usual_placement(other.card()), &lit(&typical(other.card()))).expect("room");
+    }
+    if let Some((wheel, params)) = with {
+        effects.add(effect, wheel, &lit(params)).expect("a placement that the card allows");
+    }
+    Plant::new(robot, effects)
+}
+
 /// A plant with one effect that the catalogue does not have.
 pub fn with_invented<const N: usize, E: EffectSet<f64>>(
     robot: Robot<N, f64>,

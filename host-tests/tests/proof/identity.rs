@@ -6,7 +6,7 @@ use model_core::number::scalar::Real;
 use model_core::plant::robot::Robot;
 use model_core::plant::{Plant, Reading, State};
 
-use crate::fixture::{Run, absent, four, placements, plain, three, typical, with_effect};
+use crate::fixture::{Run, absent, beside, four, placements, plain, three, typical, with_effect};
 
 /// A number with bits.
 trait Bits: Real + Into<f64> {
@@ -121,13 +121,14 @@ fn absent_effects_leave_imposed_currents_and_speeds_bit_for_bit() {
 
 #[test]
 fn typical_effects_are_seen() {
-    let (by_voltage, by_set_speed) = (run(plain(four::<f64>())), run_by_set_speed(four::<f64>()));
+    let by_set_speed = run_by_set_speed(four::<f64>());
     for effect in &EffectKind::ALL {
         let card = effect.card();
-        let without = if card.of_speed_drive() { &by_set_speed } else { &by_voltage };
+        let without =
+            if card.of_speed_drive() { by_set_speed.clone() } else { run(beside(four::<f64>(), *effect, None)) };
         for placement in placements(card, 4) {
-            let with = run(with_effect(four::<f64>(), *effect, placement, &typical(card)));
-            assert!(with != *without, "{} on {placement:?} changes nothing", card.id);
+            let with = run(beside(four::<f64>(), *effect, Some((placement, &typical(card)))));
+            assert!(with != without, "{} on {placement:?} changes nothing", card.id);
         }
     }
 }

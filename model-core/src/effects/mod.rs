@@ -59,8 +59,10 @@ pub mod drivetrain {
 /// Effects between the wheel and the floor.
 pub mod contact {
     pub mod creep;
+    pub mod load_transfer;
     pub mod roller_friction;
     pub mod roller_ripple;
+    pub mod uneven_load;
     pub mod wheel_eccentricity;
     pub mod wheel_misalignment;
     pub mod wheel_radius_error;
@@ -76,6 +78,7 @@ pub mod body {
     pub mod floor_patch;
     pub mod floor_tilt;
     pub mod friction_ellipse;
+    pub mod presliding;
     pub mod quadratic_drag;
 }
 
@@ -129,6 +132,8 @@ mod list {
         contact::wheel_eccentricity::WheelEccentricity,
         contact::roller_ripple::RollerRipple,
         contact::wheel_misalignment::WheelMisalignment,
+        contact::load_transfer::LoadTransfer,
+        contact::uneven_load::UnevenLoad,
         contact::wheel_slip::WheelSlip,
         contact::creep::Creep,
         contact::roller_friction::RollerFriction,
@@ -140,6 +145,7 @@ mod list {
         body::carpet_nap::CarpetNap,
         body::floor_patch::FloorPatch,
         body::friction_ellipse::FrictionEllipse,
+        body::presliding::Presliding,
         sensing::camera_latency::CameraLatency,
         sensing::clock_drift::ClockDrift,
         sensing::camera_perspective::CameraPerspective,

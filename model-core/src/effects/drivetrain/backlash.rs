@@ -84,10 +84,16 @@ pub const CARD: Card = Card {
     ],
     needs_current: false,
     signature: "at every reversal the current drops for a moment and then jumps, and the wheel starts late",
-    look_alikes: &[LookAlike {
-        with: "shaft_elasticity",
-        settled_by: "hold a wheel and turn its rotor lightly to and fro: play gives way without any torque, a spring never does",
-    }],
+    look_alikes: &[
+        LookAlike {
+            with: "shaft_elasticity",
+            settled_by: "hold a wheel and turn its rotor lightly to and fro: play gives way without any torque, a spring never does",
+        },
+        LookAlike {
+            with: "presliding",
+            settled_by: "push the standing robot lightly to and fro: play gives way without any force, presliding never does",
+        },
+    ],
     code: 38,
     undone: Undone::No("the robot does not see at which flank the teeth touch"),
     physics: Physics {
