@@ -1,12 +1,15 @@
-//! Identify: the best nominal numbers of a robot file, and how sure they are.
+//! Identify: the best numbers of a robot file, those of the effects that it carries among them, and how sure they are.
 
+use model_core::effects::card::Role;
 use serde::Serialize;
 
 use crate::check::check;
 use crate::error::{Error, InputKind, Result};
-use crate::identify::{Fit, FitSettings, Prior, Shots, WINDOW_S, Windows, fit_with_dispersion, nominal_free};
+use crate::identify::{
+    Fit, FitSettings, Free, Prior, Shots, WINDOW_S, Windows, effect_free, fit_with_dispersion, nominal_free, told,
+};
 use crate::log::{RobotFile, Session, corrected};
-use crate::simulate::{AlignedRun, Model, NOMINAL_KEYS, NominalKey, Slot, supply_seen};
+use crate::simulate::{AlignedRun, EffectInstance, Model, NOMINAL_KEYS, NominalKey, Slot, supply_seen};
 
 /// A fit with a larger error per sample leaves something unexplained [σ]
 const MORE_THAN_NOISE: f64 = 1.2;
@@ -27,6 +30,8 @@ pub enum FitRemark {
     FarBeyondStated,
     /// The recordings tell no more of it than the file does.
     NoSurerThanStated,
+    /// The recordings tell nothing of it: the file's value stands.
+    NotTold,
 }
 
 /// A fitted number of the robot file.
@@ -50,11 +55,35 @@ pub struct FittedNumber {
     pub remark: FitRemark,
 }
 
+/// A fitted number of an effect that the robot file carries. Nothing is stated of its uncertainty: it is fitted within the
+/// bounds of the effect's card.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FittedEffectNumber {
+    /// The effect's id.
+    pub effect: &'static str,
+    /// The wheel that it sits on alone, counted from 0.
+    pub wheel: Option<usize>,
+    /// The number's key.
+    pub key: &'static str,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// The file's value.
+    pub nominal: f64,
+    /// The fitted value; the file's where the recordings tell nothing of it.
+    pub fitted: f64,
+    /// One sigma of it, correlations included; none where it was not fitted.
+    pub std: Option<f64>,
+    /// What became of it.
+    pub remark: FitRemark,
+}
+
 /// A robot file's numbers, fitted to recordings within their stated uncertainty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Identification {
     /// All nominal numbers, in the order of the file.
     pub numbers: Vec<FittedNumber>,
+    /// The sizes and shapes of the effects that the file carries, in its order of the catalogue.
+    pub effects: Vec<FittedEffectNumber>,
     /// Root mean square of what is left [σ]
     pub error_sigma: f64,
     /// How many numbers were compared.
@@ -67,7 +96,7 @@ pub struct Identification {
     pub robot_text: String,
 }
 
-/// Fits the nominal numbers of a session's robot file to its runs.
+/// Fits the nominal numbers of a session's robot file, and those of the effects that it carries, to its runs.
 ///
 /// # Errors
 /// [`Error::Faulty`] where the recordings have a fault that spoils any fit, [`Error::Input`] where nothing in them can
@@ -101,17 +130,19 @@ fn identified<const N: usize>(session: &Session) -> Result<Identification> {
     let runs: Vec<&AlignedRun<N>> = runs.iter().collect();
     let (settings, prior) = (FitSettings::default(), Prior::stated(&session.robot));
     let shots = Shots { runs: &runs, windows: &windows };
-    let fit = fit_with_dispersion(model, shots, None, &nominal_free(&settings), &prior, &settings);
-    let changes: Vec<_> =
-        NOMINAL_KEYS.iter().flat_map(|key| key.scaled(&session.robot, key.factor(&fit.model.factor))).collect();
+    let given = model.effects.clone();
+    let of_effects = told(&model, shots, effect_free(&model));
+    let free: Vec<Free> = nominal_free(&settings).into_iter().chain(of_effects).collect();
+    let fit = fit_with_dispersion(model, shots, None, &free, &prior, &settings);
     let error_sigma = (fit.cost / fit.samples.max(1) as f64).sqrt();
     Ok(Identification {
         numbers: NOMINAL_KEYS.iter().map(|key| fitted_number(&fit, key, &session.robot)).collect(),
+        effects: fitted_effects(&fit, &given),
         error_sigma,
         samples: fit.samples,
         runs: runs.len(),
         lacks_something: error_sigma > MORE_THAN_NOISE,
-        robot_text: corrected(&session.robot_text, &changes)?,
+        robot_text: corrected(&session.robot_text, &fit.model.changes())?,
     })
 }
 
@@ -139,4 +170,28 @@ fn fitted_number<const N: usize>(fit: &Fit<N>, key: &NominalKey, robot: &RobotFi
         relative_std,
         remark,
     }
+}
+
+fn fitted_effects<const N: usize>(fit: &Fit<N>, given: &[EffectInstance]) -> Vec<FittedEffectNumber> {
+    let mut numbers = Vec::new();
+    for (at, (found, given)) in fit.model.effects.iter().zip(given).enumerate() {
+        for (p, param) in found.card().params.iter().enumerate().filter(|(_, param)| param.role != Role::Fixed) {
+            let free = fit.free.iter().find(|free| free.slot == Slot::Param(at, p));
+            numbers.push(FittedEffectNumber {
+                effect: found.id,
+                wheel: found.wheel,
+                key: param.key,
+                unit: param.unit,
+                nominal: given.params[p],
+                fitted: found.params[p],
+                std: fit.std(Slot::Param(at, p)),
+                remark: match free {
+                    None => FitRemark::NotTold,
+                    Some(free) if fit.at_bound(free) => FitRemark::AtBound,
+                    Some(_) => FitRemark::Fitted,
+                },
+            });
+        }
+    }
+    numbers
 }

@@ -43,7 +43,7 @@ pub use crate::simulate::{Sensitivity, StepPlan, sensitivity};
 pub use crate::wire::block::{Exported, export};
 pub use by_experiment::identify_by_experiment;
 pub use experiment::{PlannedExperiments, PlannedScript, experiments, rehearse};
-pub use identify::{FitRemark, FittedNumber, Identification, identify};
+pub use identify::{FitRemark, FittedEffectNumber, FittedNumber, Identification, identify};
 pub use predict::predict;
 pub use record::{Recorded, Recording, record};
 pub use selftest::{Driven, PlannedRuns, selftest};

@@ -14,7 +14,7 @@ use super::done::{DONE, Done};
 use super::given::GivenSession;
 use super::output_path;
 
-/// Fit the robot file's numbers to the recordings, within their stated uncertainty
+/// Fit the robot file's numbers, and those of the effects in it, to the recordings
 #[derive(Debug, clap::Args)]
 pub struct Identify {
     #[command(flatten)]
@@ -56,14 +56,8 @@ fn table(found: &Identification) -> String {
         "parameter", "nominal", "stated", "fitted", "±", "change", "unit"
     );
     for number in &found.numbers {
-        let remark = match number.remark {
-            FitRemark::Fitted => "",
-            FitRemark::AtBound => "  at its bound: the recordings cannot tell it",
-            FitRemark::FarBeyondStated => "  far beyond what is stated: try diagnose",
-            FitRemark::NoSurerThanStated => "  no surer than stated",
-        };
         page += &format!(
-            "{:28}{:>11}{:>9}{:>12}{:>9}{:>9}  {}{remark}\n",
+            "{:28}{:>11}{:>9}{:>12}{:>9}{:>9}  {}{}\n",
             number.key,
             num(number.nominal),
             format!("{:.1} %", 100.0 * number.stated_relative),
@@ -71,11 +65,37 @@ fn table(found: &Identification) -> String {
             format!("{:.1} %", 100.0 * number.relative_std),
             format!("{:+.1} %", 100.0 * (number.factor - 1.0)),
             number.unit,
+            remark(number.remark),
+        );
+    }
+    if !found.effects.is_empty() {
+        page += &format!("\n{:44}{:>11}{:>12}{:>12}  {}\n", "effect of the file", "nominal", "fitted", "±", "unit");
+    }
+    for number in &found.effects {
+        let place = number.wheel.map_or(String::new(), |wheel| format!(" on wheel {wheel}"));
+        page += &format!(
+            "{:44}{:>11}{:>12}{:>12}  {}{}\n",
+            format!("{}.{}{place}", number.effect, number.key),
+            num(number.nominal),
+            figures(number.fitted),
+            number.std.map_or_else(|| "–".to_owned(), num),
+            number.unit,
+            remark(number.remark),
         );
     }
     let Identification { error_sigma, samples, runs, .. } = found;
     let more = if found.lacks_something { ", more than noise: the model lacks something, try diagnose" } else { "" };
     page + &format!("\nfit error {error_sigma:.2} σ over {samples} samples of {runs} run(s){more}\n")
+}
+
+fn remark(remark: FitRemark) -> &'static str {
+    match remark {
+        FitRemark::Fitted => "",
+        FitRemark::AtBound => "  at its bound: the recordings cannot tell it",
+        FitRemark::FarBeyondStated => "  far beyond what is stated: try diagnose",
+        FitRemark::NoSurerThanStated => "  no surer than stated",
+        FitRemark::NotTold => "  the recordings tell nothing of it",
+    }
 }
 
 /// A fitted number with four figures, one more than the nominal one beside it.

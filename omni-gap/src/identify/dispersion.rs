@@ -3,6 +3,7 @@
 //! The first fit trusts what was stated and lets the data pull only gently; then the dispersion is brought, step by step, to
 //! what the errors that are left say it should be.
 
+use model_core::effects::card::Role;
 use model_core::plant::robot::Nominal;
 
 use super::fit::{Fit, FitOptions, Free, fit_on};
@@ -11,11 +12,32 @@ use super::prior::Prior;
 use super::settings::FitSettings;
 use super::shoot::Shots;
 use super::starts::{profile, starts_of};
-use crate::simulate::{Model, Slot};
+use crate::simulate::{EffectInstance, Model, Slot};
 
 /// All nominal factors, free within what is believable.
 pub fn nominal_free(settings: &FitSettings) -> Vec<Free> {
     Nominal::ALL.iter().map(|p| Free { slot: Slot::Nominal(*p), within: settings.believable }).collect()
+}
+
+/// The free numbers of a model's effects: their sizes and shapes, within their bounds.
+pub fn effect_free<const N: usize>(model: &Model<N>) -> Vec<Free> {
+    let of = |(at, effect): (usize, &EffectInstance)| {
+        let params = effect.card().params.iter().enumerate().filter(|(_, param)| param.role != Role::Fixed);
+        params.map(move |(p, param)| Free { slot: Slot::Param(at, p), within: param.within }).collect::<Vec<_>>()
+    };
+    model.effects.iter().enumerate().flat_map(of).collect()
+}
+
+/// Those of the free numbers that recordings tell anything of: moved through all that is allowed, they move what is predicted
+/// by more than one sigma.
+pub fn told<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, free: Vec<Free>) -> Vec<Free> {
+    let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
+    let hess = linearise(model, shots, &starts_of(model, shots), &slots, false).reduced().hess;
+    let moves = |(k, free): &(usize, Free)| {
+        let room = free.within.1 - free.within.0;
+        hess[(*k, *k)] * room * room > 1.0
+    };
+    free.into_iter().enumerate().filter(moves).map(|(_, free)| free).collect()
 }
 
 /// Fits a model within what was stated; `from` is a fit of a model like it, to start from.

@@ -35,7 +35,7 @@ pub use answer::model::{
 };
 pub use answer::{answer, number_key};
 pub use disagree::{Disagreement, IndependentEstimate, disagreements};
-pub use dispersion::{fit_with_dispersion, nominal_free};
+pub use dispersion::{effect_free, fit_with_dispersion, nominal_free, told};
 pub use fit::{Fit, FitOptions, Free, fit};
 pub use guess::Guessed;
 pub use identifiability::{Identifiability, TradeOff};

@@ -11,7 +11,8 @@ use model_core::plant::Plant;
 use model_core::plant::robot::{Friction, Nominal, Robot};
 use model_core::plant::winding::Motor;
 
-use crate::log::RobotFile;
+use super::keys::NOMINAL_KEYS;
+use crate::log::{Change, EffectEntry, RobotFile};
 
 /// Effects that a diagnosis may add to those of a robot file: the causes found, and the one that is being tried.
 pub const ROOM_FOR_CAUSES: usize = 4;
@@ -99,6 +100,16 @@ impl<const N: usize> Model<N> {
             model.add_effect(EffectInstance { id: card.id, wheel: entry.wheel, params });
         }
         model
+    }
+
+    /// What it changes in the file of its robot.
+    pub fn changes(&self) -> Vec<Change> {
+        let numbers = NOMINAL_KEYS.iter().flat_map(|key| key.scaled(&self.file, key.factor(&self.factor)));
+        let effect = |effect: &EffectInstance| {
+            let params = effect.card().params.iter().zip(&effect.params).map(|(p, x)| (p.key.to_owned(), *x)).collect();
+            Change::Effect(EffectEntry { id: effect.id.to_owned(), wheel: effect.wheel, params })
+        };
+        numbers.chain(self.effects.iter().map(effect)).collect()
     }
 
     /// The robot, factors not applied.

@@ -1,13 +1,13 @@
-//! The numbers of a fitted model: of a cause, of the whole robot file, and as changes to that file.
+//! The numbers of a fitted model: of a cause, and of the whole robot file.
 
 use std::collections::BTreeMap;
 
 use super::candidate::Cause;
 use super::search::Search;
-use crate::engine::findings::{Corrected, Estimate, FileChanges};
+use crate::engine::findings::{Corrected, Estimate};
 use crate::identify::{Fit, FreedPrior};
-use crate::log::{Change, EffectEntry, RobotFile};
-use crate::simulate::{Model, NOMINAL_KEYS, NominalKey, Slot};
+use crate::log::RobotFile;
+use crate::simulate::{NOMINAL_KEYS, NominalKey, Slot};
 
 /// The numbers of a fitted cause, by key.
 pub(super) fn of_cause<const N: usize>(cause: &Cause, fit: &Fit<N>, robot: &RobotFile) -> BTreeMap<String, Estimate> {
@@ -74,15 +74,4 @@ pub(super) fn parameters<const N: usize>(search: &Search<N>, robot: &RobotFile) 
         }
     }
     rows
-}
-
-/// What a fitted model changes in the robot file.
-pub(super) fn changes<const N: usize>(model: &Model<N>, robot: &RobotFile) -> FileChanges {
-    let mut changes: Vec<Change> =
-        NOMINAL_KEYS.iter().flat_map(|key| key.scaled(robot, key.factor(&model.factor))).collect();
-    for effect in &model.effects {
-        let params = effect.card().params.iter().zip(&effect.params).map(|(p, x)| (p.key.to_owned(), *x)).collect();
-        changes.push(Change::Effect(EffectEntry { id: effect.id.to_owned(), wheel: effect.wheel, params }));
-    }
-    changes.into()
 }

@@ -1,10 +1,8 @@
 //! A model judged: fitted on some runs, and scored by how well it predicts those that no fit has seen.
 
-use model_core::effects::card::Role;
-
 use crate::engine::knobs::Knobs;
-use crate::identify::{Fit, Free, Prior, Shots, Windows, fit_with_dispersion, nominal_free, profile};
-use crate::simulate::{AlignedRun, Model, Slot};
+use crate::identify::{Fit, Free, Prior, Shots, Windows, effect_free, fit_with_dispersion, nominal_free, profile};
+use crate::simulate::{AlignedRun, Model};
 
 /// The runs to fit on and the runs to judge by, with their windows.
 #[derive(Debug)]
@@ -82,19 +80,6 @@ fn standard_error(parts: &[f64]) -> f64 {
     let mean = parts.iter().sum::<f64>() / n;
     let variance = parts.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
     (n * variance).sqrt()
-}
-
-/// The free numbers of a model's effects from place `first` of the list given.
-fn effect_free<const N: usize>(model: &Model<N>) -> Vec<Free> {
-    let mut free = Vec::new();
-    for (at, effect) in model.effects.iter().enumerate() {
-        for (p, param) in effect.card().params.iter().enumerate() {
-            if param.role != Role::Fixed {
-                free.push(Free { slot: Slot::Param(at, p), within: param.within });
-            }
-        }
-    }
-    free
 }
 
 impl<const N: usize> Data<'_, N> {
