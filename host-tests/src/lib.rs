@@ -11,6 +11,7 @@
 //! - [`printed`]: every figure that the paper prints, beside what comes out when it is computed;
 //! - [`paper_source`]: the paper's robots as Rust, from their robot files;
 //! - [`catalogue`]: the benchmark of the diagnosis, on recordings whose truth is known;
+//! - [`confusion`]: which cause would be taken for which, on three robots and with two kinds of motion;
 //! - [`frozen`]: whole reports that stay as they are while walls move;
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
 //! - [`real`]: what the diagnosis says of recordings of real robots;
@@ -31,6 +32,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod catalogue;
+pub mod confusion;
 pub mod costs;
 pub mod emulator;
 pub mod excitation;

@@ -1,9 +1,9 @@
 //! The promises of the diagnosis: as the golden page states them, and on four sessions that are small enough for every test run.
 
-use std::path::Path;
-
+use host_tests::catalogue::medicine_page::read_rows;
 use host_tests::catalogue::page::{Promise, read_promises};
-use host_tests::catalogue::sessions::{HiddenCause, WHEELS, cases, truth};
+use host_tests::catalogue::sessions::{HiddenCause, NO_GAP_CASES, WHEELS, cases, plain_cases, truth};
+use host_tests::golden::path;
 use model_core::effects::EffectKind;
 use omni_gap::report::{Report, Verdict, terminal};
 use omni_gap::simulate::EffectInstance;
@@ -11,8 +11,7 @@ use omni_gap::synthesize::{Scenario, synthesize};
 use omni_gap::{Options, diagnose, known_effects};
 
 fn golden() -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/catalogue.md");
-    std::fs::read_to_string(path).expect("the page is there: cargo xtask benchmark makes it")
+    std::fs::read_to_string(path("catalogue.md")).expect("the page is there: cargo xtask benchmark makes it")
 }
 
 /// The cells of the rows of "The answers"; the engine stands in the last.
@@ -60,6 +59,21 @@ fn the_counts_of_the_page_are_those_of_its_rows() {
     assert_eq!(promises[0].kept, of(|h| matches!(h, HiddenCause::Effect(_)), &|cells| cells[7] != "**wrong**"));
     assert_eq!(promises[2].kept, of(|h| *h == HiddenCause::Nothing, &|cells| cells[3] == "`no_gap`"));
     assert_eq!(promises[3].kept, of(|h| matches!(h, HiddenCause::Parameter(_)), &|cells| cells[3] == "`parameter`"));
+}
+
+#[test]
+fn the_page_of_the_own_medicine_has_a_row_for_every_effect_and_one_for_each_session_without() {
+    let page = std::fs::read_to_string(path("own_medicine.md")).expect("cargo xtask medicine makes it");
+    let rows = read_rows(&page);
+    let standing: Vec<&str> = rows.iter().map(|(hidden, _)| *hidden).collect();
+    let stated: Vec<String> = plain_cases().iter().map(|case| case.hidden.to_string()).collect();
+    assert_eq!(standing, stated, "the sessions of the page are not those that are staged: run it again");
+    let clean = rows.iter().filter(|(hidden, right)| (*hidden, *right) == ("nothing", "first")).count();
+    assert_eq!(clean, NO_GAP_CASES, "a robot that is just what its file says has no gap");
+    for effect in &EffectKind::ALL {
+        let name = format!("`{}`", effect.id());
+        assert_eq!(standing.iter().filter(|hidden| hidden.split(" on ").next() == Some(&name)).count(), 1, "{name}");
+    }
 }
 
 /// A session of eight short runs, of which two are held out: one alone has too few windows to be sure of an effect.

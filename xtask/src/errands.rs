@@ -32,6 +32,18 @@ pub const ERRANDS: &[Errand] = &[
         run: benchmark,
     },
     Errand {
+        name: "medicine",
+        takes: "",
+        does: "diagnose what the simulator records of every effect, beside what the self-test foretells (BLESS=1: rewrite)",
+        run: medicine,
+    },
+    Errand {
+        name: "confusion",
+        takes: "",
+        does: "compute which cause would be taken for which, by robot and motion (BLESS=1: rewrite page and pictures)",
+        run: confusion,
+    },
+    Errand {
         name: "identification",
         takes: "",
         does: "identify robots whose truth is known by the thousand and rewrite the golden page (most of an hour)",
@@ -142,6 +154,14 @@ fn bench(_: Option<OsString>) -> Result<(), String> {
 
 fn benchmark(_: Option<OsString>) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin catalogue"))
+}
+
+fn medicine(_: Option<OsString>) -> Result<(), String> {
+    announced(Line::of("cargo run --release -p host-tests --bin medicine"))
+}
+
+fn confusion(_: Option<OsString>) -> Result<(), String> {
+    announced(Line::of("cargo run --release -p host-tests --bin confusion"))
 }
 
 fn identification(_: Option<OsString>) -> Result<(), String> {

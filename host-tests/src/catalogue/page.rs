@@ -152,14 +152,9 @@ fn answers(outcomes: &[BenchmarkOutcome]) -> String {
         .to_owned();
     for o in outcomes {
         let causes: Vec<String> = o.report.causes.iter().map(|id| o.named(id)).collect();
-        let right = match o.judged() {
-            Judgement::First => "first",
-            Judgement::Named => "named",
-            Judgement::Wrong => "**wrong**",
-        };
         let _ = writeln!(
             text,
-            "| {} | {} | {} | `{}` | {} | {} | {:.2} | {right} | `{}` |",
+            "| {} | {} | {} | `{}` | {} | {} | {:.2} | {} | `{}` |",
             o.case.seed,
             o.case.wheels,
             o.case.hidden,
@@ -167,6 +162,7 @@ fn answers(outcomes: &[BenchmarkOutcome]) -> String {
             listed(&causes),
             listed(&o.alike().iter().map(|id| format!("`{id}`")).collect::<Vec<_>>()),
             o.probability(),
+            right(o.judged()),
             o.engine,
         );
     }
@@ -233,11 +229,21 @@ fn numbers(outcomes: &[BenchmarkOutcome]) -> String {
 }
 
 impl BenchmarkOutcome {
-    fn named(&self, id: &str) -> String {
+    /// A cause of the report, with its wheel.
+    pub(super) fn named(&self, id: &str) -> String {
         match self.report.cause(id).and_then(|which| which.wheel) {
             Some(wheel) => format!("`{id}` on wheel {wheel}"),
             None => format!("`{id}`"),
         }
+    }
+}
+
+/// How good an answer is, as it stands on a page.
+pub fn right(judged: Judgement) -> &'static str {
+    match judged {
+        Judgement::First => "first",
+        Judgement::Named => "named",
+        Judgement::Wrong => "**wrong**",
     }
 }
 
@@ -252,7 +258,8 @@ pub fn word(verdict: Verdict) -> &'static str {
     }
 }
 
-fn listed(names: &[String]) -> String {
+/// Names in a cell; a dash where there are none.
+pub(super) fn listed(names: &[String]) -> String {
     if names.is_empty() { "–".to_owned() } else { names.join(", ") }
 }
 

@@ -16,6 +16,9 @@ pub const FIRST_SEED: u64 = 2000;
 /// The seed of the reduced benchmark's first session.
 pub const FIRST_SHORT_SEED: u64 = 4000;
 
+/// The seed of the first session of the diagnosis's own medicine.
+pub const FIRST_PLAIN_SEED: u64 = 6000;
+
 /// Effects that there were when the sessions with nothing hidden and those with wrong numbers got their seeds.
 const FIRST_EFFECTS: usize = 13;
 
@@ -86,14 +89,16 @@ impl fmt::Display for HiddenCause {
     }
 }
 
-/// How much is recorded of a robot.
+/// How much is recorded of a robot, and how uncertain its numbers are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Length {
+pub enum Staging {
     /// As much as [`Scenario`] records by default.
     Full,
     /// Eight runs of 3 s at 200 rows a second, of which two are held out: one alone has too few windows to be sure of an
     /// effect.
     Short,
+    /// Six runs of 10 s at 200 rows a second, of a robot whose numbers are just those of its file.
+    Plain,
 }
 
 /// One session of the benchmark.
@@ -105,18 +110,30 @@ pub struct BenchmarkCase {
     pub wheels: usize,
     /// What the simulator does not know.
     pub hidden: HiddenCause,
-    /// How much is recorded.
-    pub length: Length,
+    /// How much is recorded, of how uncertain a robot.
+    pub staging: Staging,
 }
 
 /// All sessions, in the order of their seeds.
 pub fn cases() -> Vec<BenchmarkCase> {
-    numbered(FIRST_SEED, NO_GAP_CASES, Length::Full)
+    numbered(FIRST_SEED, NO_GAP_CASES, Staging::Full)
 }
 
 /// The reduced benchmark: the same, short, with seeds of its own and fewer sessions with nothing hidden.
 pub fn short_cases() -> Vec<BenchmarkCase> {
-    numbered(FIRST_SHORT_SEED, NO_GAP_CASES_SHORT, Length::Short)
+    numbered(FIRST_SHORT_SEED, NO_GAP_CASES_SHORT, Staging::Short)
+}
+
+/// The diagnosis's own medicine: nothing, then every effect, on four wheels whose numbers are just those of the file.
+pub fn plain_cases() -> Vec<BenchmarkCase> {
+    let hidden = std::iter::repeat_n(HiddenCause::Nothing, NO_GAP_CASES).chain(effects(&cards_by_code()));
+    let case = |(seed, hidden)| BenchmarkCase { seed, wheels: 4, hidden, staging: Staging::Plain };
+    (FIRST_PLAIN_SEED..).zip(hidden).map(case).collect()
+}
+
+/// What is recorded of a robot whose numbers are just those of its file.
+pub fn plain() -> Scenario {
+    Scenario { uncertain: false, runs: 6, duration: 10.0, rate: 200.0, ..Scenario::default() }
 }
 
 /// The wheel of an effect that sits on one wheel alone.
@@ -124,21 +141,28 @@ fn odd_wheel(card: &Card) -> Option<usize> {
     (card.scope == Scope::OneWheel).then_some(ODD_WHEEL)
 }
 
-/// The sessions in an order to which a new effect adds at the end, so that no other session gets another seed by it.
-fn numbered(first_seed: u64, nothing_each: usize, length: Length) -> Vec<BenchmarkCase> {
+/// The catalogue in the order in which it grew.
+fn cards_by_code() -> Vec<&'static Card> {
     let mut cards: Vec<&'static Card> = EffectKind::ALL.iter().map(|effect| effect.card()).collect();
     cards.sort_by_key(|card| card.code);
-    let effects = |cards: &[&'static Card]| -> Vec<HiddenCause> {
-        let hidden = |card: &&'static Card| EffectInstance::typical(card, odd_wheel(card));
-        cards.iter().map(|card| HiddenCause::Effect(hidden(card))).collect()
-    };
+    cards
+}
+
+/// Each effect at its typical size.
+fn effects(cards: &[&'static Card]) -> Vec<HiddenCause> {
+    cards.iter().map(|card| HiddenCause::Effect(EffectInstance::typical(card, odd_wheel(card)))).collect()
+}
+
+/// The sessions in an order to which a new effect adds at the end, so that no other session gets another seed by it.
+fn numbered(first_seed: u64, nothing_each: usize, staging: Staging) -> Vec<BenchmarkCase> {
+    let cards = cards_by_code();
     let (first, later) = cards.split_at(FIRST_EFFECTS);
     let nothing = std::iter::repeat_n(HiddenCause::Nothing, nothing_each);
     let wrong = WRONG_PARAMETERS.map(HiddenCause::Parameter);
     let all = effects(first).into_iter().chain(nothing).chain(wrong).chain(effects(later));
     let on_both = all.flat_map(|hidden| WHEELS.map(|wheels| (wheels, hidden.clone())));
     let seeded = (first_seed..).zip(on_both);
-    seeded.map(|(seed, (wheels, hidden))| BenchmarkCase { seed, wheels, hidden, length }).collect()
+    seeded.map(|(seed, (wheels, hidden))| BenchmarkCase { seed, wheels, hidden, staging }).collect()
 }
 
 /// The text of a true robot's file without any effect.
@@ -167,9 +191,10 @@ impl BenchmarkCase {
 
     /// How it is staged: as noisy and as uncertain as [`Scenario`] is by default.
     pub fn plan(&self) -> Scenario {
-        let mut plan = match self.length {
-            Length::Full => Scenario::default(),
-            Length::Short => Scenario { runs: 8, duration: 3.0, rate: 200.0, ..Scenario::default() },
+        let mut plan = match self.staging {
+            Staging::Full => Scenario::default(),
+            Staging::Short => Scenario { runs: 8, duration: 3.0, rate: 200.0, ..Scenario::default() },
+            Staging::Plain => plain(),
         };
         plan.seed = self.seed;
         match &self.hidden {
@@ -231,7 +256,13 @@ mod tests {
         };
         assert_eq!(hidden(&all), hidden(&short));
         assert_eq!(short.iter().filter(|case| case.hidden == HiddenCause::Nothing).count(), 6);
-        assert!(short.iter().all(|case| all.iter().all(|other| other.seed != case.seed)));
+        let plain = plain_cases();
+        let seeds = |cases: &[BenchmarkCase]| cases.iter().map(|case| case.seed).collect::<Vec<_>>();
+        let mut every = [seeds(&all), seeds(&short), seeds(&plain)].concat();
+        let sessions = every.len();
+        every.sort_unstable();
+        every.dedup();
+        assert_eq!(every.len(), sessions, "two sessions share a seed");
     }
 
     #[test]

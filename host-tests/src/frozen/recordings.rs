@@ -6,7 +6,7 @@ use omni_gap::log::Run;
 use omni_gap::simulate::EffectInstance;
 
 use super::layouts::Layout;
-use crate::catalogue::sessions::{BenchmarkCase, HiddenCause, Length, WHEELS, short_cases};
+use crate::catalogue::sessions::{BenchmarkCase, HiddenCause, Staging, WHEELS, short_cases};
 
 /// The seed of the first recording that is not the reduced benchmark's; the others count up from it.
 const FIRST_SEED: u64 = 5000;
@@ -119,14 +119,14 @@ pub fn recordings() -> Vec<FrozenCase> {
     for (kept, id) in Kept::WITH {
         for wheels in WHEELS {
             let hidden = HiddenCause::Effect(EffectInstance::typical(card(id), None));
-            let case = BenchmarkCase { seed: seed(), wheels, hidden, length: Length::Short };
+            let case = BenchmarkCase { seed: seed(), wheels, hidden, staging: Staging::Short };
             let name = format!("{:?}, `{id}` on {wheels} wheels", kept);
             all.push(FrozenCase { name, made: Made::Case(case, kept) });
         }
     }
     for wheels in WHEELS {
         let [first, second] = ["dead_time", "camera_latency"].map(|id| EffectInstance::typical(card(id), None));
-        let case = BenchmarkCase { seed: seed(), wheels, hidden: HiddenCause::Effect(first), length: Length::Short };
+        let case = BenchmarkCase { seed: seed(), wheels, hidden: HiddenCause::Effect(first), staging: Staging::Short };
         let name = format!("`dead_time` and `camera_latency` on {wheels} wheels");
         all.push(FrozenCase { name, made: Made::Pair(case, second) });
     }

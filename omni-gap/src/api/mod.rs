@@ -15,6 +15,7 @@
 //! | [`experiments`], [`rehearse`] | [`PlannedExperiments`]: what to play so that a robot's numbers can be told |
 //! | [`sensitivity`](fn@sensitivity) | [`Sensitivity`]: which numbers of a robot file its motion depends on |
 //! | [`selftest`](fn@selftest) | [`SelfTest`]: which causes planned recordings could show, and from what size on |
+//! | [`confusion`](fn@confusion) | [`Confusion`]: which cause would be taken for which in them, by the angles between them |
 //! | [`export`], [`record`](fn@record) | the parameter block of a robot file; a [`Run`] of what a robot sent, and its frames |
 //!
 //! Sessions come from files ([`Session::load`]) or from memory ([`Session`] has public fields). Whatever is wrong with
@@ -31,7 +32,7 @@ mod simulate;
 
 pub use crate::check::{Fault, check};
 pub use crate::diagnosis::{Diagnosis, Options, diagnose};
-pub use crate::engine::findings::SelfTest;
+pub use crate::engine::findings::{Confusion, SelfTest};
 pub use crate::engine::knobs::SelftestKnobs;
 pub use crate::engine::{Findings, Knobs};
 pub use crate::error::Error;
@@ -46,5 +47,5 @@ pub use experiment::{PlannedExperiments, PlannedScript, experiments, rehearse};
 pub use identify::{FitRemark, FittedEffectNumber, FittedNumber, Identification, identify};
 pub use predict::predict;
 pub use record::{Recorded, Recording, record};
-pub use selftest::{Driven, PlannedRuns, selftest};
+pub use selftest::{Driven, PlannedRuns, confusion, selftest};
 pub use simulate::simulate;

@@ -2,7 +2,7 @@
 
 use model_core::plant::Input;
 
-use crate::engine::findings::SelfTest;
+use crate::engine::findings::{Confusion, SelfTest};
 use crate::engine::knobs::SelftestKnobs;
 use crate::engine::selftest::{self as engine, Sensors};
 use crate::error::Result;
@@ -77,6 +77,15 @@ pub fn selftest(robot: &RobotFile, plan: &PlannedRuns, knobs: &SelftestKnobs) ->
         sensors.might_replace.push((name, planned(robot, plan, times * plan.camera_rate)?));
     }
     Ok(engine::selftest(robot, &runs, &sensors, knobs))
+}
+
+/// Which cause of typical size would be taken for which in such recordings: the angle of each to every other. The rivals of
+/// [`selftest`](fn@selftest) are those of these that are not told apart.
+///
+/// # Errors
+/// Where nothing in a script can drive the model.
+pub fn confusion(robot: &RobotFile, plan: &PlannedRuns, knobs: &SelftestKnobs) -> Result<Confusion> {
+    Ok(engine::confusion(robot, &planned(robot, plan, plan.camera_rate)?, &plan.logged, knobs))
 }
 
 fn planned(robot: &RobotFile, plan: &PlannedRuns, camera_rate: f64) -> Result<Vec<Run>> {

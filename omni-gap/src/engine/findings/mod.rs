@@ -5,6 +5,7 @@
 
 mod cause;
 mod changes;
+mod confusion;
 mod considered;
 mod gap;
 mod place;
@@ -15,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 pub use cause::{Corrected, Estimate, NextExperiment, Which};
 pub use changes::{EffectChange, FileChanges, NumberChange};
+pub use confusion::{ConfusedCause, Confusion};
 pub use considered::{ConsideredCause, EstimatedBy, EstimatedNumber};
 pub use gap::{Gap, HorizonError, Shrink, SignalGap};
 pub use place::{Regime, Where};

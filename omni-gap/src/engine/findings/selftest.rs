@@ -65,6 +65,15 @@ pub struct Rival {
     pub axis: Option<Axis>,
     /// The angle between what is left of both [rad]; 0: no recording of this kind tells them apart.
     pub angle_rad: f64,
+    /// The multiple of the typical size from which on the two are told apart [1]; none where no size is enough.
+    pub told_times: Option<f64>,
+}
+
+impl Rival {
+    /// True if the two are told apart at the typical size.
+    pub fn is_told(&self) -> bool {
+        self.told_times.is_some_and(|times| times <= 1.0)
+    }
 }
 
 /// What a sensor would bring.

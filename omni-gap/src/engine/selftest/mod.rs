@@ -19,7 +19,8 @@ mod left;
 mod sensors;
 mod sizes;
 mod sizing;
+mod standing;
 mod suspects;
 
-pub use judge::selftest;
+pub use judge::{confusion, selftest};
 pub use sensors::Sensors;

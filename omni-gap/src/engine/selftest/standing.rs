@@ -1,0 +1,114 @@
+//! How a suspect of typical size stands among the others.
+
+use super::left::Left;
+use super::sizing::Sizing;
+use super::suspects::Suspect;
+use crate::engine::findings::{ConfusedCause, Rival, SeenCause};
+use crate::engine::knobs::SelftestKnobs;
+use crate::engine::stepwise::Cause;
+use crate::identify::Prior;
+use crate::log::RobotFile;
+
+/// How a suspect of typical size stands in the channels of one set.
+pub(super) struct Standing {
+    /// |s⊥|² [σ²]
+    pub size: f64,
+    /// What the engine would ask of it [σ²]
+    pub needed: f64,
+    /// Every other cause, the nearest first, each where it is nearest.
+    others: Vec<Rival>,
+}
+
+impl Standing {
+    pub fn of_all(suspects: &[Suspect], left: &Left, file: &RobotFile, knobs: &SelftestKnobs) -> Vec<Self> {
+        let prior = Prior::stated(file);
+        suspects.iter().map(|s| Self::of(s, suspects, left, s.cause.freedom(&prior), knobs)).collect()
+    }
+
+    fn of(suspect: &Suspect, all: &[Suspect], left: &Left, freedom: usize, knobs: &SelftestKnobs) -> Self {
+        let search = &knobs.engine.search;
+        // a cause is judged by the runs that are held out
+        let held = 1.0 / knobs.engine.layout.hold_out_every as f64;
+        let gain = search.convincing + (search.convincing_each + search.price_of_freedom) * freedom as f64;
+        let relevant = match suspect.cause {
+            Cause::Effect(..) => search.relevant * left.numbers() as f64,
+            Cause::Parameter(_) => 0.0,
+        };
+        let size = left.size(suspect);
+        let rival = |rival: &Suspect| {
+            let beside = left.beside(suspect, rival, knobs.regular);
+            // what leaves nothing is not told from anything
+            let angle_rad = if size > 0.0 { (beside / size).sqrt().clamp(0.0, 1.0).asin() } else { 0.0 };
+            let told_times = (angle_rad > knobs.same_angle_rad).then(|| (search.tie / (held * beside)).sqrt());
+            Rival { cause: rival.cause.id(), axis: rival.cause.axis(), angle_rad, told_times }
+        };
+        let mut others: Vec<Rival> = all.iter().filter(|r| !r.cause.same_id(&suspect.cause)).map(rival).collect();
+        others.sort_by(|a, b| a.angle_rad.total_cmp(&b.angle_rad));
+        let mut ids: Vec<&str> = Vec::new();
+        others.retain(|other| {
+            let new = !ids.contains(&other.cause);
+            ids.push(other.cause);
+            new
+        });
+        Self { size, needed: (gain / held).max(relevant), others }
+    }
+
+    /// The multiple of its size from which on it is seen, as a straight line.
+    pub fn seen(&self) -> f64 {
+        (self.needed / self.size).sqrt()
+    }
+
+    pub fn is_seen(&self) -> bool {
+        self.size >= self.needed
+    }
+
+    pub fn is_named(&self) -> bool {
+        self.is_seen() && self.others.iter().all(Rival::is_told)
+    }
+
+    /// The multiple of its size from which on it is told from the rival that is hardest to tell from it.
+    fn told(&self) -> f64 {
+        self.others.iter().map(|other| other.told_times.unwrap_or(f64::INFINITY)).fold(0.0, f64::max)
+    }
+
+    /// The same as an answer, seen from this multiple on.
+    pub fn as_seen(&self, suspect: &Suspect, seen_times: Option<f64>, imitated: f64, wrong: f64) -> SeenCause {
+        let sizing = Sizing::of(&suspect.cause, wrong);
+        // a coefficient of friction shows the more the smaller it is
+        let shows_below = self.is_seen() && seen_times.is_some_and(|times| times > 1.0);
+        let more = (self.told() / self.seen()).max(1.0);
+        let named_times = seen_times.map(|times| if shows_below { times / more } else { times * more });
+        let named_times = named_times.filter(|times| times.is_finite() && *times > 0.0);
+        let rivals = self.others.iter().filter(|other| self.is_seen() && !other.is_told());
+        SeenCause {
+            cause: suspect.cause.id(),
+            kind: suspect.cause.kind(),
+            wheel: suspect.cause.wheel(),
+            axis: suspect.cause.axis(),
+            parameter: sizing.key,
+            unit: sizing.unit,
+            typical: sizing.typical,
+            sigma: self.size.sqrt(),
+            imitated,
+            shows_below,
+            seen_from: seen_times.and_then(|times| sizing.at(times)),
+            seen_times,
+            named_from: named_times.and_then(|times| sizing.at(times)),
+            named_times,
+            rivals: rivals.cloned().collect(),
+        }
+    }
+
+    /// The same with every other cause.
+    pub fn as_confused(&self, suspect: &Suspect) -> ConfusedCause {
+        ConfusedCause {
+            cause: suspect.cause.id(),
+            kind: suspect.cause.kind(),
+            wheel: suspect.cause.wheel(),
+            axis: suspect.cause.axis(),
+            sigma: self.size.sqrt(),
+            seen: self.is_seen(),
+            others: self.others.clone(),
+        }
+    }
+}
