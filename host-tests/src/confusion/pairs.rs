@@ -42,9 +42,9 @@ pub fn stated() -> BTreeSet<Pair> {
     cards.flat_map(|card| card.look_alikes.iter().map(|like| pair(card.id, like.with))).collect()
 }
 
-/// True of two numbers of the robot file: look-alikes are stated on the cards of effects.
-pub fn without_effect((a, b): &Pair) -> bool {
-    [a, b].iter().all(|id| EffectKind::find(id).is_none())
+/// How many of a pair are numbers of the robot file, and no effects.
+pub fn numbers_in((a, b): &Pair) -> usize {
+    [a, b].iter().filter(|id| EffectKind::find(id).is_none()).count()
 }
 
 #[cfg(test)]

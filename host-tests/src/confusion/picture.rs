@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use omni_gap::api::Confusion;
 
-use super::page::written;
+use super::page::{LEAST_SIGMA, written};
 
 /// Side of a cell, room for the names to the left and above, room for the key below (px).
 const CELL: usize = 11;
@@ -44,7 +44,7 @@ pub fn picture(title: &str, confusion: &Confusion) -> String {
         }
         for (column, id) in ids.iter().enumerate() {
             let cell = format!("M{column} {row}h1v1h-1z");
-            let other = cause.others.iter().find(|other| cause.seen && other.cause == *id);
+            let other = cause.others.iter().find(|other| cause.sigma >= LEAST_SIGMA && other.cause == *id);
             match other.map(|other| other.angle_rad.to_degrees()) {
                 _ if *id == cause.cause => own += &cell,
                 Some(angle) => {
