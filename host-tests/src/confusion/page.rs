@@ -105,7 +105,7 @@ fn look_alikes(all: &[Confused]) -> String {
          Two effects, stated, and beyond {DOUBTED_DEG}° in every table below (the smallest angle of all): the cards are wrong, or\n\
          speak of another motion, of other sensors or of sizes far from the typical ones.\n\n{}\n\
          The same of an effect and a number of the robot file; what is stated of the number has already taken what they share:\n\n{}\n\
-         Stated, and not compared, since neither is seen at its typical size in any table: {}.\n\n\
+         Stated, and not compared, since neither is seen at its typical size in any table, or one has no signature there: {}.\n\n\
          Below {UNSTATED_DEG}° on four wheels, + or X, driven on all axes at once, and stated on no card:\n\n{}\n\
          The same of two numbers of the robot file, which have no look-alikes on their cards:\n\n{}",
         of(&everywhere, &|pair, angle| doubted(pair, angle) && numbers_in(pair) == 0),
