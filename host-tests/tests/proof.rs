@@ -1,8 +1,8 @@
 //! # The core keeps its promises
 //!
 //! In reading order: the core against the independent reference, the laws that any robot obeys, the edges, the size of
-//! the step's error, then the effects: what each may touch, that it can be absent, what the mechanism carries, and the
-//! page that is made from the cards.
+//! the step's error, then the effects: what each may touch, that it can be absent, what the mechanism carries, what
+//! each does to a drive, and the page that is made from the cards.
 
 #[path = "support/blank_card.rs"]
 mod blank_card;
@@ -47,3 +47,5 @@ mod mechanism;
 mod registry;
 #[path = "proof/seams.rs"]
 mod seams;
+#[path = "proof/shown.rs"]
+mod shown;

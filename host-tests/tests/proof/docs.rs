@@ -5,7 +5,7 @@ use std::fmt::Write;
 use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Role, Scope, Undone};
 
-use crate::golden;
+use crate::{golden, shown};
 
 fn scope_of(card: &Card) -> &'static str {
     match card.scope {
@@ -38,6 +38,7 @@ fn section(card: &Card) -> String {
     let _ = writeln!(page, "## {} · `{}`\n", card.title, card.id);
     let _ = writeln!(page, "{}\n", card.summary);
     let _ = writeln!(page, "```text\n{}\n```\n", card.equation);
+    let _ = writeln!(page, "{}\n", shown::picture_of(card.id));
     let _ = writeln!(page, "- stage: {} (seam: {})", card.stage().name(), seams.join(", "));
     let _ = writeln!(page, "- sits on: {}", scope_of(card));
     let _ = writeln!(page, "- shows as: {}", card.signature);
@@ -81,6 +82,10 @@ fn the_page_of_effects_is_made_from_the_cards() {
     let mut page = String::from("# The catalogue of effects\n\n");
     page += "What the plain model leaves out, in the order of the signal path. This page is made from the cards in\n";
     page += "`model-core/src/effects` by `host-tests/tests/proof/docs.rs`; `BLESS=1 cargo test -p host-tests` rewrites it.\n\n";
+    page += "Each effect has a picture: the robot `feup-4w` drives a few seconds without the effect and with it, at its typical\n";
+    page +=
+        "size; shown is the signal in which that is most, in units of its sensor's noise. `omni-gap explain ID --out\n";
+    page += "PICTURE.svg` draws the same.\n\n";
     page += "| effect | stage | sits on | parameters that size it |\n|---|---|---|---|\n";
     for effect in &EffectKind::ALL {
         let card = effect.card();
@@ -89,6 +94,8 @@ fn the_page_of_effects_is_made_from_the_cards() {
         let sizes = if sizes.is_empty() { "none is fitted".to_string() } else { sizes.join(", ") };
         let _ = writeln!(page, "| `{}` | {} | {} | {sizes} |", card.id, card.stage().name(), scope_of(card));
     }
+    page.push('\n');
+    page += &shown::section();
     for effect in &EffectKind::ALL {
         page.push('\n');
         page += &section(effect.card());

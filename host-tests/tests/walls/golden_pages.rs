@@ -5,7 +5,7 @@ use host_tests::golden::RECORD;
 use crate::finding::Finding;
 use crate::tree::Source;
 
-/// Where the pages are; folders within hold what people wrote.
+/// Where the pages are; folders within hold what people wrote, or the pictures of a page.
 const PAGES: &str = "host-tests/golden/";
 
 /// True of a page that a program makes.

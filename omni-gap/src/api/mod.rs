@@ -16,6 +16,7 @@
 //! | [`sensitivity`](fn@sensitivity) | [`Sensitivity`]: which numbers of a robot file its motion depends on |
 //! | [`selftest`](fn@selftest) | [`SelfTest`]: which causes planned recordings could show, and from what size on |
 //! | [`confusion`](fn@confusion) | [`Confusion`]: which cause would be taken for which in them, by the angles between them |
+//! | [`effect_shown`] | [`EffectShown`]: what an effect of the catalogue does to a short drive |
 //! | [`export`], [`record`](fn@record) | the parameter block of a robot file; a [`Run`] of what a robot sent, and its frames |
 //!
 //! Sessions come from files ([`Session::load`]) or from memory ([`Session`] has public fields). Whatever is wrong with
@@ -40,7 +41,7 @@ pub use crate::known::known_effects;
 pub use crate::localise::validation::{Validated, validate};
 pub use crate::log::{RobotFile, Run, Session};
 pub use crate::report::Report;
-pub use crate::simulate::{Sensitivity, StepPlan, sensitivity};
+pub use crate::simulate::{EffectShown, Sensitivity, StepPlan, effect_shown, sensitivity};
 pub use crate::wire::block::{Exported, export};
 pub use by_experiment::identify_by_experiment;
 pub use experiment::{PlannedExperiments, PlannedScript, experiments, rehearse};

@@ -1,18 +1,22 @@
 //! `explain`: the page of an effect or of a parameter, for a person.
 
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
 
 use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Role, Scope};
 use model_core::effects::nominal::{NOMINAL, NominalCard};
-use omni_gap::log::nearest;
-use omni_gap::report::num;
-use omni_gap::simulate::NOMINAL_KEYS;
+use omni_gap::known_effects;
+use omni_gap::log::{RobotFile, nearest, write_whole};
+use omni_gap::report::{effect_picture, num};
+use omni_gap::simulate::{NOMINAL_KEYS, effect_shown};
 
 use super::cli_error::CliError;
 use super::console::Console;
 use super::console::wrapped;
+use super::demo::ROBOT;
 use super::done::{DONE, Done};
+use super::output_path;
 
 /// Explain an effect or a parameter that can be the cause of a gap; without a name, list all
 #[derive(Debug, clap::Args)]
@@ -20,6 +24,14 @@ pub struct Explain {
     /// The id of an effect or a parameter
     #[arg(value_name = "EFFECT")]
     name: Option<String>,
+
+    /// Where to draw what the effect does to a short drive: the signal in which it shows most, without it and with it
+    #[arg(long, value_name = "PICTURE.svg", requires = "name")]
+    out: Option<PathBuf>,
+
+    /// The robot of the picture; without it the paper's on four wheels
+    #[arg(long, value_name = "ROBOT.toml", requires = "out")]
+    robot: Option<PathBuf>,
 }
 
 fn cards() -> impl Iterator<Item = &'static Card> {
@@ -32,7 +44,8 @@ impl Explain {
         let page = match &self.name {
             None => list(),
             Some(name) => match (cards().find(|c| c.id == name), NOMINAL.iter().find(|p| p.id == name)) {
-                (Some(card), _) => effect(card),
+                (Some(card), _) => effect(card) + &self.drawn(card)?,
+                (None, Some(_)) if self.out.is_some() => return Err(CliError::Unclear(NO_PICTURE)),
                 (None, Some(parameter)) => parameter_page(parameter),
                 (None, None) => return Err(unknown(name)),
             },
@@ -40,7 +53,22 @@ impl Explain {
         console.say(&page)?;
         Ok(DONE)
     }
+
+    /// Draws the effect where that is asked for, and says so.
+    fn drawn(&self, card: &'static Card) -> Result<String, CliError> {
+        let Some(out) = &self.out else { return Ok(String::new()) };
+        output_path::file(out, &self.robot.iter().map(PathBuf::as_path).collect::<Vec<_>>())?;
+        let robot = match &self.robot {
+            Some(path) => RobotFile::load(path, &known_effects())?,
+            None => RobotFile::parse(ROBOT, Path::new("robot.toml"), &known_effects())?,
+        };
+        write_whole(out, effect_picture(&effect_shown(&robot, card)).as_bytes())?;
+        Ok(format!("\nwritten to {}\n", out.display()))
+    }
 }
+
+const NO_PICTURE: &str = "pictures are drawn of effects, and this is a parameter of the robot file: leave out --out, or \
+    name an effect of the list that `omni-gap explain` prints.";
 
 fn unknown(name: &str) -> CliError {
     let near = nearest(name, cards().map(|c| c.id).chain(NOMINAL.iter().map(|p| p.id)));

@@ -1,16 +1,17 @@
 //! A long signal as few points, with every peak kept.
 
-/// Strips in time of one line; each keeps its lowest and its highest sample.
-const STRIPS: usize = 700;
+/// Strips in time of a line that fills a page.
+pub const STRIPS: usize = 700;
 
 /// A gap of this many usual sample intervals breaks a line.
 const BREAK: f64 = 2.5;
 
-/// Unbroken stretches of a signal, thinned, from its samples in time order.
+/// Unbroken stretches of a signal, thinned, from its samples in time order: of each of so many strips in time, the lowest
+/// and the highest sample are kept.
 ///
 /// A line breaks where samples are missing for longer than this signal's own interval (a camera that answers every
 /// fourth row is not broken), and at each of the times `cuts`.
-pub fn stretches(t_s: &[f64], values: &[Option<f64>], cuts: &[f64]) -> Vec<Vec<(f64, f64)>> {
+pub fn stretches(t_s: &[f64], values: &[Option<f64>], cuts: &[f64], strips: usize) -> Vec<Vec<(f64, f64)>> {
     let samples: Vec<(usize, f64, f64)> = t_s
         .iter()
         .zip(values)
@@ -25,7 +26,7 @@ pub fn stretches(t_s: &[f64], values: &[Option<f64>], cuts: &[f64]) -> Vec<Vec<(
         missing || cuts.iter().any(|&cut| a.1 < cut && cut <= b.1)
     };
     let (first, last) = (samples.first().map_or(0.0, |s| s.1), samples.last().map_or(0.0, |s| s.1));
-    let strip = |t: f64| (STRIPS as f64 * (t - first) / (last - first).max(f64::MIN_POSITIVE)) as usize;
+    let strip = |t: f64| (strips as f64 * (t - first) / (last - first).max(f64::MIN_POSITIVE)) as usize;
     samples
         .chunk_by(|a, b| !broken(a, b))
         .map(|stretch| {
@@ -62,7 +63,7 @@ mod tests {
         let t = clock(100_000);
         let mut v: Vec<_> = t.iter().map(|t| Some(t.sin())).collect();
         v[54_321] = Some(9.0);
-        let lines = stretches(&t, &v, &[]);
+        let lines = stretches(&t, &v, &[], STRIPS);
         assert_eq!(lines.len(), 1);
         assert!(lines[0].len() <= 1500, "{}", lines[0].len());
         assert!(lines[0].contains(&(t[54_321], 9.0)));
@@ -73,27 +74,27 @@ mod tests {
     fn a_short_signal_is_left_alone() {
         let t = clock(5);
         let v = [1.0, 2.0, 3.0, 2.5, 2.0].map(Some);
-        assert_eq!(stretches(&t, &v, &[])[0].len(), 5);
+        assert_eq!(stretches(&t, &v, &[], STRIPS)[0].len(), 5);
     }
 
     #[test]
     fn a_hole_breaks_the_line_but_a_slow_sensor_does_not() {
         let t = clock(100);
         let hole: Vec<_> = (0..100).map(|k| (!(40..60).contains(&k)).then_some(1.0)).collect();
-        assert_eq!(stretches(&t, &hole, &[]).len(), 2);
+        assert_eq!(stretches(&t, &hole, &[], STRIPS).len(), 2);
         let camera: Vec<_> = (0..100).map(|k| (k % 4 == 0).then_some(1.0)).collect();
-        assert_eq!(stretches(&t, &camera, &[]).len(), 1);
+        assert_eq!(stretches(&t, &camera, &[], STRIPS).len(), 1);
     }
 
     #[test]
     fn a_restart_breaks_the_line_before_its_row() {
-        let lines = stretches(&clock(10), &[Some(1.0); 10], &[0.025]);
+        let lines = stretches(&clock(10), &[Some(1.0); 10], &[0.025], STRIPS);
         assert_eq!(lines.iter().map(Vec::len).collect::<Vec<_>>(), [5, 5]);
     }
 
     #[test]
     fn nothing_and_not_a_number_draw_nothing() {
-        assert!(stretches(&clock(3), &[None, Some(f64::NAN), None], &[]).is_empty());
-        assert!(stretches(&[], &[], &[]).is_empty());
+        assert!(stretches(&clock(3), &[None, Some(f64::NAN), None], &[], STRIPS).is_empty());
+        assert!(stretches(&[], &[], &[], STRIPS).is_empty());
     }
 }

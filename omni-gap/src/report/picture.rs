@@ -1,6 +1,6 @@
 //! Signals over time as line charts.
 
-use super::decimate::stretches;
+use super::decimate::{STRIPS, stretches};
 use super::markup::{Markup, Px};
 use super::scale::Scale;
 use crate::engine::findings::{SignalTrace, Traces};
@@ -71,7 +71,8 @@ impl Pictures {
     }
 }
 
-fn title(signal: Signal) -> String {
+/// What a signal is called above its chart.
+pub(super) fn title(signal: Signal) -> String {
     match signal {
         Signal::Current(j) => format!("current {j}"),
         Signal::WheelSpeed(j) => format!("wheel speed {j}"),
@@ -103,7 +104,8 @@ pub(super) fn ink(name: &str, at: usize) -> String {
 /// Draws one panel.
 pub(super) fn chart(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
     let cuts = |name: &str| if name == MEASURED { &[] } else { restarts_s };
-    let lines: Vec<_> = panel.series.iter().map(|s| (s, stretches(&panel.t_s, &s.values, cuts(&s.name)))).collect();
+    let lines: Vec<_> =
+        panel.series.iter().map(|s| (s, stretches(&panel.t_s, &s.values, cuts(&s.name), STRIPS))).collect();
     let seen = |pick: fn(&(f64, f64)) -> f64| lines.iter().flat_map(|(_, l)| l).flatten().map(pick).collect::<Vec<_>>();
     let times = seen(|p| p.0);
     let (first, last) = times.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(*t), b.max(*t)));
@@ -135,7 +137,7 @@ pub(super) fn frame(m: &mut Markup, label: &str, fill: impl FnOnce(&mut Markup))
     m.within("svg", &[("viewBox", &view), ("role", &"img"), ("aria-label", &label)], fill);
 }
 
-/// Horizontal grid lines with numbers, the unit above.
+/// Horizontal grid lines with numbers, the unit above if there is one.
 pub(super) fn y_axis(m: &mut Markup, y: &Scale, unit: &str) {
     for (value, label) in y.ticks(5) {
         let at = Px(y.at(value));
@@ -145,7 +147,9 @@ pub(super) fn y_axis(m: &mut Markup, y: &Scale, unit: &str) {
             [("class", &"end"), ("x", &Px(INSIDE_X.0 - 6.0)), ("y", &Px(y.at(value) + 3.5))];
         m.leaf("text", &here, &label);
     }
-    m.leaf("text", &[("class", &"end"), ("x", &Px(INSIDE_X.0 - 6.0)), ("y", &Px(INSIDE_Y.1 - 15.0))], unit);
+    if !unit.is_empty() {
+        m.leaf("text", &[("class", &"end"), ("x", &Px(INSIDE_X.0 - 6.0)), ("y", &Px(INSIDE_Y.1 - 15.0))], unit);
+    }
 }
 
 /// Numbers below the chart, the last with the unit.

@@ -60,7 +60,7 @@ pub fn excite<const N: usize>(wheels: &Wheels<N, f64>, plan: &Excitation, seed: 
 }
 
 /// The motor voltages of a wish on the three axes, each within ±1; scaled down together where one would pass the limit.
-fn voltages<const N: usize>(wheels: &Wheels<N, f64>, axes: [f64; 3], limit: f64) -> [f64; N] {
+pub(super) fn voltages<const N: usize>(wheels: &Wheels<N, f64>, axes: [f64; 3], limit: f64) -> [f64; N] {
     let wish: [f64; N] = std::array::from_fn(|j| {
         let row = wheels.rows()[j];
         row[0] * axes[0] + row[1] * axes[1] + axes[2]

@@ -4,11 +4,12 @@
 //! [`AlignedRun`] run is a recording laid out row by row for the plant; [`predict`] lets the one run freely beside the
 //! other, restarted every horizon from a [`Start`] that no model had a part in; [`record`] makes a recording of a robot
 //! that is not there, and [`excite`] tells it what to do. [`sensitivity()`] says which numbers of a file the motion depends
-//! on.
+//! on, [`effect_shown()`] what an effect of the catalogue does to a drive.
 
 mod aligned_run;
 mod channels;
 mod drivable;
+mod effect_shown;
 mod effort;
 mod excite;
 mod floor;
@@ -33,6 +34,7 @@ pub use crate::log::Chain;
 pub use aligned_run::{AlignedRun, supply_seen};
 pub use channels::{Channels, MAX_CHANNELS, PerGroup, Row, SignalGroup};
 pub use drivable::drivable;
+pub use effect_shown::{EffectShown, ShownSignal, effect_shown};
 pub use effort::steps_taken;
 pub use excite::{Excitation, excite};
 pub use floor::{Floor, floor_of};

@@ -61,8 +61,8 @@ impl Default for SensorSetup {
 }
 
 /// Noise of a gyro and of a battery reading whose robot file states none [rad/s] [V]
-const GYRO_NOISE_RAD_S: f64 = 0.01;
-const BATTERY_NOISE_V: f64 = 0.05;
+pub(super) const GYRO_NOISE_RAD_S: f64 = 0.01;
+pub(super) const BATTERY_NOISE_V: f64 = 0.05;
 
 /// Drives the plant with one input a row, `dt` [s] long, and records what its sensors say.
 ///

@@ -47,3 +47,41 @@ fn an_unknown_name_gets_the_nearest_one() {
         assert!(said.err.contains(name) && said.err.contains(near), "{}", said.err);
     }
 }
+
+#[test]
+fn an_effect_is_drawn_of_the_papers_robot_and_of_ones_own() {
+    let bench = Bench::empty();
+    let said = bench.done(&["explain", "coriolis", "--out", "coriolis.svg"]).out;
+    assert!(said.contains("written to coriolis.svg"), "{said}");
+    let four = bench.read("coriolis.svg");
+    assert!(four.starts_with("<svg xmlns=") && four.contains("at its typical size, on feup-4w"), "{four}");
+    bench.write(
+        "mine.toml",
+        &ROBOT.replace("name = \"feup-4w\"", "name = \"mine\"").replace("mass_kg = 2.34", "mass_kg = 4.5"),
+    );
+    bench.done(&["explain", "coriolis", "--out", "mine.svg", "--robot", "mine.toml"]);
+    let mine = bench.read("mine.svg");
+    let lines = |svg: &str| svg.lines().flat_map(|l| l.split("<path")).filter(|p| p.contains("class=\"line")).count();
+    assert!(mine.contains("at its typical size, on mine") && lines(&mine) == lines(&four), "{mine}");
+    assert_ne!(mine, four.replace("feup-4w", "mine"));
+}
+
+#[test]
+fn what_cannot_be_drawn_is_told_and_nothing_is_written() {
+    let bench = Bench::empty();
+    bench.write("mine.toml", ROBOT);
+    for (args, told) in [
+        (&["explain", "mass", "--out", "mass.svg"][..], "name an effect"),
+        (&["explain", "--out", "all.svg"], "EFFECT"),
+        (&["explain", "creep", "--robot", "mine.toml"], "--out"),
+        (&["explain", "creep", "--robot", "mine.toml", "--out", "mine.toml"], "it is an input"),
+        (&["explain", "creep", "--out", "nowhere/creep.svg"], "there is no folder"),
+        (&["explain", "creep", "--out", "creep.svg", "--robot", "none.toml"], "none.toml"),
+    ] {
+        let said = bench.run(args);
+        assert_eq!((said.code, said.out.as_str()), (2, ""), "{args:?}");
+        assert!(said.err.contains(told), "{args:?}: {}", said.err);
+    }
+    assert_eq!(bench.all().len(), 1);
+    assert_eq!(bench.read("mine.toml"), ROBOT);
+}
