@@ -48,7 +48,7 @@ fn script(u: impl Fn(f64) -> [f64; 4]) -> PlannedRuns {
     let volts: Vec<Channel> = (0..4).map(|j| Channel::from_values(t.iter().map(|t| u(*t)[j]))).collect();
     let logged = |count: usize| Some(Group::new(vec![Channel::from_values(t.iter().map(|_| 0.0)); count]));
     let run = Run { u: Some(Group::new(volts)), i: logged(4), w: logged(4), pose: logged(3), ..Run::default() };
-    PlannedRuns::of_script(Run { name: "script".to_owned(), t_s: t.clone(), ..run })
+    PlannedRuns::of_scripts(vec![Run { name: "script".to_owned(), t_s: t.clone(), ..run }])
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use model_core::plant::Input;
 
 use crate::log::{RobotFile, Run};
-use crate::simulate::{Experiment, Model, Plan, Script, SensorSetup, record, scripts};
+use crate::simulate::{Experiment, Model, Plan, RichPlan, Script, SensorSetup, record, rich_allowed, scripts};
 
 /// What each further run of the motor experiment drags, as a share of the motors' torque at the largest voltage.
 const LOAD: f64 = 0.2;
@@ -34,6 +34,14 @@ pub fn simulate_some_experiments(
     }
 }
 
+/// Plays the rich scripts of a plan on the robot of a file, within its limits, and records them.
+pub fn simulate_rich(truth: &RobotFile, plan: &RichPlan, how: &SensorSetup, seed: u64) -> Vec<Run> {
+    match truth.wheel.len() {
+        3 => rich_of_wheels::<3>(truth, plan, how, seed),
+        _ => rich_of_wheels::<4>(truth, plan, how, seed),
+    }
+}
+
 /// The torque about the vertical axis by which each further run of the motor experiment is braked more [N·m].
 pub fn drag_a_load(truth: &RobotFile, plan: &Plan) -> f64 {
     LOAD * stall_torque(truth, plan.voltage)
@@ -52,15 +60,25 @@ fn of_wheels<const N: usize>(
     played.map(|(k, script)| play(truth, plan, &script, how, seed.wrapping_mul(1000).wrapping_add(k as u64))).collect()
 }
 
+fn rich_of_wheels<const N: usize>(truth: &RobotFile, plan: &RichPlan, how: &SensorSetup, seed: u64) -> Vec<Run> {
+    let all = rich_allowed::<N>(truth, plan);
+    let model = Model::<N>::nominal(truth, all.plan.voltage);
+    let seed_of = |k: usize| seed.wrapping_mul(1000).wrapping_add(k as u64);
+    all.scripts.iter().enumerate().map(|(k, script)| played(&model, script, how, seed_of(k))).collect()
+}
+
 fn play<const N: usize>(truth: &RobotFile, plan: &Plan, script: &Script<N>, how: &SensorSetup, seed: u64) -> Run {
     let mut dragging = truth.clone();
     let load = script.name.rsplit('-').next().and_then(|word| word.parse::<f64>().ok()).unwrap_or(0.0);
     if Experiment::of(&script.name) == Some(Experiment::Motor) {
         dragging.friction.coulomb_w_nm += load * drag_a_load(truth, plan);
     }
-    let plant = Model::<N>::nominal(&dragging, plan.voltage).plant();
+    played(&Model::<N>::nominal(&dragging, plan.voltage), script, how, seed)
+}
+
+fn played<const N: usize>(model: &Model<N>, script: &Script<N>, how: &SensorSetup, seed: u64) -> Run {
     let input: Vec<Input<N, f64>> = script.inputs().collect();
-    let mut run = record(&plant, &script.name, &script.t, &input, how, seed);
+    let mut run = record(&model.plant(), &script.name, &script.t, &input, how, seed);
     run.path = PathBuf::from(format!("runs/{}.csv", script.name));
     run
 }

@@ -13,6 +13,7 @@
 //! | [`simulate`](fn@simulate) | [`Run`]: what the robot of a file would have recorded |
 //! | [`check`](fn@check) | [`Fault`]s of the recordings, each with a code and a mend |
 //! | [`experiments`], [`rehearse`] | [`PlannedExperiments`]: what to play so that a robot's numbers can be told |
+//! | [`rich`], [`rehearse_rich`] | [`PlannedRich`]: what to play so that recordings show as many causes as they can |
 //! | [`sensitivity`](fn@sensitivity) | [`Sensitivity`]: which numbers of a robot file its motion depends on |
 //! | [`selftest`](fn@selftest) | [`SelfTest`]: which causes planned recordings could show, and from what size on |
 //! | [`confusion`](fn@confusion) | [`Confusion`]: which cause would be taken for which in them, by the angles between them |
@@ -44,7 +45,9 @@ pub use crate::report::Report;
 pub use crate::simulate::{EffectShown, Sensitivity, StepPlan, effect_shown, sensitivity};
 pub use crate::wire::block::{Exported, export};
 pub use by_experiment::identify_by_experiment;
-pub use experiment::{PlannedExperiments, PlannedScript, experiments, rehearse};
+pub use experiment::{
+    PlannedExperiments, PlannedRich, PlannedScript, RichScript, experiments, rehearse, rehearse_rich, rich,
+};
 pub use identify::{FitRemark, FittedEffectNumber, FittedNumber, Identification, identify};
 pub use predict::predict;
 pub use record::{Recorded, Recording, record};

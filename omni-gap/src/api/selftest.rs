@@ -7,7 +7,7 @@ use crate::engine::knobs::SelftestKnobs;
 use crate::engine::selftest::{self as engine, Sensors};
 use crate::error::Result;
 use crate::log::{RobotFile, Run};
-use crate::simulate::{Excitation, Model, SensorSetup, SignalGroup, drivable, excite, record, supply_seen};
+use crate::simulate::{AlignedRun, Excitation, Model, SensorSetup, SignalGroup, drivable, excite, record, supply_seen};
 
 /// Recordings that somebody means to make.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,25 +34,30 @@ pub enum Driven {
         /// Largest voltage on any motor [V]
         voltage: f64,
     },
-    /// The inputs of a run, on its clock.
-    Script(Box<Run>),
+    /// The inputs of runs, each on its clock.
+    Scripts(Vec<Run>),
 }
 
 impl PlannedRuns {
-    /// Those of a script: what it logs is logged, and as many frames as it has.
-    pub fn of_script(script: Run) -> Self {
-        let has = |group: &SignalGroup| match group {
-            SignalGroup::Current => script.i.is_some(),
-            SignalGroup::WheelSpeed => script.w.is_some(),
-            SignalGroup::Pose => script.pose.is_some(),
-            SignalGroup::Gyro => script.gyro.is_some(),
-            SignalGroup::Battery => script.vbat.is_some(),
+    /// Those of scripts: what any of them logs is logged, and as many frames a second as they have together.
+    pub fn of_scripts(scripts: Vec<Run>) -> Self {
+        let has = |group: &SignalGroup| {
+            scripts.iter().any(|script| match group {
+                SignalGroup::Current => script.i.is_some(),
+                SignalGroup::WheelSpeed => script.w.is_some(),
+                SignalGroup::Pose => script.pose.is_some(),
+                SignalGroup::Gyro => script.gyro.is_some(),
+                SignalGroup::Battery => script.vbat.is_some(),
+            })
         };
         let logged = SignalGroup::ALL.into_iter().filter(has).collect();
-        let frames = script.pose.as_ref().map_or(0, |pose| pose.channels[0].present().count());
-        let duration = script.t_s.last().copied().unwrap_or(0.0) - script.t_s.first().copied().unwrap_or(0.0);
+        let frames_of = |script: &Run| script.pose.as_ref().map_or(0, |pose| pose.channels[0].present().count());
+        let length_of =
+            |script: &Run| script.t_s.last().zip(script.t_s.first()).map_or(0.0, |(last, first)| last - first);
+        let frames: usize = scripts.iter().map(frames_of).sum();
+        let duration: f64 = scripts.iter().map(length_of).sum();
         let camera_rate = if duration > 0.0 { frames as f64 / duration } else { 0.0 };
-        Self { driven: Driven::Script(Box::new(script)), logged, camera_rate }
+        Self { driven: Driven::Scripts(scripts), logged, camera_rate }
     }
 }
 
@@ -64,7 +69,7 @@ const SEED: u64 = 1;
 /// What recordings could show, and what a further sensor would add, a faster camera among them.
 ///
 /// # Errors
-/// Where nothing in a script can drive the model.
+/// Where nothing in one of the scripts can drive the model.
 pub fn selftest(robot: &RobotFile, plan: &PlannedRuns, knobs: &SelftestKnobs) -> Result<SelfTest> {
     let runs = planned(robot, plan, plan.camera_rate)?;
     let mut sensors = Sensors {
@@ -96,7 +101,7 @@ fn planned(robot: &RobotFile, plan: &PlannedRuns, camera_rate: f64) -> Result<Ve
 }
 
 fn recorded<const N: usize>(robot: &RobotFile, plan: &PlannedRuns, camera_rate: f64) -> Result<Vec<Run>> {
-    let mut how = SensorSetup {
+    let how = SensorSetup {
         camera_rate,
         dropouts: 0.0,
         sensors: robot.sensors,
@@ -117,14 +122,17 @@ fn recorded<const N: usize>(robot: &RobotFile, plan: &PlannedRuns, camera_rate: 
             };
             Ok((0..*runs).map(one).collect())
         }
-        Driven::Script(script) => {
-            let aligned = drivable::<N>(script, robot)?;
-            let plant = Model::<N>::nominal(robot, supply_seen([&aligned])).plant();
-            let rows = aligned.rows();
-            let mean: usize = (0..rows).map(|row| aligned.steps(row)).sum::<usize>().div_ceil(rows);
-            how.steps_a_row *= mean;
-            let input: Vec<Input<N, f64>> = (0..rows).map(|row| aligned.input(row)).collect();
-            Ok(vec![record(&plant, &script.name, &aligned.t, &input, &how, SEED)])
+        Driven::Scripts(scripts) => {
+            let aligned = scripts.iter().map(|script| drivable::<N>(script, robot)).collect::<Result<Vec<_>>>()?;
+            let plant = Model::<N>::nominal(robot, supply_seen(&aligned)).plant();
+            let one = |(k, run): (usize, &AlignedRun<N>)| {
+                let rows = run.rows();
+                let mean: usize = (0..rows).map(|row| run.steps(row)).sum::<usize>().div_ceil(rows);
+                let how = SensorSetup { steps_a_row: mean * how.steps_a_row, ..how };
+                let input: Vec<Input<N, f64>> = (0..rows).map(|row| run.input(row)).collect();
+                record(&plant, &run.name, &run.t, &input, &how, SEED + k as u64)
+            };
+            Ok(aligned.iter().enumerate().map(one).collect())
         }
     }
 }

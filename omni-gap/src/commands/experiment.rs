@@ -1,9 +1,11 @@
-//! `experiment`: the paper's experiments, as scripts that a robot can play and a page that says how.
+//! `experiment`: the paper's experiments, or a rich excitation, as scripts that a robot can play and a page that says how.
 
-use std::path::PathBuf;
+mod rich;
+
+use std::path::{Path, PathBuf};
 
 use omni_gap::api::{Error, PlannedExperiments, RobotFile, experiments, known_effects, rehearse};
-use omni_gap::log::{Change, SensorsFile, corrected, write_whole, write_whole_with};
+use omni_gap::log::{Change, Run, SensorsFile, corrected, write_whole, write_whole_with};
 use omni_gap::report::{Instructions, ScriptSaid, instructions, num};
 use omni_gap::simulate::{Experiment, Lowered, Plan, Sensing, USUAL_FIELD, usual_voltage};
 use omni_gap::simulate_experiments::drag_a_load;
@@ -45,6 +47,18 @@ pub struct Experiments {
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = experiment)]
     only: Vec<Experiment>,
 
+    /// In place of them, scripts whose recordings show as many causes as they can: for `diagnose`
+    #[arg(long, conflicts_with_all = ["only", "repeats", "loads"])]
+    rich: bool,
+
+    /// Rich scripts
+    #[arg(long, value_name = "N", default_value_t = 6, requires = "rich", value_parser = clap::value_parser!(u8).range(1..=50))]
+    scripts: u8,
+
+    /// Length of each rich script [s]
+    #[arg(long, value_name = "S", default_value_t = 10.0, requires = "rich", value_parser = length)]
+    duration: f64,
+
     /// Also play them on a robot that is just what its file says, measured so: paper, modern or halls
     #[arg(long, value_name = "SENSING", value_parser = sensing)]
     rehearse: Option<Sensing>,
@@ -58,6 +72,8 @@ pub struct Experiments {
 const USUAL_RATE: f64 = 100.0;
 /// Rates that a ramp of 0.3 s can be written at [1/s]
 const RATES: (f64, f64) = (10.0, 10_000.0);
+/// Lengths of a rich script: every kind of piece has room in the shortest [s]
+const LENGTHS: (f64, f64) = (8.0, 120.0);
 /// What is made in the folder.
 const MADE: [&str; 3] = ["README.md", "scripts", "session"];
 
@@ -70,22 +86,27 @@ impl Experiments {
             return Err(Error::output(&there, "it is there already", fix).into());
         }
         let file = RobotFile::load(&self.robot, &known_effects())?;
-        let plan = self.plan(&file)?;
-        console.phase("planning the experiments");
-        let said = self.written(&file, &experiments(&file, &plan, &self.wanted()), console)?;
+        let said = if self.rich { self.rich_written(&file, console)? } else { self.paper_written(&file, console)? };
         console.say(&said)?;
         Ok(DONE)
     }
 
     fn plan(&self, file: &RobotFile) -> Result<Plan, CliError> {
-        let voltage = within_supply(self.voltage.unwrap_or_else(|| usual_voltage(file)), &self.robot, file)?;
         Ok(Plan {
-            rate: self.rate.unwrap_or_else(|| self.rehearse.map_or(USUAL_RATE, Sensing::rate)),
-            voltage,
-            field: file.limits.and_then(|limits| limits.field_m).unwrap_or(USUAL_FIELD),
+            rate: self.rows_a_second(),
+            voltage: self.voltage(file)?,
+            field: field(file),
             repeats: self.repeats.into(),
             loads: self.loads.into(),
         })
+    }
+
+    fn rows_a_second(&self) -> f64 {
+        self.rate.unwrap_or_else(|| self.rehearse.map_or(USUAL_RATE, Sensing::rate))
+    }
+
+    fn voltage(&self, file: &RobotFile) -> Result<f64, CliError> {
+        within_supply(self.voltage.unwrap_or_else(|| usual_voltage(file)), &self.robot, file)
     }
 
     /// The experiments that are wanted, in the order in which they are done.
@@ -93,46 +114,58 @@ impl Experiments {
         Experiment::ALL.into_iter().filter(|e| self.only.is_empty() || self.only.contains(e)).collect()
     }
 
-    fn written(&self, file: &RobotFile, all: &PlannedExperiments, console: &Console) -> Result<String, CliError> {
+    fn paper_written(&self, file: &RobotFile, console: &Console) -> Result<String, CliError> {
+        console.phase("planning the experiments");
+        let all = experiments(file, &self.plan(file)?, &self.wanted());
         let notes: Vec<String> = all.lowered.iter().map(lowered_in_words).collect();
-        if let Some(axis) = all.held.first() {
-            let told = format!(
-                "at {} V, half of what the scripts ask for, it does not move along {axis}: the friction of the file holds it. {}",
-                num(0.5 * all.plan.voltage),
-                notes.join(" ")
-            );
-            let fix = "Ask for more with --voltage, widen [limits], or correct [friction]";
-            return Err(Error::input(&self.robot, told.trim().trim_end_matches('.'), fix).into());
-        }
-        let folder = NewFolder::make(&self.out)?;
-        let scripts = NewFolder::make(&self.out.join("scripts"))?;
-        let session = NewFolder::make(&self.out.join("session/runs"))?;
-        for script in &all.scripts {
-            let path = self.out.join(format!("scripts/{}.csv", script.name));
-            write_whole_with(&path, |out| script.run.write_csv(out))?;
-        }
-        self.write_session(file, &all.plan, console)?;
-        let page = self.page(file, all, notes.clone());
-        write_whole(&self.out.join("README.md"), page.as_bytes())?;
-        [folder, scripts, session].into_iter().for_each(NewFolder::keep);
-        Ok(self.said(all, &notes))
+        self.moves(&all.held, all.plan.voltage, &notes)?;
+        let runs: Vec<&Run> = all.scripts.iter().map(|script| &script.run).collect();
+        let page = self.page(file, &all, notes.clone());
+        let played = |sensing| rehearse(file, &all.plan, &self.wanted(), sensing, self.seed);
+        self.write(&runs, &page, played, console)?;
+        Ok(self.said(&all, &notes))
     }
 
-    /// The robot file, and where it is rehearsed the recordings.
-    fn write_session(&self, file: &RobotFile, plan: &Plan, console: &Console) -> Result<(), CliError> {
-        let text = std::fs::read_to_string(&self.robot).map_err(|why| {
+    /// That half of the largest voltage moves the robot along every axis but those that are held.
+    fn moves(&self, held: &[&str], voltage: f64, notes: &[String]) -> Result<(), CliError> {
+        let Some(axis) = held.first() else { return Ok(()) };
+        let told = format!(
+            "at {} V, half of what the scripts ask for, it does not move along {axis}: the friction of the file holds it. {}",
+            num(0.5 * voltage),
+            notes.join(" ")
+        );
+        let fix = "Ask for more with --voltage, widen [limits], or correct [friction]";
+        Err(Error::input(&self.robot, told.trim().trim_end_matches('.'), fix).into())
+    }
+
+    /// The scripts, the page, and the session: the robot file, and where it is rehearsed the recordings.
+    fn write(
+        &self,
+        scripts: &[&Run],
+        page: &str,
+        played: impl FnOnce(Sensing) -> Vec<Run>,
+        console: &Console,
+    ) -> Result<(), CliError> {
+        let folder = NewFolder::make(&self.out)?;
+        let inner = [NewFolder::make(&self.out.join("scripts"))?, NewFolder::make(&self.out.join("session/runs"))?];
+        for script in scripts {
+            write_run(&self.out.join(format!("scripts/{}.csv", script.name)), script)?;
+        }
+        let mut text = std::fs::read_to_string(&self.robot).map_err(|why| {
             Error::input(&self.robot, format!("cannot be read: {why}"), "Check the file's permissions")
         })?;
-        let Some(sensing) = self.rehearse else {
-            return Ok(write_whole(&self.out.join("session/robot.toml"), text.as_bytes())?);
-        };
-        console.phase("rehearsing them");
-        for run in rehearse(file, plan, &self.wanted(), sensing, self.seed) {
-            let path = self.out.join(format!("session/runs/{}.csv", run.name));
-            write_whole_with(&path, |out| run.write_csv(out))?;
+        if let Some(sensing) = self.rehearse {
+            console.phase("rehearsing them");
+            for run in played(sensing) {
+                write_run(&self.out.join(format!("session/runs/{}.csv", run.name)), &run)?;
+            }
+            text = corrected(&text, &sensors(&sensing.recording().sensors))?;
         }
-        let text = corrected(&text, &sensors(&sensing.recording().sensors))?;
-        Ok(write_whole(&self.out.join("session/robot.toml"), text.as_bytes())?)
+        write_whole(&self.out.join("session/robot.toml"), text.as_bytes())?;
+        write_whole(&self.out.join("README.md"), page.as_bytes())?;
+        folder.keep();
+        inner.into_iter().for_each(NewFolder::keep);
+        Ok(())
     }
 
     fn page(&self, file: &RobotFile, all: &PlannedExperiments, notes: Vec<String>) -> String {
@@ -156,33 +189,51 @@ impl Experiments {
     }
 
     fn said(&self, all: &PlannedExperiments, notes: &[String]) -> String {
-        let at = |name: &str| self.out.join(name).display().to_string();
         let seconds: f64 = all.scripts.iter().map(|script| script.seconds).sum();
-        let mut text = format!(
-            "{} scripts of up to {} V, {:.0} minute(s) of driving, written to {}\n",
-            all.scripts.len(),
-            num(all.plan.voltage),
-            (seconds / 60.0).ceil(),
-            at("scripts")
-        );
+        let text = self.told((all.scripts.len(), all.plan.voltage, seconds), notes);
+        let which = if self.only.is_empty() { "all".to_owned() } else { said_as(&self.wanted()) };
+        text + &self.next(&format!("identify {} --experiment {which} --out identified.toml", self.at("session")))
+    }
+
+    /// What was written: so many scripts of so many volts and seconds together.
+    fn told(&self, (scripts, voltage, seconds): (usize, f64, f64), notes: &[String]) -> String {
+        let (volts, minutes) = (num(voltage), (seconds / 60.0).ceil());
+        let written = self.at("scripts");
+        let mut text =
+            format!("{scripts} scripts of up to {volts} V, {minutes:.0} minute(s) of driving, written to {written}\n");
         for note in notes {
             text += &format!("{note}\n");
         }
-        match self.rehearse {
-            Some(sensing) => {
-                text += &format!(
-                    "played by a robot that is just what its file says, measured as `{}`, into {}\n",
-                    sensing.word(),
-                    at("session")
-                );
-                let which = if self.only.is_empty() { "all".to_owned() } else { said_as(&self.wanted()) };
-                text +=
-                    &format!("next: omni-gap identify {} --experiment {which} --out identified.toml\n", at("session"));
-            }
-            None => text += &format!("next: read {}; it says how to play them and what to record\n", at("README.md")),
+        if let Some(sensing) = self.rehearse {
+            text += &format!(
+                "played by a robot that is just what its file says, measured as `{}`, into {}\n",
+                sensing.word(),
+                self.at("session")
+            );
         }
         text
     }
+
+    /// What to do next: with what was rehearsed, this command.
+    fn next(&self, command: &str) -> String {
+        match self.rehearse {
+            Some(_) => format!("next: omni-gap {command}\n"),
+            None => format!("next: read {}; it says how to play them and what to record\n", self.at("README.md")),
+        }
+    }
+
+    fn at(&self, name: &str) -> String {
+        self.out.join(name).display().to_string()
+    }
+}
+
+fn write_run(path: &Path, run: &Run) -> Result<(), Error> {
+    write_whole_with(path, |out| run.write_csv(out))
+}
+
+/// Side of the free floor [m]
+fn field(file: &RobotFile) -> f64 {
+    file.limits.and_then(|limits| limits.field_m).unwrap_or(USUAL_FIELD)
 }
 
 /// What `identify --experiment` is to be asked.
@@ -216,6 +267,13 @@ fn hertz(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if (RATES.0..=RATES.1).contains(&x) => Ok(x),
         _ => Err(format!("expected rows a second, from {} to {}", RATES.0, RATES.1)),
+    }
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (LENGTHS.0..=LENGTHS.1).contains(&x) => Ok(x),
+        _ => Err(format!("expected seconds, from {} to {}", LENGTHS.0, LENGTHS.1)),
     }
 }
 

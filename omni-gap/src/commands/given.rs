@@ -76,6 +76,15 @@ pub struct RobotAndRun {
     pub run: Run,
 }
 
+/// A robot file and some runs.
+#[derive(Debug)]
+pub struct RobotAndRuns {
+    /// The robot.
+    pub robot: RobotFile,
+    /// The runs, in the order in which they were named.
+    pub runs: Vec<Run>,
+}
+
 /// Reads a robot file and a run of that robot.
 pub fn robot_and_run(
     robot: &Path,
@@ -86,12 +95,32 @@ pub fn robot_and_run(
     console.phase("reading the robot file and the run");
     let robot = RobotFile::load(robot, &known_effects())?;
     let columns = columns.map(Columns::load).transpose()?;
-    let (run, notices) = Run::open(run, &robot, columns.as_ref())?;
+    let run = one_run(run, &robot, columns.as_ref(), console)?;
     console.end_phase();
+    Ok(RobotAndRun { robot, run })
+}
+
+/// Reads a robot file and runs of that robot.
+pub fn robot_and_runs(
+    robot: &Path,
+    runs: &[PathBuf],
+    columns: Option<&Path>,
+    console: &Console,
+) -> Result<RobotAndRuns, CliError> {
+    console.phase("reading the robot file and the runs");
+    let robot = RobotFile::load(robot, &known_effects())?;
+    let columns = columns.map(Columns::load).transpose()?;
+    let runs = runs.iter().map(|run| one_run(run, &robot, columns.as_ref(), console)).collect::<Result<_, _>>()?;
+    console.end_phase();
+    Ok(RobotAndRuns { robot, runs })
+}
+
+fn one_run(run: &Path, robot: &RobotFile, columns: Option<&Columns>, console: &Console) -> Result<Run, CliError> {
+    let (run, notices) = Run::open(run, robot, columns)?;
     for notice in notices {
         console.more(notice);
     }
-    Ok(RobotAndRun { robot, run })
+    Ok(run)
 }
 
 /// A time above zero [s].

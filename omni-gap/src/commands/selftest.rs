@@ -9,7 +9,7 @@ use omni_gap::simulate::{SignalGroup, usual_voltage};
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
-use super::given::{robot_and_run, seconds, volts, within_supply};
+use super::given::{robot_and_runs, seconds, volts, within_supply};
 use super::output_path::{self, NewFolder};
 
 /// Say what recordings of a robot could show: which causes, from what size on, mistaken for which others
@@ -19,15 +19,15 @@ pub struct Selftest {
     #[arg(value_name = "ROBOT.toml")]
     robot: PathBuf,
 
-    /// A run whose inputs, clock and columns to take, in place of random motion
-    #[arg(long, value_name = "RUN.csv", conflicts_with_all = ["runs", "duration", "rate", "voltage"])]
-    script: Option<PathBuf>,
+    /// Runs whose inputs, clocks and columns to take, in place of random motion
+    #[arg(long, value_name = "RUN.csv", num_args = 1.., conflicts_with_all = ["runs", "duration", "rate", "voltage"])]
+    script: Vec<PathBuf>,
 
-    /// A mapping from another log layout, for the script
+    /// A mapping from another log layout, for the scripts
     #[arg(long, value_name = "COLUMNS.toml", requires = "script")]
     columns: Option<PathBuf>,
 
-    /// What is logged, with commas between them: i, w, pose, gyro, vbat; without it i, w and pose, or what the script has
+    /// What is logged, with commas between them: i, w, pose, gyro, vbat; without it i, w and pose, or what the scripts have
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = sensor)]
     sensors: Vec<SignalGroup>,
 
@@ -43,7 +43,7 @@ pub struct Selftest {
     #[arg(long, value_name = "HZ", default_value_t = 200.0, value_parser = hertz)]
     rate: f64,
 
-    /// Camera frames a second [1/s]; 60, or as many as the script has
+    /// Camera frames a second [1/s]; 60, or as many as the scripts have
     #[arg(long, value_name = "HZ", value_parser = hertz)]
     camera_rate: Option<f64>,
 
@@ -94,16 +94,13 @@ impl Selftest {
     }
 
     fn planned(&self, console: &Console) -> Result<(RobotFile, PlannedRuns), CliError> {
-        let (file, mut plan) = match &self.script {
-            Some(script) => {
-                let given = robot_and_run(&self.robot, script, self.columns.as_deref(), console)?;
-                (given.robot, PlannedRuns::of_script(given.run))
-            }
-            None => {
-                let file = RobotFile::load(&self.robot, &known_effects())?;
-                let plan = self.random(&file)?;
-                (file, plan)
-            }
+        let (file, mut plan) = if self.script.is_empty() {
+            let file = RobotFile::load(&self.robot, &known_effects())?;
+            let plan = self.random(&file)?;
+            (file, plan)
+        } else {
+            let given = robot_and_runs(&self.robot, &self.script, self.columns.as_deref(), console)?;
+            (given.robot, PlannedRuns::of_scripts(given.runs))
         };
         if !self.sensors.is_empty() {
             plan.logged = SignalGroup::ALL.into_iter().filter(|group| self.sensors.contains(group)).collect();

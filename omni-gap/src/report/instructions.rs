@@ -59,7 +59,8 @@ pub fn instructions(say: &Instructions) -> String {
         page += "The recordings are there already: `session/runs` was played by a robot that is just what its file says.\n\
                  What follows is what to do with the real one.\n\n";
     }
-    begin(&mut page, say);
+    let seconds: Vec<f64> = say.scripts.iter().map(|script| script.seconds).collect();
+    begin(&mut page, say.voltage, &seconds, &say.notes);
     play(&mut page, say);
     for (n, experiment) in [Experiment::Spin, Experiment::Coast, Experiment::Motor, Experiment::Step].iter().enumerate()
     {
@@ -73,18 +74,19 @@ pub fn instructions(say: &Instructions) -> String {
     page.replace(NBSP, " ")
 }
 
-fn begin(page: &mut String, say: &Instructions) {
+/// What to know before the robot drives: scripts of up to a voltage [V], each so long [s].
+pub(super) fn begin(page: &mut String, voltage: f64, seconds: &[f64], notes: &[String]) {
     *page += "## Safety\n\n\
               Do every script once with the wheels off the ground before it drives. Keep a hand at the switch that cuts\n\
               the motors' power, and people, cables and stairs out of the robot's way.\n\n";
-    let minutes = (say.scripts.iter().map(|s| s.seconds).sum::<f64>() / 60.0).ceil();
+    let minutes = (seconds.iter().sum::<f64>() / 60.0).ceil();
     let _ = writeln!(
         page,
         "The largest voltage of these scripts is {} V. All {} of them take {minutes:.0} minute(s) of driving.",
-        num(say.voltage),
-        say.scripts.len()
+        num(voltage),
+        seconds.len()
     );
-    for note in &say.notes {
+    for note in notes {
         let _ = writeln!(page, "{note}");
     }
     page.push('\n');
@@ -157,7 +159,7 @@ fn experiment_said(page: &mut String, say: &Instructions, n: usize, experiment: 
 }
 
 /// "1.9 m ahead, 0.4 m behind and to both sides"
-fn floor_in_words(floor: Floor) -> String {
+pub(super) fn floor_in_words(floor: Floor) -> String {
     let sides = [("ahead", floor.ahead), ("behind", floor.behind), ("left", floor.left), ("right", floor.right)];
     let metres = |x: f64| (10.0 * (x + MARGIN)).ceil() / 10.0;
     if sides.iter().all(|(_, x)| metres(*x) == metres(0.0)) {

@@ -17,6 +17,7 @@ mod model;
 mod number;
 mod phrases;
 mod picture;
+mod rich_instructions;
 #[cfg(test)]
 mod sample;
 mod scale;
@@ -34,6 +35,7 @@ pub use instructions::{Instructions, ScriptSaid, instructions};
 pub use model::{About, Fault, Report, SCHEMA};
 pub use number::{estimate, num, percent};
 pub use picture::{MEASURED, Panel, Pictures, Series};
+pub use rich_instructions::{RichInstructions, rich_instructions};
 pub use selftest::{selftest_html, selftest_json, selftest_terminal, write_selftest};
 pub use sensitivity::{sensitivity_html, sensitivity_terminal, write_sensitivity};
 pub use terminal::terminal;

@@ -5,6 +5,8 @@
 //! v(V) = (a·V − C)/b  the speed along v and vn in the end; it rises evenly with V
 //! ```
 
+use model_core::plant::robot::Robot;
+
 use super::floor::{Floor, floor_of};
 use super::model::Model;
 use super::script::{AXES, Plan, Script, final_speed, scripts};
@@ -17,7 +19,7 @@ const OF_THE_SUPPLY: f64 = 2.0 / 3.0;
 /// The free floor that is counted on where the file states none: its side [m]
 pub const USUAL_FIELD: f64 = 3.0;
 /// By how much the voltage goes down at a time where a script would leave the floor.
-const LESS: f64 = 0.95;
+pub(super) const LESS: f64 = 0.95;
 /// The share of the voltage at which every axis must move.
 const MUST_MOVE: f64 = 0.5;
 
@@ -58,24 +60,8 @@ pub fn usual_voltage(file: &RobotFile) -> f64 {
 pub fn allowed<const N: usize>(file: &RobotFile, plan: &Plan, wanted: impl Fn(&Script<N>) -> bool) -> Allowed<N> {
     let model = Model::<N>::nominal(file, plan.voltage);
     let robot = *model.robot();
-    let limits = file.limits.unwrap_or_default();
     let mut plan = *plan;
-    let mut lowered = Vec::new();
-    let mut lower = |plan: &mut Plan, key, limit, to: f64| {
-        if to < plan.voltage {
-            lowered.push(Lowered { key, limit, from: plan.voltage, to });
-            plan.voltage = to;
-        }
-    };
-    if let Some(amps) = limits.current_a {
-        lower(&mut plan, "current_A", amps, amps * robot.motor.resistance);
-    }
-    if let Some(fastest) = limits.speed_m_s {
-        for axis in 0..2 {
-            let [still, one] = [0.0, 1.0].map(|volts| final_speed(&robot, axis, volts));
-            lower(&mut plan, "speed_m_s", fastest, (fastest - still) / (one - still));
-        }
-    }
+    let mut lowered = lowered_by_motors(file, &robot, &mut plan.voltage);
     let play = |plan: &Plan| {
         let scripts: Vec<_> = scripts(&robot, plan).into_iter().filter(|s| wanted(s)).collect();
         let floors: Vec<Floor> = scripts.iter().map(|script| floor_of(&model, script)).collect();
@@ -89,10 +75,42 @@ pub fn allowed<const N: usize>(file: &RobotFile, plan: &Plan, wanted: impl Fn(&S
         fits.voltage *= LESS;
         (all, floors) = play(&fits);
     }
-    lower(&mut plan, "field_m", fits.field, fits.voltage);
-    let moves = |axis: usize| final_speed(&robot, axis, MUST_MOVE * plan.voltage) > 0.0;
-    let held = (0..AXES.len()).filter(|axis| !moves(*axis)).map(|axis| AXES[axis]).collect();
-    Allowed { scripts: all, floors, plan, lowered, held }
+    lower(&mut lowered, &mut plan.voltage, ("field_m", fits.field), fits.voltage);
+    Allowed { scripts: all, floors, plan, lowered, held: held(&robot, plan.voltage) }
+}
+
+/// Lowers a voltage to what the limits of current and speed allow, and says which did so.
+pub(super) fn lowered_by_motors<const N: usize>(
+    file: &RobotFile,
+    robot: &Robot<N, f64>,
+    voltage: &mut f64,
+) -> Vec<Lowered> {
+    let limits = file.limits.unwrap_or_default();
+    let mut lowered = Vec::new();
+    if let Some(amps) = limits.current_a {
+        lower(&mut lowered, voltage, ("current_A", amps), amps * robot.motor.resistance);
+    }
+    if let Some(fastest) = limits.speed_m_s {
+        for axis in 0..2 {
+            let [still, one] = [0.0, 1.0].map(|volts| final_speed(robot, axis, volts));
+            lower(&mut lowered, voltage, ("speed_m_s", fastest), (fastest - still) / (one - still));
+        }
+    }
+    lowered
+}
+
+/// Notes that a limit asks for a voltage, if that is less.
+pub(super) fn lower(lowered: &mut Vec<Lowered>, voltage: &mut f64, (key, limit): (&'static str, f64), to: f64) {
+    if to < *voltage {
+        lowered.push(Lowered { key, limit, from: *voltage, to });
+        *voltage = to;
+    }
+}
+
+/// The axes that half of a voltage does not move.
+pub(super) fn held<const N: usize>(robot: &Robot<N, f64>, voltage: f64) -> Vec<&'static str> {
+    let moves = |axis: usize| final_speed(robot, axis, MUST_MOVE * voltage) > 0.0;
+    (0..AXES.len()).filter(|axis| !moves(*axis)).map(|axis| AXES[axis]).collect()
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 //! Pure: the same model, input and seed give the same run, bit for bit. A [`Model`] is what files describe; a
 //! [`AlignedRun`] run is a recording laid out row by row for the plant; [`predict`] lets the one run freely beside the
 //! other, restarted every horizon from a [`Start`] that no model had a part in; [`record`] makes a recording of a robot
-//! that is not there, and [`excite`] tells it what to do. [`sensitivity()`] says which numbers of a file the motion depends
-//! on, [`effect_shown()`] what an effect of the catalogue does to a drive.
+//! that is not there, and [`excite`] or [`rich_allowed`] tells it what to do. [`sensitivity()`] says which numbers of a file
+//! the motion depends on, [`effect_shown()`] what an effect of the catalogue does to a drive.
 
 mod aligned_run;
 mod channels;
@@ -21,6 +21,8 @@ mod model;
 mod open_circuit;
 mod predict;
 mod record;
+mod rich;
+mod rich_limits;
 mod row_passed;
 mod script;
 mod sensing;
@@ -28,6 +30,7 @@ mod sensitivity;
 mod start;
 mod step_lengths;
 mod terms;
+mod tried_path;
 mod white_noise;
 
 pub use crate::log::Chain;
@@ -44,6 +47,8 @@ pub use limits::{Allowed, Lowered, USUAL_FIELD, allowed, usual_voltage};
 pub use model::{EffectInstance, Model, ROOM_FOR_CAUSES, Slot, robot_of};
 pub use predict::{HORIZON_S, Prediction, predict};
 pub use record::{SensorSetup, SpeedSensor, record};
+pub use rich::{RICH, RichPlan};
+pub use rich_limits::{RichAllowed, rich_allowed};
 pub use row_passed::RowPassed;
 pub use script::{AXES, Experiment, Plan, Script, along, scripts};
 pub use sensing::Sensing;
