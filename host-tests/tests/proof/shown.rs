@@ -84,7 +84,8 @@ pub fn section() -> String {
     page += "The largest change that an effect makes to the drive of the pictures below, at its typical size: each robot alone\n";
     page += "with the effect against the same robot without, both free from the first row on, by sensors without noise. Places\n";
     page += "sum up all that was before. The last columns say where it shows most, in units of the sensor's noise. Effects on\n";
-    page += "one wheel sit on wheel 0; drives that control wheel speed tell no currents. What is less than a billionth is 0.\n";
+    page += "one wheel sit on wheel 0; drives that control wheel speed tell no currents; what shows beside another effect alone has\n";
+    page += "that one in both drives. What is less than a billionth is 0.\n";
     for shown in SHOWN.iter() {
         let Some(first) = shown.first() else { continue };
         let _ = writeln!(page, "\n### {}\n\nNoise: {}.\n", first.robot, noises(shown));

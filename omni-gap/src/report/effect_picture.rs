@@ -33,7 +33,8 @@ pub fn effect_picture(shown: &EffectShown) -> String {
         other => title(other),
     };
     let place = shown.effect.wheel.map_or(String::new(), |wheel| format!("wheel {wheel} of "));
-    let below = format!("{} at its typical size, on {place}{}", card.id, shown.robot);
+    let beside = card.physics.shows_beside.map_or(String::new(), |id| format!(" with {id}"));
+    let below = format!("{} at its typical size, on {place}{}{beside}", card.id, shown.robot);
     let label = format!("{}: {name} over time without the effect and with it, and the difference", card.title);
     let view = format!("0 0 {} {HEIGHT}", SIZE.0);
     let mut m = Markup::default();

@@ -3,6 +3,7 @@
 //! The drive has what effects show in: steps, a long turn while driving, a reversal, rests, creeping to and fro, and all
 //! axes at once.
 
+use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Scope};
 use model_core::plant::Input;
 
@@ -105,7 +106,8 @@ const EVERY_ROW: f64 = 1e8;
 const ONE_WHEEL: usize = 0;
 
 /// Drives the robot of a file without an effect and with it at its typical size. Effects of drives that control wheel
-/// speed are driven by speeds that are set, and say nothing of currents; all others by voltages.
+/// speed are driven by speeds that are set, and say nothing of currents; all others by voltages. What shows beside another
+/// effect alone has that one in both drives.
 pub fn effect_shown(file: &RobotFile, card: &'static Card) -> EffectShown {
     match file.wheel.len() {
         3 => shown::<3>(file, card),
@@ -115,10 +117,16 @@ pub fn effect_shown(file: &RobotFile, card: &'static Card) -> EffectShown {
 
 fn shown<const N: usize>(file: &RobotFile, card: &'static Card) -> EffectShown {
     let voltage = usual_voltage(file);
-    let effect = EffectInstance::typical(card, (card.scope == Scope::OneWheel).then_some(ONE_WHEEL));
-    // what both drives have: an effect that only shows beside another gets that one here
+    let typical =
+        |card: &'static Card| EffectInstance::typical(card, (card.scope == Scope::OneWheel).then_some(ONE_WHEEL));
+    let effect = typical(card);
+    // what both drives have: what the file names, and the effect beside which alone this one shows
     let mut without = Model::<N>::nominal(file, voltage);
     without.effects.retain(|there| there.id != effect.id);
+    let beside = card.physics.shows_beside.filter(|id| without.effects.iter().all(|there| there.id != *id));
+    if let Some(beside) = beside.and_then(EffectKind::find) {
+        without.add_effect(typical(beside.card()));
+    }
     let mut with = without.clone();
     with.add_effect(effect.clone());
 
@@ -210,7 +218,6 @@ fn noise_of(sensors: &SensorsFile, channels: Channels, channel: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::log::{Catalogue, EffectEntry};
-    use model_core::effects::EffectKind;
     use std::path::Path;
 
     const FOUR: &str = include_str!("../../../examples/feup-4w/robot.toml");
@@ -274,5 +281,16 @@ mod tests {
         named.effects.push(EffectEntry { id: "creep".to_owned(), wheel: None, params: [].into() });
         let creep = card("creep");
         assert_eq!(effect_shown(&named, creep).signals, effect_shown(&four(), creep).signals);
+    }
+
+    #[test]
+    fn what_shows_beside_another_effect_alone_has_it_in_both_drives() {
+        let shown = EffectKind::ALL.iter().map(|kind| kind.card()).find(|card| card.physics.shows_beside.is_some());
+        let (shown, mut named) = (shown.unwrap(), four());
+        let beside = shown.physics.shows_beside.unwrap();
+        let of_the_plain_robot = effect_shown(&named, shown);
+        named.effects.push(EffectEntry { id: beside.to_owned(), wheel: None, params: [].into() });
+        assert_eq!(of_the_plain_robot.signals, effect_shown(&named, shown).signals);
+        assert!(of_the_plain_robot.most().in_noise() > 0.1);
     }
 }
