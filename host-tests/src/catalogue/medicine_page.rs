@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use model_core::effects::card::Role;
-use omni_gap::report::{Verdict, estimate, num, percent};
+use omni_gap::report::{Verdict, estimate, num};
 
 use super::foretold::Foretold;
 use super::outcome::{BenchmarkOutcome, EstimatedNumber, Judgement};
@@ -38,10 +38,7 @@ fn opening() -> String {
          `not seen`. \"Off\" is the distance of the estimate of a size from the truth in its own standard errors; it stands there\n\
          wherever the hidden effect was fitted, also where another cause came first. \"Errors\" are those of free runs of 0.5 s\n\
          over the runs held out, in sigmas of the sensors: with the plain file, with the true effect in the diagnosis's own\n\
-         steps, and what noise alone gives: where the second is well above the third, these steps are too coarse for the effect.\n\
-         \"By a refit\" is the share of that gap that the file's own numbers close within what is stated of them, without any\n\
-         effect: where it is nearly all, there is no gap to explain. The self-test takes signatures for straight lines in these\n\
-         numbers, and misses what a refit imitates beyond that.\n\n\
+         steps, and what noise alone gives: where the second is well above the third, these steps are too coarse for the effect.\n\n\
          `cargo xtask medicine` makes this page again and compares it with this one; BLESS=1 rewrites it.\n\n"
     )
 }
@@ -102,7 +99,7 @@ fn rows(doses: &[Dose]) -> String {
     let mut text = format!(
         "## The sessions\n\n\
          | seed | hidden | verdict | first cause | its probability | not told apart from it | probability of the truth | right \
-         | foretold | errors | by a refit | sizes: estimate (truth) | off | within {NEAR_ENOUGH} |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
+         | foretold | errors | sizes: estimate (truth) | off | within {NEAR_ENOUGH} |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
     );
     for (o, foretold) in doses {
         let first = o.first();
@@ -121,7 +118,7 @@ fn rows(doses: &[Dose]) -> String {
         let alike: Vec<String> = o.alike().iter().map(|id| format!("`{id}`")).collect();
         let _ = writeln!(
             text,
-            "| {} | {} | `{}` | {} | {} | {} | {:.2} | {} | {} | {} | {} | {} | {} | {near} |",
+            "| {} | {} | `{}` | {} | {} | {} | {:.2} | {} | {} | {} | {} | {} | {near} |",
             o.case.seed,
             o.case.hidden,
             word(o.report.verdict),
@@ -132,7 +129,6 @@ fn rows(doses: &[Dose]) -> String {
             right(o.judged()),
             foretold.map_or("–", Foretold::words),
             format_args!("{:.4}, {:.4}, {:.4}", o.oracle.before, o.oracle.after, o.oracle.floor),
-            o.report.shrink.closed_by_refit_alone.map_or("–".to_owned(), |share| plain(&percent(share))),
             listed(&sizes(o).map(size).collect::<Vec<_>>()),
             listed(&offs.iter().map(|off| off.map_or("–".to_owned(), |off| format!("{off:.1}"))).collect::<Vec<_>>()),
         );
@@ -148,7 +144,7 @@ fn size(number: &EstimatedNumber) -> String {
 /// What is hidden, and the judgement, in each row of the sessions.
 pub fn read_rows(page: &str) -> Vec<(&str, &str)> {
     let rows = page.lines().map(|line| line.trim_matches('|').split('|').map(str::trim).collect::<Vec<_>>());
-    rows.filter(|cells| cells.len() == 14 && cells[0].parse::<u64>().is_ok())
+    rows.filter(|cells| cells.len() == 13 && cells[0].parse::<u64>().is_ok())
         .map(|cells| (cells[1], cells[7]))
         .collect()
 }
