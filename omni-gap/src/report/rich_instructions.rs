@@ -55,8 +55,8 @@ fn play(page: &mut String, say: &RichInstructions) {
         page,
         "## Play\n\n\
          `scripts/<name>.csv` is what to put on the motors: at `t_s` seconds after the start, `u0_V` to `u{}_V` volts on\n\
-         motors 0 to {}, held until the next row ({} rows a second). Each script asks for all three axes at once, with jumps,\n\
-         reversals, rests and slow creeping.\n\n\
+         motors 0 to {}, held until the next row ({} rows a second); `enable` is 1 throughout. All three axes are asked at once:\n\
+         jumps, reversals, rests and slow creeping.\n\n\
          Begin each script at rest in the middle of a free floor of {} m by {} m, and let go of the robot until the script has\n\
          ended. It is not led back: carry it to the middle again before the next one. Nothing holds the robot on its way but\n\
          the scripts themselves, and a robot that is not just what its file says goes another way, the further off the longer\n\

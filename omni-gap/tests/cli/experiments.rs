@@ -77,6 +77,33 @@ fn limits_of_the_robot_file_lower_the_voltage_and_are_told() {
 }
 
 #[test]
+fn a_rich_excitation_is_written_rehearsed_and_judged_by_the_self_test() {
+    let bench = with_robot(ROBOT);
+    let ask = ["experiment", "robot.toml", "--rich", "--scripts", "2", "--duration", "8"];
+    let said = bench.done(&[&ask[..], &OUT].concat());
+    assert!(said.out.contains("2 scripts of up to 8.00 V") && said.out.contains("README.md"), "{}", said.out);
+    let page = bench.read("morning/README.md");
+    assert!(page.contains("omni-gap diagnose morning/session") && page.contains("`rich-2`, 8 s"), "{page}");
+    let scripts = ["morning/scripts/rich-1.csv", "morning/scripts/rich-2.csv"];
+    let judge = ["selftest", "robot.toml", "--script", scripts[0], scripts[1], "--sensors", "i,w", "--json"];
+    let judged: serde_json::Value = serde_json::from_str(&bench.done(&judge).out).expect("JSON");
+    // two scripts of 8 s, 100 rows a second, a current and a speed of each of four wheels
+    assert_eq!(judged["numbers"], 2 * 800 * 8);
+    let rehearse = [&ask[..], &["--rehearse", "paper", "--out", "played"]].concat();
+    assert!(bench.done(&rehearse).out.contains("next: omni-gap diagnose played/session"));
+    let (run, notices) = Run::load(&bench.at("played/session/runs/rich-1.csv"), 4, None).unwrap();
+    assert_eq!((run.rows(), notices), (200, Vec::new()));
+    for (more, told) in [
+        (["--only", "step"], "'--rich' cannot be used with '--only"),
+        (["--repeats", "2"], "'--rich' cannot be used with '--repeats"),
+        (["--duration", "2"], "expected seconds, from 8 to 120"),
+    ] {
+        refused(&bench, &[&["experiment", "robot.toml", "--rich", "--out", "other"], &more[..]].concat(), &[told]);
+    }
+    refused(&bench, &["experiment", "robot.toml", "--scripts", "2", "--out", "other"], &["--rich"]);
+}
+
+#[test]
 fn what_cannot_be_asked_of_the_experiments_is_refused() {
     let bench = with_robot(ROBOT);
     let with = |more: &[&'static str]| [&["experiment", "robot.toml"][..], &OUT, more].concat();
