@@ -94,10 +94,10 @@ fn is_rich<const N: usize>(file: &RobotFile, plan: &RichPlan) -> PlannedRich {
         assert!(most(&|m| m.amps) <= 1.02 * limits.current_a.unwrap_or(f64::INFINITY), "{name}: current");
         let speed = |m: &Moment| m.twist.v.hypot(m.twist.vn);
         assert!(most(&speed) <= 1.02 * limits.speed_m_s.unwrap_or(f64::INFINITY), "{name}: speed");
-        for axis in 0..3 {
+        for (axis, turned) in turned.iter_mut().enumerate() {
             let turns: Vec<bool> =
                 moments.iter().map(|m| m.speeds()[axis]).filter(|v| v.abs() > DRIVES).map(|v| v > 0.0).collect();
-            turned[axis] += turns.windows(2).filter(|pair| pair[0] != pair[1]).count();
+            *turned += turns.windows(2).filter(|pair| pair[0] != pair[1]).count();
         }
         let row = |seconds: f64| (seconds * plan.rate) as usize;
         let between = &moments[row(0.5)..moments.len() - row(1.0)];
