@@ -192,7 +192,12 @@ impl Experiments {
         let seconds: f64 = all.scripts.iter().map(|script| script.seconds).sum();
         let text = self.told((all.scripts.len(), all.plan.voltage, seconds), notes);
         let which = if self.only.is_empty() { "all".to_owned() } else { said_as(&self.wanted()) };
-        text + &self.next(&format!("identify {} --experiment {which} --out identified.toml", self.at("session")))
+        text + &match self.rehearse {
+            Some(_) => {
+                format!("next: omni-gap identify {} --experiment {which} --out identified.toml\n", self.at("session"))
+            }
+            None => format!("next: read {}; it says how to play them and what to record\n", self.at("README.md")),
+        }
     }
 
     /// What was written: so many scripts of so many volts and seconds together.
@@ -212,14 +217,6 @@ impl Experiments {
             );
         }
         text
-    }
-
-    /// What to do next: with what was rehearsed, this command.
-    fn next(&self, command: &str) -> String {
-        match self.rehearse {
-            Some(_) => format!("next: omni-gap {command}\n"),
-            None => format!("next: read {}; it says how to play them and what to record\n", self.at("README.md")),
-        }
     }
 
     fn at(&self, name: &str) -> String {

@@ -28,7 +28,10 @@ impl Experiments {
         self.write(&runs, &page, |sensing| rehearse_rich(file, &plan, sensing, self.seed), console)?;
         let seconds = all.scripts.iter().map(|script| script.seconds).sum();
         let text = self.told((all.scripts.len(), all.plan.voltage, seconds), &notes);
-        Ok(text + &self.next(&format!("diagnose {} --out report", self.at("session"))))
+        let then = format!("omni-gap diagnose {} --out report", self.at("session"));
+        let played = self.rehearse.is_some();
+        let first = if played { String::new() } else { format!("record them as {} says, then ", self.at("README.md")) };
+        Ok(format!("{text}next: {first}{then}\n"))
     }
 
     fn rich_page(&self, file: &RobotFile, all: &PlannedRich, notes: Vec<String>) -> String {
