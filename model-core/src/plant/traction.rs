@@ -16,6 +16,9 @@ use crate::number::scalar::Real;
 /// No wheel turns faster [rad/s].
 const FASTEST: f64 = 1e6;
 
+/// The most that the floor takes of a wheel that is lifted [N]
+const LIFTED: f64 = 1e-6;
+
 /// What the floor takes of a wheel that gives way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Floor<T> {
@@ -34,7 +37,8 @@ impl<T: Real> Floor<T> {
     #[inline]
     pub fn of(c: &Contact<T>) -> Self {
         let (zero, one) = (T::zero(), T::one());
-        let limit = c.grip * c.load;
+        // a wheel that is lifted has a limit too
+        let limit = if c.grip > zero { (c.grip * c.load).max(T::lit(LIFTED)) } else { zero };
         // creep in series with the slip curve: 1/k = 1/k₀ + c,  k₀ = μN·B·C
         let stiffness = c.stiffness / (one + c.creep * limit * c.stiffness * c.shape);
         let per_creep = if limit <= zero { one / c.creep } else { zero };
@@ -240,5 +244,21 @@ pub(super) fn cross<T: Real>(line: &Line<&T>, floor: &Floor<T>) -> Crossing<T> {
             [(&steeper, by_slope), (line.fall, by_fall), (line.inertia, by_fall), (line.radius, by_radius)],
         ),
         speed: turned,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_floor_takes_next_to_nothing_of_a_wheel_that_is_lifted() {
+        for load in [0.0, -0.0, 1e-12] {
+            let floor = Floor::of(&Contact { grip: 0.35, load, stiffness: 30.0, shape: 1.0, ..Contact::default() });
+            for slip in [-3.0, 0.0, 0.01, 50.0] {
+                let (force, slope) = floor.force(slip);
+                assert!(force.abs() <= LIFTED && (0.0..1e-4).contains(&slope), "{force} {slope}");
+            }
+        }
     }
 }

@@ -18,7 +18,8 @@
 //! d       `reach`         m     mean distance of the contacts from the centre
 //!
 //! It needs a floor that holds only so much: beside [`wheel_slip`](super::wheel_slip) alone does a load matter. The
-//! acceleration is that of the last step. A wheel never pulls at the floor: one that is lifted carries nothing.
+//! acceleration is that of the last step. A wheel never pulls at the floor: one that is lifted carries nothing, and the one
+//! behind no more than twice its share.
 //!
 //! Fails when: the wheels stand at unequal distances or angles: then the shares differ; when one lifts off, the others carry
 //! it.
@@ -63,9 +64,10 @@ pub const CARD: Card = Card {
 /// What a wheel at `place` (v, vn) [m] carries more at an acceleration (v, vn) [m/s²], over what it carries at rest [1].
 #[inline]
 pub fn shifted<T: Real>(height: T, reach: T, acceleration: [T; 2], place: [T; 2]) -> T {
-    // −2·h·(a·p)/(g·d²)
+    // −2·h·(a·p)/(g·d²), and no more than all: there the robot begins to tip over
     let along = acceleration[0] * place[0] + acceleration[1] * place[1];
-    -T::lit(2.0 / STANDARD_GRAVITY) * height * along / (reach * reach)
+    let more = -T::lit(2.0 / STANDARD_GRAVITY) * height * along / (reach * reach);
+    more.clamp(-T::one(), T::one())
 }
 
 /// Load transfer.
@@ -89,7 +91,7 @@ impl<T: Real> Hooks<T> for LoadTransfer<T> {
     fn contact(&self, _: &(), at: &EffectContext<T>, x: &mut Contact<T>) {
         let [along, across, _] = at.acceleration;
         let more = shifted(self.height, at.reach, [along, across], x.position);
-        x.load = (x.load + x.load * more).max(T::zero());
+        x.load += x.load * more;
     }
 }
 
@@ -135,5 +137,6 @@ mod tests {
     #[test]
     fn a_wheel_that_is_lifted_carries_nothing() {
         assert_eq!(load(0.3, [20.0, 0.0, 0.0], 0.0), 0.0);
+        assert_eq!(load(0.3, [-20.0, 0.0, 0.0], 0.0), 2.0 * 5.7);
     }
 }

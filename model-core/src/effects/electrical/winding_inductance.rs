@@ -47,10 +47,16 @@ pub const CARD: Card = Card {
     }],
     needs_current: false,
     signature: "a current read sooner than some L/R after a change of voltage is still near its old value; speed late by L/R",
-    look_alikes: &[LookAlike {
-        with: "actuation_delay",
-        settled_by: "lock a wheel, step its voltage and watch the current on an oscilloscope: an inductance bends it at once, a delay leaves it flat and then lets it jump",
-    }],
+    look_alikes: &[
+        LookAlike {
+            with: "actuation_delay",
+            settled_by: "lock a wheel, step its voltage and watch the current on an oscilloscope: an inductance bends it at once, a delay leaves it flat and then lets it jump",
+        },
+        LookAlike {
+            with: "current_lag",
+            settled_by: "lock a wheel, step its voltage and hold what the robot reads of its current against an oscilloscope at the same lead: an inductance bends both, a smoothing sensor only what is read",
+        },
+    ],
     code: 29,
     undone: Undone::No("it is over before the controller's next turn; a current loop has it in its own gains"),
     physics: Physics::PASSIVE,

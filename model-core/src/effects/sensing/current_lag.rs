@@ -32,7 +32,7 @@
 //! Source: Low-pass of first order behind a hold: Franklin, Powell, Workman, Digital Control of Dynamic Systems, 1998,
 //! ch. 6; sizes: estimated, filters and means of 0.5 to 10 ms.
 
-use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
 use crate::effects::{Catalogued, Hooks, Numbers, State};
 use crate::number::decay;
@@ -58,7 +58,10 @@ pub const CARD: Card = Card {
     }],
     needs_current: false,
     signature: "current behind after every change of voltage, and right where it stays; speed and pose right",
-    look_alikes: &[],
+    look_alikes: &[LookAlike {
+        with: "winding_inductance",
+        settled_by: "lock a wheel, step its voltage and hold what the robot reads of its current against an oscilloscope at the same lead: an inductance bends both, a smoothing sensor only what is read",
+    }],
     code: 48,
     undone: Undone::No("a current that is smoothed is known late, and the loop does not guess what it is now"),
     physics: Physics::PASSIVE,
