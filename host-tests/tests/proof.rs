@@ -18,6 +18,8 @@ mod paper_core;
 #[path = "proof/paper_robots.rs"]
 mod paper_robots;
 
+#[path = "proof/bounds.rs"]
+mod bounds;
 #[path = "proof/edges.rs"]
 mod edges;
 #[path = "proof/energy.rs"]
@@ -43,6 +45,8 @@ mod identity;
 mod invented;
 #[path = "proof/mechanism.rs"]
 mod mechanism;
+#[path = "proof/pairs.rs"]
+mod pairs;
 #[path = "proof/registry.rs"]
 mod registry;
 #[path = "proof/seams.rs"]

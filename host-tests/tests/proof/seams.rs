@@ -11,8 +11,10 @@ use model_core::geometry::frames::{BodyTwist, Pose};
 use crate::fixture::typical;
 
 /// A description whose numbers are random but physical.
-trait Described: Clone {
+pub trait Described: Clone {
+    /// One of them.
     fn random(rng: &mut SeededRng) -> Self;
+    /// All its numbers.
     fn numbers(&self) -> Vec<f64>;
 }
 
@@ -20,7 +22,8 @@ fn pose(rng: &mut SeededRng) -> Pose<f64> {
     Pose { x: rng.between(-2.0, 2.0), y: rng.between(-2.0, 2.0), theta: rng.between(-7.0, 7.0) }
 }
 
-fn at(rng: &mut SeededRng) -> EffectContext<f64> {
+/// What an effect could be told.
+pub fn at(rng: &mut SeededRng) -> EffectContext<f64> {
     let time = rng.between(0.0, 20.0);
     EffectContext {
         time,
@@ -203,10 +206,10 @@ fn touches<D: Described>(seed: u64, hook: impl Fn(&EffectContext<f64>, &mut D)) 
 }
 
 /// When the hooks are asked: when a run has gone on long enough for what grows with time to show [s].
-const NOW: f64 = 10.0;
+pub const NOW: f64 = 10.0;
 
 /// A memory as it is after some steps, just before then.
-fn remembered(effect: &Effect<f64>, rng: &mut SeededRng) -> Vec<EffectState<f64>> {
+pub fn remembered(effect: &Effect<f64>, rng: &mut SeededRng) -> Vec<EffectState<f64>> {
     let mut s: Vec<_> = effect.start().into_iter().collect();
     effect.restart(&mut s, &EffectContext { time: NOW - 0.1, ..at(rng) });
     for k in 0..40 {
