@@ -63,8 +63,8 @@ fn every_cause_is_considered_at_every_place_where_it_can_sit() {
             if card.scope != Scope::Robot {
                 places.extend((0..3).map(Some));
             }
-            // where no speed is set there is no loop that could miss it
-            if card.of_speed_drive() && !speeds_are_set {
+            // where no speed is set there is no loop that could miss it; what shows beside another effect waits for that
+            if card.of_speed_drive() && !speeds_are_set || card.physics.shows_beside.is_some() {
                 places.clear();
             }
             let own = first.iter().filter(|c| c.id == card.id);

@@ -5,7 +5,7 @@
 
 use std::process::ExitCode;
 
-use host_tests::catalogue::foretold::{Foretold, Prophecy};
+use host_tests::catalogue::foretold::{Forecast, Foretold};
 use host_tests::catalogue::medicine_page::{Dose, page};
 use host_tests::catalogue::outcome::diagnose_case;
 use host_tests::catalogue::page::right;
@@ -20,11 +20,11 @@ fn main() -> ExitCode {
 }
 
 fn taken(only: Option<&str>) -> Result<bool, Error> {
-    let prophecy = Prophecy::ask()?;
+    let forecast = Forecast::ask()?;
     let mut doses: Vec<Dose> = Vec::new();
     for case in plain_cases().into_iter().filter(|case| only.is_none_or(|only| case.hidden.to_string().contains(only)))
     {
-        let foretold = case.hidden.cause().and_then(|(id, _)| prophecy.of(id, &case.plan()));
+        let foretold = case.hidden.cause().and_then(|(id, _)| forecast.of(id, &case.plan()));
         let outcome = diagnose_case(&case, &Stepwise)?;
         let (judged, said) = (right(outcome.judged()), foretold.map_or("–", Foretold::words));
         println!("{}: {judged}, foretold: {said}; {:?}; {:.1} s", case.hidden, outcome.report.causes, outcome.seconds);

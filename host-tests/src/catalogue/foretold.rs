@@ -38,13 +38,13 @@ impl Foretold {
 
 /// The self-test of plain sessions on four wheels, by what is logged and how the drives are commanded.
 #[derive(Debug)]
-pub struct Prophecy {
+pub struct Forecast {
     usual: Confusion,
     with_more_sensors: Confusion,
     by_set_speed: Confusion,
 }
 
-impl Prophecy {
+impl Forecast {
     /// Asks the self-test.
     ///
     /// # Errors
@@ -58,10 +58,9 @@ impl Prophecy {
             camera_rate: CAMERA,
         };
         let more = PlannedRuns { logged: SignalGroup::ALL.to_vec(), ..usual.clone() };
-        // a script is one run: as long as all of them together
-        let one = Scenario { runs: 1, duration: duration * runs as f64, by_set_speed: true, ..plain() };
-        let script = synthesize(truth(4), &one, &known_effects())?.runs.swap_remove(0);
-        let set_speeds = PlannedRuns { camera_rate: CAMERA, ..PlannedRuns::of_script(script) };
+        let set = Scenario { by_set_speed: true, ..plain() };
+        let scripts = synthesize(truth(4), &set, &known_effects())?.runs;
+        let set_speeds = PlannedRuns { camera_rate: CAMERA, ..PlannedRuns::of_scripts(scripts) };
         let asked = |plan: &PlannedRuns| confusion(&file, plan, &SelftestKnobs::default());
         Ok(Self { usual: asked(&usual)?, with_more_sensors: asked(&more)?, by_set_speed: asked(&set_speeds)? })
     }

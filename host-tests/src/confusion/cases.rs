@@ -152,7 +152,7 @@ fn one_axis<const N: usize>(file: &RobotFile, amount: Amount, voltage: f64) -> D
     let volts = (0..N).map(|j| Channel::from_values(rows.iter().map(|u| u[j]))).collect();
     let t_s = (0..rows.len()).map(|row| row as f64 / RATE).collect();
     let name = "one axis at a time".to_owned();
-    Driven::Script(Box::new(Run { name, t_s, u: Some(Group::new(volts)), ..Run::default() }))
+    Driven::Scripts(vec![Run { name, t_s, u: Some(Group::new(volts)), ..Run::default() }])
 }
 
 #[cfg(test)]
@@ -169,10 +169,10 @@ mod tests {
     #[test]
     fn a_piece_of_one_axis_drives_the_others_not_at_all() {
         let file = RobotFile::parse(&Layout::Three.text(), Path::new("robot.toml"), &known_effects()).unwrap();
-        let Driven::Script(run) = one_axis::<3>(&file, Amount { pieces: 3, duration: 2.0 }, 8.0) else {
+        let Driven::Scripts(runs) = one_axis::<3>(&file, Amount { pieces: 3, duration: 2.0 }, 8.0) else {
             panic!("a script");
         };
-        let u = run.u.expect("voltages");
+        let u = runs[0].u.as_ref().expect("voltages");
         let at = |row: usize| -> [f64; 3] { std::array::from_fn(|j| u.channels[j].get(row).unwrap()) };
         for row in 0..1200 {
             let [a, b, c] = at(row);

@@ -51,7 +51,8 @@ fn opening(all: &[Confused]) -> String {
          it is not quite the same the other way round. It is the self-test's own (`omni-gap selftest`), on the paper's robots and\n\
          on the one with four wheels turned by 45°; {} runs of {} s at {RATE} rows a second, with currents, wheel speeds and a\n\
          camera of {CAMERA} frames a second: random motion on all axes at once, or the same steps along v, then along vn, then\n\
-         about ω, alone. Voltages are commanded; what acts on set speeds alone has no signature there: {}.\n\n\
+         about ω, alone. Voltages are commanded; what acts on set speeds or beside another effect alone has no\n\
+         signature there: {}.\n\n\
          A number that is wrong by no more than what is stated of it is taken away nearly whole, and few numbers are seen at\n\
          10 %. What it shares with an effect is taken away with it: between an effect and a number the angle is wide, and says\n\
          how they differ beyond what is stated.\n\n\

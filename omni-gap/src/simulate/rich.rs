@@ -11,7 +11,7 @@
 //! ```
 //!
 //! Each piece is tried first on a robot that is just what its model says, and taken only where that robot could still brake
-//! on the floor. Nothing is random: the same robot file gives the same scripts.
+//! on the floor. What varies is drawn from fixed seeds: the same robot file gives the same scripts.
 
 use std::f64::consts::TAU;
 
