@@ -22,6 +22,15 @@ pub fn too_small() -> f64 {
     Knobs::default().measure.smallest_room_sigma
 }
 
+/// Nor is one that is a smaller share than this of what a model that knows everything leaves [1]: robots that slip part by
+/// chance, and a tenth more or less of that is no cause's doing.
+pub const TOO_SMALL_A_SHARE: f64 = 0.1;
+
+/// True if what lies between two errors [σ] can be divided by.
+fn worth_dividing_by(before: f64, after: f64) -> bool {
+    before - after >= too_small().max(TOO_SMALL_A_SHARE * after)
+}
+
 /// How good the answer is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Judgement {
@@ -197,13 +206,13 @@ impl BenchmarkOutcome {
     /// What the true model closes of its gap; none where there is none worth dividing by.
     pub fn closed_by_truth(&self) -> Option<f64> {
         let Oracle { before, after, floor } = self.oracle;
-        (before - floor >= too_small()).then(|| (before - after) / (before - floor))
+        worth_dividing_by(before, floor).then(|| (before - after) / (before - floor))
     }
 
     /// What the diagnosis closes of what the true model closes.
     pub fn closed_of_truth(&self) -> Option<f64> {
         let Oracle { before, after, .. } = self.oracle;
-        (before - after >= too_small()).then_some(())?;
+        worth_dividing_by(before, after).then_some(())?;
         Some((before - self.report.shrink.after?) / (before - after))
     }
 

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use omni_gap::report::{Verdict, estimate, num, percent};
 
-use super::outcome::{BenchmarkOutcome, EstimatedNumber, Judgement, too_small};
+use super::outcome::{BenchmarkOutcome, EstimatedNumber, Judgement, TOO_SMALL_A_SHARE, too_small};
 use super::sessions::{FIRST_SEED, HiddenCause, WRONG_PARAMETERS};
 
 /// Share of what the true model closes that the diagnosis has to close.
@@ -175,9 +175,11 @@ fn gaps(outcomes: &[BenchmarkOutcome]) -> String {
         Errors of free runs of 0.5 s over the runs held out, in sigmas of the sensors: with the session's robot file, with the\n\
         corrected one, and what noise alone gives. \"Closed\" is (before − after) over (before − floor); \"by the true model\" is\n\
         the same for a model with the true numbers and the hidden effect as it was simulated. \"Of that\" is (before − after) of\n\
-        the diagnosis over that of the true model. A gap under {} σ is not divided by.\n\n\
+        the diagnosis over that of the true model. A gap under {} σ is not divided by, nor, in the last two columns, one under {} of\n\
+        what the true model leaves: robots that slip part by chance.\n\n\
         | wheels | hidden | before | after | floor | closed | by the true model | of that | engine |\n|---|---|---|---|---|---|---|---|---|\n",
-        too_small()
+        too_small(),
+        percent(TOO_SMALL_A_SHARE),
     );
     let share = |x: Option<f64>| x.map_or("–".to_owned(), |x| plain(&percent(x)));
     let sigmas = |x: Option<f64>| x.map_or("–".to_owned(), num);
