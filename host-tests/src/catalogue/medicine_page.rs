@@ -60,11 +60,9 @@ fn sizes(outcome: &BenchmarkOutcome) -> impl Iterator<Item = &EstimatedNumber> {
 fn totals(doses: &[Dose]) -> String {
     let nothing = || doses.iter().filter(|dose| dose.0.case.hidden == HiddenCause::Nothing);
     let no_gap = nothing().filter(|(o, _)| o.report.verdict == Verdict::NoGap).count();
-    let mut text = format!(
-        "## Totals\n\n\
+    let mut text = "## Totals\n\n\
          | foretold | effects | first | named with the first | wrong: nothing found | wrong: another cause, or unknown |\n\
-         |---|---|---|---|---|---|\n"
-    );
+         |---|---|---|---|---|---|\n".to_owned();
     let mut line = |what: &str, of: &dyn Fn(&Option<Foretold>) -> bool| {
         let those = || doses.iter().filter(is_effect).filter(|(_, foretold)| of(foretold));
         let judged = |how| those().filter(|(o, _)| o.judged() == how).count();
