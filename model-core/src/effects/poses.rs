@@ -113,6 +113,45 @@ impl<T: Real> State<T> for Poses<T> {
     }
 }
 
+/// A robot with a constant velocity, for the tests of what goes by its poses.
+#[cfg(test)]
+pub mod on_its_way {
+    use super::EffectContext;
+    use crate::geometry::frames::{BodyTwist, Pose};
+
+    /// Straight on [m/s, m/s, rad/s]
+    pub const STRAIGHT: BodyTwist<f64> = BodyTwist { v: 0.9, vn: -0.5, w: 0.0 };
+    /// Round a circle
+    pub const CURVE: BodyTwist<f64> = BodyTwist { v: 1.5, vn: 0.0, w: 6.0 };
+
+    /// Where a robot is that left (0.2, −0.1, 0.4) at time zero with a constant twist.
+    pub fn truth(twist: BodyTwist<f64>, t: f64) -> Pose<f64> {
+        let start = Pose { x: 0.2, y: -0.1, theta: 0.4 };
+        if twist.w == 0.0 {
+            return start.moved(twist, t);
+        }
+        // along the arc: (x, y) = (x₀, y₀) + v/ω·(sin θ − sin θ₀, cos θ₀ − cos θ)
+        let theta = start.theta + twist.w * t;
+        let ((s0, c0), (s, c)) = (start.theta.sin_cos(), theta.sin_cos());
+        Pose { x: start.x + twist.v / twist.w * (s - s0), y: start.y + twist.v / twist.w * (c0 - c), theta }
+    }
+
+    /// What an effect is told there.
+    pub fn at(twist: BodyTwist<f64>, time: f64) -> EffectContext<f64> {
+        EffectContext { time, pose: truth(twist, time), twist, ..EffectContext::default() }
+    }
+
+    /// The largest of the differences between two poses.
+    pub fn off(a: Pose<f64>, b: Pose<f64>) -> f64 {
+        (a.x - b.x).abs().max((a.y - b.y).abs()).max((a.theta - b.theta).abs())
+    }
+
+    /// The bits of a pose.
+    pub fn bits(a: Pose<f64>) -> [u64; 3] {
+        [a.x, a.y, a.theta].map(f64::to_bits)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

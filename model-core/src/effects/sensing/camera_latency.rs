@@ -96,40 +96,14 @@ impl<T: Real> Hooks<T> for CameraLatency<T> {
 mod tests {
     use super::*;
     use crate::effects::State;
+    use crate::effects::poses::on_its_way::{CURVE, STRAIGHT, at, bits, off, truth};
     use crate::geometry::frames::{BodyTwist, Pose};
     use crate::number::dual::Dual;
-
-    const STRAIGHT: BodyTwist<f64> = BodyTwist { v: 0.9, vn: -0.5, w: 0.0 };
-    const CURVE: BodyTwist<f64> = BodyTwist { v: 1.5, vn: 0.0, w: 6.0 };
-
-    /// Where a robot is that left (0.2, −0.1, 0.4) at time zero with a constant twist.
-    fn truth(twist: BodyTwist<f64>, t: f64) -> Pose<f64> {
-        let start = Pose { x: 0.2, y: -0.1, theta: 0.4 };
-        if twist.w == 0.0 {
-            return start.moved(twist, t);
-        }
-        // along the arc: (x, y) = (x₀, y₀) + v/ω·(sin θ − sin θ₀, cos θ₀ − cos θ)
-        let theta = start.theta + twist.w * t;
-        let ((s0, c0), (s, c)) = (start.theta.sin_cos(), theta.sin_cos());
-        Pose { x: start.x + twist.v / twist.w * (s - s0), y: start.y + twist.v / twist.w * (c0 - c), theta }
-    }
-
-    fn at(twist: BodyTwist<f64>, time: f64) -> EffectContext<f64> {
-        EffectContext { time, pose: truth(twist, time), twist, ..EffectContext::default() }
-    }
 
     fn read(latency: f64, s: &Poses<f64>, at: &EffectContext<f64>) -> Pose<f64> {
         let mut x = Sense { pose: at.pose, ..Sense::default() };
         CameraLatency { latency }.sense(s, at, &mut x);
         x.pose
-    }
-
-    fn off(a: Pose<f64>, b: Pose<f64>) -> f64 {
-        (a.x - b.x).abs().max((a.y - b.y).abs()).max((a.theta - b.theta).abs())
-    }
-
-    fn bits(a: Pose<f64>) -> [u64; 3] {
-        [a.x, a.y, a.theta].map(f64::to_bits)
     }
 
     /// Drives from time zero, cold, in steps from a list over and over; the largest error once `latency` is over.
