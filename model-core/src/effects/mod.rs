@@ -14,6 +14,7 @@ pub mod seams;
 
 mod changes;
 
+mod bridges;
 mod poses;
 mod ripple;
 

@@ -1,7 +1,30 @@
 //! Springs in series on the way from the rotor to the wheel.
 
+use super::card::{Param, Role};
 use super::seams::Shaft;
 use crate::number::scalar::Real;
+
+/// The number of a card: T, damping over stiffness.
+pub const DAMPING_TIME: Param = Param {
+    key: "damping_time_s",
+    symbol: "T",
+    unit: "s",
+    absent: 2e-4,
+    typical: 2e-4,
+    within: (0.0, 0.01),
+    role: Role::Fixed,
+};
+
+/// The number of a card: J, inertia of the rotor where no effect says it.
+pub const ROTOR_INERTIA: Param = Param {
+    key: "rotor_inertia_kg_m2",
+    symbol: "J",
+    unit: "kg·m²",
+    absent: 6e-5,
+    typical: 6e-5,
+    within: (1e-6, 2e-3),
+    role: Role::Fixed,
+};
 
 /// A spring with a damper beside it, and the rotor that it needs.
 #[derive(Clone, Copy, Debug)]

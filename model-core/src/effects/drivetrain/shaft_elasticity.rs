@@ -28,7 +28,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Shaft};
-use crate::effects::springs::Spring;
+use crate::effects::springs::{self, Spring};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -51,24 +51,8 @@ pub const CARD: Card = Card {
             within: (0.0, 1.0),
             role: Role::Size,
         },
-        Param {
-            key: "damping_time_s",
-            symbol: "T",
-            unit: "s",
-            absent: 2e-4,
-            typical: 2e-4,
-            within: (0.0, 0.01),
-            role: Role::Fixed,
-        },
-        Param {
-            key: "rotor_inertia_kg_m2",
-            symbol: "J",
-            unit: "kg·m²",
-            absent: 6e-5,
-            typical: 6e-5,
-            within: (1e-6, 2e-3),
-            role: Role::Fixed,
-        },
+        springs::DAMPING_TIME,
+        springs::ROTOR_INERTIA,
     ],
     needs_current: false,
     signature: "currents and speeds ring for some hundredths of a second after every step of the voltage",

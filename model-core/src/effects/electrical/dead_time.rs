@@ -19,6 +19,7 @@
 //! Source: Average of the sign of a current with triangular ripple: Mohan, Undeland, Robbins, Power Electronics, 2003,
 //! ch. 8; sizes: dead time over period times bus voltage, 0.05 to 0.6 V. The paper sees it as part of R (section 5.4).
 
+use crate::effects::bridges;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
 use crate::effects::{Catalogued, Hooks};
@@ -43,15 +44,7 @@ pub const CARD: Card = Card {
             within: (0.0, 1.5),
             role: Role::Size,
         },
-        Param {
-            key: "smoothing_current_A",
-            symbol: "i₀",
-            unit: "A",
-            absent: 0.05,
-            typical: 0.05,
-            within: (0.01, 0.5),
-            role: Role::Fixed,
-        },
+        bridges::SMOOTHING_CURRENT,
     ],
     needs_current: false,
     signature: "current short of (u − K_v·ω)/R by V_d/R, against its own sign, at all speeds; wheels do not start at small voltages",

@@ -22,6 +22,7 @@
 //! Source: Paths of the current in the four quadrants: Mohan, Undeland, Robbins, Power Electronics, 2003, ch. 7 and 13;
 //! sizes: drop of a silicon diode, 0.7 to 1 V, by the part of the period in which it conducts; 0.1 to 0.8 V.
 
+use crate::effects::bridges;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
 use crate::effects::{Catalogued, Hooks};
@@ -46,15 +47,7 @@ pub const CARD: Card = Card {
             within: (0.0, 1.5),
             role: Role::Size,
         },
-        Param {
-            key: "smoothing_current_A",
-            symbol: "i₀",
-            unit: "A",
-            absent: 0.05,
-            typical: 0.05,
-            within: (0.01, 0.5),
-            role: Role::Fixed,
-        },
+        bridges::SMOOTHING_CURRENT,
     ],
     needs_current: false,
     signature: "current weaker than (u − K_v·ω)/R by V_b/R while it brakes, and right while it drives",
