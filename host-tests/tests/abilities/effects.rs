@@ -124,7 +124,7 @@ pub struct WheelWitness;
 
 impl Hooks<f64> for WheelWitness {
     type State = ();
-    const NEEDS: Needs = Needs { angle: true, heat: true, acceleration: true };
+    const NEEDS: Needs = Needs { angle: true, heat: true, acceleration: true, ..Needs::NOTHING };
 
     fn gear(&self, _: &(), at: &EffectContext<f64>, _: &mut Gear<f64>) {
         TOLD.with_borrow_mut(|told| told.push(*at));
@@ -137,7 +137,7 @@ pub struct BodyWitness;
 
 impl Hooks<f64> for BodyWitness {
     type State = ();
-    const NEEDS: Needs = Needs { angle: true, heat: true, acceleration: true };
+    const NEEDS: Needs = Needs { angle: true, heat: true, acceleration: true, ..Needs::NOTHING };
 
     fn sense(&self, _: &(), at: &EffectContext<f64>, _: &mut Sense<f64>) {
         TOLD.with_borrow_mut(|told| told.push(*at));

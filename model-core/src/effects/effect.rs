@@ -19,11 +19,14 @@ pub struct Needs {
     pub heat: bool,
     /// The body's acceleration ([`EffectContext::acceleration`])
     pub acceleration: bool,
+    /// Steps a second of time, at least [1/s]: what swings or fades within a few milliseconds is lost in longer ones. Zero: as
+    /// many as the plain robot needs
+    pub steps_per_s: u32,
 }
 
 impl Needs {
     /// None of it.
-    pub const NOTHING: Self = Self { angle: false, heat: false, acceleration: false };
+    pub const NOTHING: Self = Self { angle: false, heat: false, acceleration: false, steps_per_s: 0 };
 
     /// What either needs.
     #[must_use]
@@ -32,6 +35,7 @@ impl Needs {
             angle: self.angle || other.angle,
             heat: self.heat || other.heat,
             acceleration: self.acceleration || other.acceleration,
+            steps_per_s: self.steps_per_s.max(other.steps_per_s),
         }
     }
 }

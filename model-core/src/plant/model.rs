@@ -184,6 +184,11 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         self.effects.memory_len()
     }
 
+    /// What its effects need to be kept up.
+    pub fn needs(&self) -> Needs {
+        self.needs
+    }
+
     /// The states of effects that a run begins with; a host keeps them in a list, and gives them to every step.
     pub fn memory(&self) -> impl Iterator<Item = E::State> {
         self.effects.memory()

@@ -32,7 +32,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Shaft};
 use crate::effects::springs::{self, Spring};
-use crate::effects::{Catalogued, Hooks};
+use crate::effects::{Catalogued, Hooks, Needs};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -110,6 +110,8 @@ impl<T: Copy> Catalogued<T> for Backlash<T> {
 
 impl<T: Real> Hooks<T> for Backlash<T> {
     type State = ();
+    /// A rotor crosses its play within a few milliseconds.
+    const NEEDS: Needs = Needs { steps_per_s: 1000, ..Needs::NOTHING };
 
     fn shaft(&self, _: &(), _: &EffectContext<T>, x: &mut Shaft<T>) {
         let Self { play, stiffness, damping_time, rotor_inertia: rotor } = *self;

@@ -29,7 +29,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Shaft};
 use crate::effects::springs::{self, Spring};
-use crate::effects::{Catalogued, Hooks};
+use crate::effects::{Catalogued, Hooks, Needs};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -96,6 +96,8 @@ impl<T: Copy> Catalogued<T> for ShaftElasticity<T> {
 
 impl<T: Real> Hooks<T> for ShaftElasticity<T> {
     type State = ();
+    /// A rotor swings within some ten milliseconds.
+    const NEEDS: Needs = Needs { steps_per_s: 1000, ..Needs::NOTHING };
 
     fn shaft(&self, _: &(), _: &EffectContext<T>, x: &mut Shaft<T>) {
         let Self { compliance, damping_time, rotor_inertia: rotor } = *self;
