@@ -74,9 +74,9 @@ fn late_at_1_ms(id: &str) -> Option<[f64; 5]> {
         "commutation_ripple" => [3.2e-3, 4.8e-2, 1.6e-3, 8e-3, 4e-3],
         // poses are remembered 4 ms apart, with chords between them: 100 rad/s² and 8 m/s² times (4 ms)²/8, at any step
         "camera_latency" | "clock_drift" => [8e-6, 1.2e-4, 3e-5, 4e-4, 1e-5],
-        // what is read is the mean over a step, half a step later than its beginning: of a jump by 18 V, 4.2 A, which a lag
-        // of 2 ms smooths, Δt/(2·T) at the most
-        "current_lag" => [8e-6, 1.2e-4, 4e-6, 2e-5, 1.05],
+        // what is read is the mean over 0.1 ms, of the reference over its step of 0.01 ms: of a jump by 18 V, 4.2 A, which a
+        // lag of 2 ms smooths, 0.09 ms/(2·T)
+        "current_lag" => [8e-6, 1.2e-4, 4e-6, 2e-5, 0.1],
         // the acceleration is that of the last step: for one step after a jump of the voltages a wheel may push with 0.4 N too
         // much, 0.2 mm/s and 2 mrad/s at a time; its rim, which has no inertia, is off by up to 6 rad/s there, 0.2 A
         "load_transfer" => [8e-4, 1.2e-2, 1.2e-4, 8e-4, 0.22],
@@ -182,7 +182,7 @@ fn the_steps_error_is_what_the_page_says() {
     page += "Every effect has its typical size. Halving the step quarters the error, but where friction depends on the speed\n";
     page +=
         "or on its direction (gear_efficiency, stribeck, friction_ellipse), where the bus depends on the currents\n";
-    page += "(supply_sag), where a wheel with inertia slips, where a mean over the step is read (current_lag), where the radius\n";
+    page += "(supply_sag), where a wheel with inertia slips, where the radius\n";
     page += "is that at a step's beginning (wheel_eccentricity, roller_ripple), where a load goes by the acceleration of the step\n";
     page +=
         "before (load_transfer, beside wheel_slip as uneven_load), and where a motor is as warm as before the step\n";
