@@ -83,6 +83,7 @@ mod tests {
             driven: Vec::new(),
             measured: Vec::new(),
             has: Vec::new(),
+            turned: Vec::new(),
             sigma: [1.0; MAX_CHANNELS],
             correlation_time: [tau; MAX_CHANNELS],
             unsigned_current: false,

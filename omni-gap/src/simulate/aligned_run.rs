@@ -43,6 +43,8 @@ pub struct AlignedRun<const N: usize> {
     pub measured: Vec<Row>,
     /// Bit c: channel c was measured on this row
     pub has: Vec<u16>,
+    /// By how much each wheel has turned before each row, by its measured speed [rad]; empty where none is logged
+    pub turned: Vec<[f64; N]>,
     /// One-sigma noise of each channel, by the robot file
     pub sigma: Row,
     /// How long the noise of each channel remembers itself [s], as an Ornstein–Uhlenbeck process; zero is white
@@ -64,6 +66,21 @@ fn filled(channel: &Channel, mut rows: Range<usize>) -> impl Iterator<Item = f64
         last = channel.get(rows.next()?).unwrap_or(last);
         Some(last)
     })
+}
+
+/// By how much wheels have turned before each row [rad], their speeds in between straight lines; empty without speeds.
+fn turned<const N: usize>(speeds: &[Channel], rows: Range<usize>, dt: &[f64]) -> Vec<[f64; N]> {
+    if speeds.is_empty() {
+        return Vec::new();
+    }
+    let mut turned = vec![[0.0; N]; rows.len()];
+    for (j, speed) in speeds.iter().enumerate().take(N) {
+        let speed: Vec<f64> = filled(speed, rows.clone()).collect();
+        for k in 1..rows.len() {
+            turned[k][j] = turned[k - 1][j] + 0.5 * (speed[k - 1] + speed[k]) * dt[k - 1];
+        }
+    }
+    turned
 }
 
 /// The bus voltage to take where the robot file states none: the largest that these runs show, one where they show none
@@ -167,6 +184,7 @@ impl<const N: usize> AlignedRun<N> {
             .flat_map(|c| c.present())
             .chain(run.vbat.iter().flat_map(|c| c.present()))
             .fold(0.0, |most: f64, (_, u)| most.max(u.abs()));
+        let turned = turned(signals_of(&run.w), span.clone(), &dt);
         Some(Self {
             name: run.name.clone(),
             steps: steps_of_rows(&robot_of::<N, f64>(robot, 1.0), &rims, &t, &dt),
@@ -178,6 +196,7 @@ impl<const N: usize> AlignedRun<N> {
             driven,
             measured,
             has,
+            turned,
             sigma,
             correlation_time: [0.0; MAX_CHANNELS],
             unsigned_current: run.i.as_ref().is_some_and(|g| g.unsigned),
@@ -202,6 +221,7 @@ impl<const N: usize> AlignedRun<N> {
                 driven: self.driven[first..end].to_vec(),
                 measured: self.measured[first..end].to_vec(),
                 has: self.has[first..end].to_vec(),
+                turned: self.turned.get(first..end).unwrap_or_default().to_vec(),
                 ..self.without_rows()
             })
             .collect()
@@ -218,6 +238,7 @@ impl<const N: usize> AlignedRun<N> {
             driven: Vec::new(),
             measured: Vec::new(),
             has: Vec::new(),
+            turned: Vec::new(),
             ..*self
         }
     }
@@ -242,6 +263,12 @@ impl<const N: usize> AlignedRun<N> {
     #[inline]
     pub fn saw(&self, row: usize, channel: usize) -> bool {
         self.has[row] & (1 << channel) != 0
+    }
+
+    /// By how much each wheel has turned before a row [rad]; none where no wheel speed is logged.
+    #[inline]
+    pub fn turned(&self, row: usize) -> Option<[f64; N]> {
+        self.turned.get(row).copied()
     }
 
     /// True if any row has a channel of the group.
