@@ -8,8 +8,10 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::misfit::Misfit;
 use super::pass::Seen;
 use super::window::{START, WindowLinear};
+use crate::simulate::MAX_CHANNELS;
 
 /// Keeps a start regular that nothing in its window measures: 1/σ² of (m, m, rad, m/s, m/s, rad/s), much looser than
 /// any sensor, as damping only.
@@ -25,10 +27,8 @@ pub(super) struct Block {
     pub hess: DMatrix<f64>,
     /// Jᵀe
     pub grad: DVector<f64>,
-    /// Σ error² [σ²]
-    pub cost: f64,
-    /// How many numbers were compared.
-    pub count: usize,
+    /// How far its numbers are missed.
+    pub misfit: Misfit,
 }
 
 /// The sums of one window on their way; lanes are (v, vn, ω, free…).
@@ -40,8 +40,7 @@ pub(super) struct Sums<const LANES: usize> {
     moved: [[f64; MOVED]; MOVED],
     moved_lanes: [[f64; LANES]; MOVED],
     moved_grad: [f64; MOVED],
-    cost: f64,
-    count: usize,
+    misfit: Misfit,
 }
 
 impl<const LANES: usize> Sums<LANES> {
@@ -52,8 +51,7 @@ impl<const LANES: usize> Sums<LANES> {
         moved: [[0.0; MOVED]; MOVED],
         moved_lanes: [[0.0; LANES]; MOVED],
         moved_grad: [0.0; MOVED],
-        cost: 0.0,
-        count: 0,
+        misfit: Misfit { by_channel: [0.0; MAX_CHANNELS], numbers: 0 },
     };
 
     /// Adds the numbers of one row; `pose` are the channels that depend on where the start is.
@@ -86,12 +84,11 @@ impl<const LANES: usize> Sums<LANES> {
             for (g, slope) in self.grad.iter_mut().zip(&seen.lanes) {
                 *g += slope * seen.error;
             }
-            self.cost += seen.error * seen.error;
+            self.misfit.add(seen.channel, seen.error);
             if pose.contains(&seen.channel) {
                 self.add_moved(seen);
             }
         }
-        self.count += row.len();
     }
 
     #[inline]
@@ -119,8 +116,7 @@ impl<const LANES: usize> Sums<LANES> {
         Block {
             hess: DMatrix::from_fn(MOVED + lanes, MOVED + lanes, entry),
             grad: DVector::from_fn(MOVED + lanes, |k, _| slope(k)),
-            cost: self.cost,
-            count: self.count,
+            misfit: self.misfit,
         }
     }
 }
@@ -128,12 +124,16 @@ impl<const LANES: usize> Sums<LANES> {
 impl Block {
     /// Of a window that was kept whole.
     pub fn of(window: &WindowLinear) -> Self {
-        Self {
-            hess: window.jacobian.tr_mul(&window.jacobian),
-            grad: window.jacobian.tr_mul(&window.error),
-            cost: window.error.norm_squared(),
-            count: window.error.len(),
+        let mut misfit = Misfit::default();
+        for ((_, channel), error) in window.places.iter().zip(&window.error) {
+            misfit.add(usize::from(*channel), *error);
         }
+        Self { misfit, ..Self::of_equations(&window.jacobian, &window.error) }
+    }
+
+    /// The equations alone: what was measured is nobody's.
+    pub fn of_equations(jacobian: &DMatrix<f64>, error: &DVector<f64>) -> Self {
+        Self { hess: jacobian.tr_mul(jacobian), grad: jacobian.tr_mul(error), misfit: Misfit::default() }
     }
 
     /// H_zz, held loosely.

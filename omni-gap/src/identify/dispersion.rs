@@ -8,6 +8,7 @@ use model_core::plant::robot::Nominal;
 
 use super::fit::{Fit, FitOptions, Free, fit_on};
 use super::linear::linearise;
+use super::misfit::Misfit;
 use super::prior::Prior;
 use super::settings::FitSettings;
 use super::shoot::Shots;
@@ -71,7 +72,7 @@ pub fn fit_with_dispersion<const N: usize>(
 
 /// Σ error² per number of a model as it is, its starts free; at least one.
 fn misfit<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, settings: &FitSettings) -> f64 {
-    let (_, windows) = profile(model, shots, settings);
-    let (cost, n) = windows.iter().flatten().fold((0.0, 0), |(c, n), w| (c + w.0, n + w.1));
-    (cost / n.max(1) as f64).max(1.0)
+    let (_, windows) = profile(model, shots, None, settings);
+    let all = windows.into_iter().flatten().fold(Misfit::default(), Misfit::and);
+    (all.cost() / all.numbers.max(1) as f64).max(1.0)
 }

@@ -9,12 +9,13 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::linear::{Linearised, Reduced, linearise};
-use super::prior::Prior;
+use super::prior::{Prior, PriorRow};
 use super::shoot::{Piece, Shots, Starts, run_some_windows};
 use super::starts::{better_starts, starts_of};
 use super::whiten::Whitener;
 use crate::simulate::{AlignedRun, FreeRun, Model, Slot};
 use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::plant::robot::Nominal;
 
 /// A number of the model that the fit may change.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +56,15 @@ impl<const N: usize> Fit<N> {
     pub fn std(&self, slot: Slot) -> Option<f64> {
         let at = self.free.iter().position(|f| f.slot == slot)?;
         Some(self.covariance[(at, at)].max(0.0).sqrt())
+    }
+
+    /// The same while other free numbers are held where they are.
+    pub fn std_beside(&self, slot: Slot, held: &[Slot], prior: &Prior) -> Option<f64> {
+        let moving: Vec<usize> = (0..self.free.len()).filter(|k| !held.contains(&self.free[*k].slot)).collect();
+        let at = moving.iter().position(|k| self.free[*k].slot == slot)?;
+        let data = self.equations.clone().with_dispersion(self.dispersion).of(&moving);
+        let stated = self.stated(self.equations.clone(), prior).of(&moving);
+        Some(covariance(&stated, data, moving.len())[(at, at)].max(0.0).sqrt())
     }
 
     /// True if the number ended at one of its bounds.
@@ -105,7 +115,7 @@ pub(super) fn fit_on<const N: usize>(
     let FitOptions { free, prior, dispersion, rounds, by_window } = options;
     let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
     let mut damping = 1e-7;
-    let mut total = linear.cost().0 / dispersion + prior.cost(&model);
+    let mut total = linear.misfit().cost() / dispersion + prior.cost(&model);
     'rounds: for _ in 0..rounds {
         let reduced = with_prior(linear.reduced().with_dispersion(dispersion), &model, free, prior);
         let mut better = None;
@@ -143,7 +153,8 @@ pub(super) fn fit_on<const N: usize>(
     let equations = linear.reduced();
     let data = equations.clone().with_dispersion(dispersion);
     let reduced = with_prior(data.clone(), &model, free, prior);
-    let (cost, samples) = linear.cost();
+    let misfit = linear.misfit();
+    let (cost, samples) = (misfit.cost(), misfit.numbers);
     let spread = spread(&reduced, &equations).max(cost / samples.max(1) as f64).max(1.0);
     let fitted = Fit {
         spread,
@@ -207,25 +218,39 @@ pub(crate) fn with_prior<const N: usize>(
     free: &[Free],
     prior: &Prior,
 ) -> Reduced {
-    let at = |p| free.iter().position(|f| f.slot == Slot::Nominal(p));
-    for (row, violation) in prior.rows.iter().zip(prior.violations(model)) {
-        for (p, c) in &row.terms {
-            let Some(k) = at(*p) else { continue };
-            // d ln(factor)/d factor = 1/factor
-            let slope = c / (row.sigma * model.get(Slot::Nominal(*p)));
-            reduced.grad[k] -= violation * slope;
-            for (q, d) in &row.terms {
-                if let Some(l) = at(*q) {
-                    reduced.hess[(k, l)] += slope * d / (row.sigma * model.get(Slot::Nominal(*q)));
-                }
-            }
-        }
-    }
+    let slopes = slopes_of(prior, model, free);
+    reduced.grad -= slopes.tr_mul(&DVector::from_vec(prior.violations(model)));
+    reduced.hess += slopes.tr_mul(&slopes);
     for (k, f) in free.iter().enumerate() {
         let width = f.within.1 - f.within.0;
         reduced.hess[(k, k)] += 1.0 / (width * width);
     }
     reduced
+}
+
+/// Products of derivatives by the free numbers, held by what was stated of these: what their equations are solved with.
+pub(crate) fn held_by<const N: usize>(
+    products: DMatrix<f64>,
+    model: &Model<N>,
+    free: &[Free],
+    prior: &Prior,
+) -> DMatrix<f64> {
+    let none = || DMatrix::zeros(free.len(), free.len());
+    let data = Reduced { hess: products, grad: DVector::zeros(free.len()), meat: none(), by_starts: 0.0 };
+    with_prior(data, model, free, prior).hess
+}
+
+/// d violation / d free number: a row for each statement.
+pub(crate) fn slopes_of<const N: usize>(prior: &Prior, model: &Model<N>, free: &[Free]) -> DMatrix<f64> {
+    DMatrix::from_fn(prior.rows.len(), free.len(), |row, k| {
+        let PriorRow { terms, sigma, .. } = &prior.rows[row];
+        let of = |(p, c): &(Nominal, f64)| {
+            let slot = Slot::Nominal(*p);
+            // d ln(factor)/d factor = 1/factor
+            if slot == free[k].slot { c / (sigma * model.get(slot)) } else { 0.0 }
+        };
+        terms.iter().map(of).sum()
+    })
 }
 
 fn solve(reduced: &Reduced, damping: f64) -> Option<DVector<f64>> {
@@ -239,8 +264,12 @@ fn solve(reduced: &Reduced, damping: f64) -> Option<DVector<f64>> {
     hess.cholesky().map(|c| c.solve(&reduced.grad))
 }
 
-/// The model after a step, held within bounds, and the step that was really taken.
-fn stepped<const N: usize>(model: &Model<N>, free: &[Free], step: &DVector<f64>) -> (Model<N>, DVector<f64>) {
+/// A model whose free numbers are moved by a step, each within its bounds; and the step that was taken.
+pub(crate) fn stepped<const N: usize>(
+    model: &Model<N>,
+    free: &[Free],
+    step: &DVector<f64>,
+) -> (Model<N>, DVector<f64>) {
     let mut trial = model.clone();
     let mut taken = step.clone();
     for (k, f) in free.iter().enumerate() {

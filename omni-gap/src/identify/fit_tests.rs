@@ -57,9 +57,9 @@ fn what_the_fit_says_it_cost_is_the_cost_of_its_model_and_starts() {
         let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
         let shots = Shots { runs: &runs, windows: &windows };
         let plain = cost_of(&fit.model, shots, &fit.starts);
-        let (linear, samples) = fit.linearised(shots).cost();
-        assert!((plain / fit.cost - 1.0).abs() < 1e-9 && (linear / fit.cost - 1.0).abs() < 1e-9);
-        assert_eq!(samples, fit.samples);
+        let linear = fit.linearised(shots).misfit();
+        assert!((plain / fit.cost - 1.0).abs() < 1e-9 && (linear.cost() / fit.cost - 1.0).abs() < 1e-9);
+        assert_eq!(linear.numbers, fit.samples);
     }
 }
 
@@ -72,4 +72,21 @@ fn noise_that_is_correlated_and_stated_so_leaves_white_errors_and_honest_uncerta
     let fit = fitted(&runs, |run| Windows::new(run, 1.0));
     assert!(off(&fit).iter().all(|off| off.abs() < 4.0), "{:?}", off(&fit));
     assert!((fit.cost / fit.samples as f64 - 1.0).abs() < 0.03, "{} of {}", fit.cost, fit.samples);
+}
+
+#[test]
+fn beside_others_that_are_held_a_number_is_as_sure_as_its_own_equation_says() {
+    let runs = staged(&truth(), &Staging { runs: 2, ..Staging::default() });
+    let (fit, prior) = (fitted(&runs, |run| Windows::new(run, 0.5)), Prior::stated(&robot()));
+    for (k, free) in fit.free.iter().enumerate() {
+        let usual = fit.std(free.slot).unwrap();
+        let beside_none = fit.std_beside(free.slot, &[], &prior).unwrap();
+        assert!((beside_none / usual - 1.0).abs() < 1e-9);
+        let others: Vec<Slot> = fit.free.iter().map(|other| other.slot).filter(|slot| *slot != free.slot).collect();
+        let alone = fit.std_beside(free.slot, &others, &prior).unwrap();
+        // one equation: never surer than 1/√H, and no less sure than with the others free, but for how errors went on
+        let hess = fit.stated(fit.equations.clone(), &prior).hess[(k, k)];
+        assert!(alone >= (1.0 - 1e-9) / hess.sqrt() && alone <= 1.05 * usual, "{alone} of {usual}");
+        assert_eq!(fit.std_beside(free.slot, &[free.slot], &prior), None);
+    }
 }

@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::block::{Block, Sums};
+use super::misfit::Misfit;
 use super::pass::{Course, TWIST, pass};
 use super::shoot::{Piece, Shots, Starts};
 use super::window::{START, WindowLinear};
@@ -49,6 +50,13 @@ pub struct Reduced {
 }
 
 impl Reduced {
+    /// Those of some parameters alone, the others held.
+    pub fn of(&self, parameters: &[usize]) -> Self {
+        let square = |matrix: &DMatrix<f64>| matrix.select_rows(parameters).select_columns(parameters);
+        let grad = self.grad.select_rows(parameters);
+        Self { hess: square(&self.hess), grad, meat: square(&self.meat), by_starts: self.by_starts }
+    }
+
     /// The same with the data weighted down: errors count by √φ less.
     pub fn with_dispersion(mut self, dispersion: f64) -> Self {
         self.hess /= dispersion;
@@ -155,14 +163,14 @@ fn kept<const N: usize>(course: Course<'_, N>, piece: &Piece) -> Vec<WindowLinea
 }
 
 impl Linearised {
-    /// Σ error² [σ²] and how many numbers were compared.
-    pub fn cost(&self) -> (f64, usize) {
-        self.blocks.iter().flatten().fold((0.0, 0), |(cost, n), b| (cost + b.cost, n + b.count))
+    /// How far all numbers are missed.
+    pub fn misfit(&self) -> Misfit {
+        self.blocks.iter().flatten().fold(Misfit::default(), |sum, block| sum.and(block.misfit))
     }
 
-    /// Cost and count of each window, run by run.
-    pub fn cost_by_window(&self) -> Vec<Vec<(f64, usize)>> {
-        self.blocks.iter().map(|run| run.iter().map(|b| (b.cost, b.count)).collect()).collect()
+    /// How far those of each window are missed, run by run.
+    pub fn misfits(&self) -> Vec<Vec<Misfit>> {
+        self.blocks.iter().map(|run| run.iter().map(|block| block.misfit).collect()).collect()
     }
 
     /// The equations of the parameters alone.

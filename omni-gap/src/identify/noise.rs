@@ -125,7 +125,7 @@ struct Made {
 
 impl Left {
     fn of<const N: usize>(window: &WindowLinear, t: &[f64]) -> Self {
-        let block = super::block::Block::of(window);
+        let block = super::block::Block::of_equations(&window.jacobian, &window.error);
         let (_, step) = block.eliminate();
         let inverse =
             block.start().cholesky().map_or_else(Mat6::zeros, |c| Mat6::from_iterator(c.inverse().iter().copied()));

@@ -22,6 +22,8 @@ pub struct FitSettings {
     pub released_sigma: f64,
     /// Rounds in which the starts of windows are found for a model as it is, at the most [rounds].
     pub start_rounds: usize,
+    /// The part of its step that a start goes in the next round where the whole of it led to worse [1].
+    pub start_part: f64,
     /// A round that takes less than this off Σ error² is the last [σ²].
     pub least_gain: f64,
 }
@@ -35,7 +37,8 @@ impl Default for FitSettings {
             settled: 0.2,
             believable: (0.1, 4.0),
             released_sigma: 0.7,
-            start_rounds: 3,
+            start_rounds: 6,
+            start_part: 0.1,
             least_gain: 0.1,
         }
     }

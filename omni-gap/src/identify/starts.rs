@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::linear::linearise;
+use super::misfit::Misfit;
 use super::settings::FitSettings;
 use super::shoot::{Shots, Starts, first_starts};
 use crate::simulate::{AlignedRun, Model, start_at};
@@ -32,35 +33,51 @@ pub(super) fn starts_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -
     if uncertain { better_starts(model, shots, &measured, at_rest) } else { measured }
 }
 
-/// The best starts for a model as it is, and each window's Σ error² and count: how well whole runs are predicted.
+/// The best starts for a model as it is, and how far each window is missed: how well whole runs are predicted. `from` are
+/// starts that suited another model, if any; each window takes what suits it better.
 pub fn profile<const N: usize>(
     model: &Model<N>,
     shots: Shots<'_, N>,
+    from: Option<&[Starts]>,
     settings: &FitSettings,
-) -> (Vec<Starts>, Vec<Vec<(f64, usize)>>) {
+) -> (Vec<Starts>, Vec<Vec<Misfit>>) {
     let none = DVector::zeros(0);
     let mut starts = starts_of(model, shots);
+    if let Some(from) = from {
+        starts = better_starts(model, shots, &starts, from.to_vec());
+    }
     let mut linear = linearise(model, shots, &starts, &[], false);
+    let mut part: Vec<Vec<f64>> = starts.iter().map(|run| vec![1.0; run.len()]).collect();
     for _ in 0..settings.start_rounds {
-        let moved = linear.starts_after(&starts, &none);
+        let mut moved = linear.starts_after(&starts, &none);
+        for (window, (start, part)) in
+            moved.iter_mut().flatten().zip(starts.iter().flatten().zip(part.iter().flatten()))
+        {
+            for (to, from) in window.iter_mut().zip(start) {
+                *to = from + part * (*to - from);
+            }
+        }
         let trial = linearise(model, shots, &moved, &[], false);
-        // each window on its own: a start that got worse stays
-        let (old, new) = (linear.cost_by_window(), trial.cost_by_window());
+        // each window on its own: a start that got worse stays, and goes a part of the way in the next round
+        let (old, new) = (linear.misfits(), trial.misfits());
+        let mut gained = 0.0;
         for (run, (old, new)) in old.iter().zip(&new).enumerate() {
             for (k, (old, new)) in old.iter().zip(new).enumerate() {
-                if new.0 < old.0 {
+                if new.cost() < old.cost() {
                     starts[run][k] = moved[run][k];
+                    gained += old.cost() - new.cost();
+                } else {
+                    part[run][k] *= settings.start_part;
                 }
             }
         }
-        let gained: f64 = old.iter().flatten().zip(new.iter().flatten()).map(|(o, n)| (o.0 - n.0).max(0.0)).sum();
         linear = linearise(model, shots, &starts, &[], false);
         if gained < settings.least_gain {
             break;
         }
     }
-    let cost = linear.cost_by_window();
-    (starts, cost)
+    let misfits = linear.misfits();
+    (starts, misfits)
 }
 
 /// Of two starts of each window the better one: a robot that friction stops at once tells nothing of the speed with which
@@ -71,11 +88,11 @@ pub(super) fn better_starts<const N: usize>(
     stayed: &[Starts],
     mut moved: Vec<Starts>,
 ) -> Vec<Starts> {
-    let [old, new] = [stayed, &moved].map(|starts| linearise(model, shots, starts, &[], false).cost_by_window());
+    let [old, new] = [stayed, &moved].map(|starts| linearise(model, shots, starts, &[], false).misfits());
     for (run, (old, new)) in old.iter().zip(&new).enumerate() {
         for (k, (old, new)) in old.iter().zip(new).enumerate() {
             // a cost that is no number is worse than any
-            if new.0.is_nan() || new.0 > old.0 {
+            if new.cost().is_nan() || new.cost() > old.cost() {
                 moved[run][k] = stayed[run][k];
             }
         }
@@ -88,7 +105,7 @@ mod tests {
     use model_core::plant::Input;
 
     use super::super::shoot::Windows;
-    use super::super::staged::robot;
+    use super::super::staged::{Staging, robot, staged};
     use super::*;
     use crate::simulate::{SensorSetup, SignalGroup, record};
 
@@ -115,5 +132,24 @@ mod tests {
         assert!(measured[0][3].hypot(measured[0][4]) > 0.1, "{:?}", measured[0]);
         assert_eq!(starts[0][0][3..], [0.0; 3]);
         assert_eq!(starts[0][1..], measured[1..]);
+    }
+
+    #[test]
+    fn starts_that_suit_another_model_are_taken_where_they_suit_better() {
+        let truth = Model::<4>::nominal(&robot(), 12.0);
+        let runs = staged(&truth, &Staging { runs: 2, ..Staging::default() });
+        let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
+        let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, 0.5)).collect();
+        let shots = Shots { runs: &runs, windows: &windows };
+        // no round of its own: what it begins with is what it comes to
+        let settings = FitSettings { start_rounds: 0, ..FitSettings::default() };
+        let (best, _) = profile(&truth, shots, None, &FitSettings::default());
+        let cost = |from: Option<&[Starts]>| {
+            profile(&truth, shots, from, &settings).1.into_iter().flatten().fold(Misfit::default(), Misfit::and).cost()
+        };
+        let mut far = best.clone();
+        far.iter_mut().flatten().for_each(|start| start[3] += 5.0);
+        assert!(cost(Some(&best)) < 0.95 * cost(None), "{} of {}", cost(Some(&best)), cost(None));
+        assert_eq!(cost(Some(&far)), cost(None));
     }
 }

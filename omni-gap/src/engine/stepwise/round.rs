@@ -85,7 +85,7 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
         if let Some(effect) = effect {
             model.add_effect(effect);
         }
-        let scored = data.judge(model, Some(&base.fit), &prior, base.extra + cause.freedom(data.prior));
+        let scored = data.judge(model, Some(&base), &prior, base.extra + cause.freedom(data.prior));
         Ranked { cause, scored }
     };
     // where the best one leaves nothing, only what promised nearly as much can be its look-alike

@@ -1,7 +1,9 @@
 //! A model judged: fitted on some runs, and scored by how well it predicts those that no fit has seen.
 
 use crate::engine::knobs::Knobs;
-use crate::identify::{Fit, Free, Prior, Shots, Windows, effect_free, fit_with_dispersion, nominal_free, profile};
+use crate::identify::{
+    Fit, Free, Misfit, Prior, Shots, Starts, Windows, effect_free, fit_with_dispersion, nominal_free, profile,
+};
 use crate::simulate::{AlignedRun, Model};
 
 /// The runs to fit on and the runs to judge by, with their windows.
@@ -26,8 +28,12 @@ pub struct Data<'a, const N: usize> {
 pub struct Scored<const N: usize> {
     /// The fit on the other runs.
     pub fit: Fit<N>,
+    /// From where each held-out window starts.
+    pub starts: Vec<Starts>,
     /// Σ error² [σ²] of each held-out window, its start free.
     pub windows: Vec<f64>,
+    /// How far all of them are missed.
+    pub misfit: Misfit,
     /// Numbers compared on held-out runs, less those that the starts take up.
     pub freedom: f64,
     /// What the model costs by what was stated.
@@ -41,7 +47,15 @@ pub struct Scored<const N: usize> {
 impl<const N: usize> Scored<N> {
     /// Σ error² on held-out runs [σ²].
     pub fn held(&self) -> f64 {
-        self.windows.iter().sum()
+        self.misfit.cost()
+    }
+
+    /// The share of Σ error² that this takes off another's in the channel where it takes most [1]: what shows in one signal
+    /// alone, or on one wheel, is not made smaller by how many others were logged.
+    pub fn share_taken(&self, other: &Self) -> f64 {
+        let channels = other.misfit.by_channel.iter().zip(self.misfit.by_channel);
+        let logged = channels.filter(|(before, _)| **before > 0.0);
+        logged.map(|(before, after)| (before - after) / before).fold(0.0, f64::max)
     }
 
     /// Lower is better: held-out error in units of `scale`, what was stated, and the price of freedom.
@@ -94,16 +108,20 @@ impl<const N: usize> Data<'_, N> {
     }
 
     /// Fits a model (all nominal values within what `prior` states, all sizes and shapes of its effects) and judges it.
-    pub fn judge(&self, model: Model<N>, from: Option<&Fit<N>>, prior: &Prior, extra: usize) -> Scored<N> {
+    /// `from` is another model on the same runs, close enough to begin at.
+    pub fn judge(&self, model: Model<N>, from: Option<&Scored<N>>, prior: &Prior, extra: usize) -> Scored<N> {
         let settings = &self.knobs.fit;
         let free: Vec<Free> = nominal_free(settings).into_iter().chain(effect_free(&model)).collect();
-        let fitted = fit_with_dispersion(model, self.to_fit(), from, &free, prior, settings);
-        let (_, windows) = profile(&fitted.model, self.to_judge(), settings);
-        let per_window: Vec<(f64, usize)> = windows.into_iter().flatten().collect();
-        let samples: usize = per_window.iter().map(|(_, n)| *n).sum();
+        let fitted = fit_with_dispersion(model, self.to_fit(), from.map(|from| &from.fit), &free, prior, settings);
+        let (starts, windows) =
+            profile(&fitted.model, self.to_judge(), from.map(|from| from.starts.as_slice()), settings);
+        let windows: Vec<Misfit> = windows.into_iter().flatten().collect();
+        let misfit = windows.iter().copied().fold(Misfit::default(), Misfit::and);
         Scored {
-            freedom: (samples as f64 - 6.0 * per_window.len() as f64).max(1.0),
-            windows: per_window.into_iter().map(|(cost, _)| cost).collect(),
+            freedom: (misfit.numbers as f64 - 6.0 * windows.len() as f64).max(1.0),
+            starts,
+            windows: windows.iter().map(Misfit::cost).collect(),
+            misfit,
             stated: fitted.prior_cost,
             fit: fitted,
             extra,
