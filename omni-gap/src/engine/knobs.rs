@@ -115,7 +115,8 @@ pub struct SearchKnobs {
     /// … and by as much again for each free number or statement that it adds [1]; one number: a chance of 1 in 2,000 when
     /// nothing is there.
     pub convincing_each: f64,
-    /// An effect has to take this share off Σ error² [1]: a significant but tiny improvement explains nothing.
+    /// An effect has to take this share off Σ error² of one channel [1]: a significant but tiny improvement explains nothing.
+    /// Of one channel, since what shows in the poses alone, or on one wheel, is not made smaller by what else was logged.
     pub relevant: f64,
     /// A further effect has to take this share off what the first causes left [1]. By trial.
     pub relevant_further: f64,

@@ -22,7 +22,7 @@ pub(super) fn convincing<const N: usize>(
     if gain < knobs.convincing + knobs.convincing_each * numbers as f64 {
         return false;
     }
-    let taken = (base.held() - best.scored.held()) / base.held();
+    let taken = best.scored.share_taken(base);
     match best.cause {
         // what was stated is data too: a parameter need not predict better, only be more believable
         Cause::Parameter(_) => !further || taken > knobs.relevant,
@@ -30,21 +30,24 @@ pub(super) fn convincing<const N: usize>(
             let least = if further { knobs.relevant_further } else { knobs.relevant };
             taken > least
                 && best.scored.surely_better_than(base, scale, knobs.tie_errors)
-                && has_size(best, knobs.size_errors)
+                && has_size(best, prior, knobs.size_errors)
         }
     }
 }
 
-/// True if a size of the effect is away from absent by more than so many of its standard errors.
-fn has_size<const N: usize>(ranked: &Ranked<N>, errors: f64) -> bool {
+/// True if a size of the effect is away from absent by more than so many of its standard errors, its shapes held: of an effect
+/// that is absent no data tell a shape, so a size may not seem absent because its shape is uncertain.
+fn has_size<const N: usize>(ranked: &Ranked<N>, prior: &Prior, errors: f64) -> bool {
     let Cause::Effect(card, wheel) = ranked.cause else { return true };
     let fit = &ranked.scored.fit;
     let Some(at) = fit.model.effects.iter().position(|e| e.id == card.id && e.wheel == wheel) else { return true };
-    let mut numbers = card.params.iter().enumerate().filter(|(_, p)| p.role != Role::Fixed).peekable();
-    // an effect without free numbers is there or not
-    numbers.peek().is_none()
-        || numbers.any(|(k, p)| {
-            let std = fit.std(Slot::Param(at, k)).unwrap_or(0.0);
+    let of_role = |role| card.params.iter().enumerate().filter(move |(_, p)| p.role == role);
+    let shapes: Vec<Slot> = of_role(Role::Shape).map(|(k, _)| Slot::Param(at, k)).collect();
+    let mut sizes = of_role(Role::Size).peekable();
+    // an effect without a size is there or not
+    sizes.peek().is_none()
+        || sizes.any(|(k, p)| {
+            let std = fit.std_beside(Slot::Param(at, k), &shapes, prior).unwrap_or(0.0);
             (fit.model.effects[at].params[k] - p.absent).abs() > errors * std
         })
 }

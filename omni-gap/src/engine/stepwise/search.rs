@@ -129,7 +129,9 @@ fn judged<const N: usize>(
     let parameters_only = !found.is_empty() && found.iter().all(|f| matches!(f.cause, Cause::Parameter(_)));
     // a re-fit within what was stated already leans towards a wrong parameter's true value
     let from = if parameters_only { of(&error(nominal)) } else { of(&before) };
-    let closed = if from > least { ((from - after) / (from - least)).clamp(0.0, 1.0) } else { 1.0 };
+    // a quotient of less than that would be noise
+    let worth_dividing_by = from - least > data.knobs.measure.smallest_room_sigma;
+    let closed = if worth_dividing_by { ((from - after) / (from - least)).clamp(0.0, 1.0) } else { 1.0 };
     let outcome = if found.is_empty() {
         if after > inadequate * least { Outcome::Unknown } else { Outcome::NoGap }
     } else if parameters_only {
