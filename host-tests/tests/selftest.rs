@@ -123,3 +123,27 @@ fn a_diagnosis_names_what_is_thrice_the_size_to_be_named_and_not_what_is_half_of
         assert_eq!(named(&text, cause, 0.5 * seen_from, 5), None, "{id} at half of {seen_from}");
     }
 }
+
+/// The robot file with numbers that are stated to be just so.
+fn exactly(text: &str, keys: &[&str]) -> String {
+    let lines: String = keys.iter().map(|key| format!("{key} = 0.0001\n")).collect();
+    format!("{text}\n[uncertainty]\n{lines}")
+}
+
+#[test]
+fn what_the_robots_own_numbers_imitate_is_not_foretold_and_the_number_that_would_show_it_does() {
+    let text = text("feup-4w");
+    let usual = said(&robot(&text), &planned());
+    for id in ["rotor_inertia", "roller_friction"] {
+        let hidden = of(&usual, id);
+        assert!(!hidden.is_seen() && hidden.imitated > 0.95, "{hidden:?}");
+        assert_eq!(named(&text, hidden, hidden.typical, 5), None, "{id}");
+    }
+    // a rotor's inertia is the body's mass and inertia to every sensor, or weaker motors and less friction
+    let best = &of(&usual, "rotor_inertia").imitated_by[0];
+    let known = exactly(&text, &[best.number]);
+    let told = said(&robot(&known), &planned());
+    let (foretold, then) = (best.sigma_if_exact, of(&told, "rotor_inertia").sigma);
+    assert!((0.8..1.25).contains(&(then / foretold)), "{}: {foretold} σ foretold, {then} σ then", best.number);
+    assert_eq!(of(&told, "rotor_inertia").is_seen(), best.then_seen);
+}

@@ -204,6 +204,11 @@ pub struct SelftestKnobs {
     pub wrong: f64,
     /// A rival may turn its shapes too: the share of a shape's typical value by which it is moved to see what that does [1].
     pub shape_moved: f64,
+    /// A signature of which the nominal numbers imitate this share is looked at once more, with the numbers moved there [1]:
+    /// a straight line leaves the square of their move, which is little of a share that is not the whole.
+    pub look_twice: f64,
+    /// A number that moves less than this share of the one that moves most is not said to imitate [1].
+    pub hardly_moved: f64,
     /// Two causes at this angle, or nearer, are the same to the recordings [rad]: signatures are rounded and their starts are
     /// noisy.
     pub same_angle_rad: f64,
@@ -211,6 +216,8 @@ pub struct SelftestKnobs {
     pub regular: f64,
     /// How near a size has to come to what is looked for, as a ratio of what it does [1].
     pub near: f64,
+    /// The least multiple of the typical size that is looked at [1]: what is seen there is said to be seen from there on.
+    pub least_times: f64,
     /// Sizes that are tried for it.
     pub tries: usize,
     /// The most by which the first try changes the size, to learn which way it does more [1].
@@ -229,9 +236,12 @@ impl Default for SelftestKnobs {
             engine: Knobs::default(),
             wrong: 0.1,
             shape_moved: 0.2,
+            look_twice: 0.5,
+            hardly_moved: 0.1,
             same_angle_rad: 1e-3,
             regular: 1e-9,
             near: 1.1,
+            least_times: 1e-3,
             tries: 12,
             first_try: 2.0,
             most_a_try: 8.0,

@@ -11,7 +11,7 @@ use super::write::put;
 use crate::engine::findings::{SelfTest, WithSensor};
 use crate::error::Result;
 use crate::vocabulary::Kind;
-use phrases::{HEADS, line};
+use phrases::{HEADS, hidden, is_hidden, line};
 
 fn table(out: &mut String, lines: &[[String; 6]]) {
     let heads = HEADS.map(str::to_owned);
@@ -36,6 +36,13 @@ fn with_sensor(with: &WithSensor) -> String {
     format!("  {}:{}", with.sensor, brings.trim_end_matches(';'))
 }
 
+/// The head of what numbers imitate.
+const HIDDEN: &str = "Hidden behind the robot's own numbers";
+
+fn hidden_causes(said: &SelfTest) -> impl Iterator<Item = String> {
+    said.causes.iter().filter(|cause| is_hidden(cause)).map(hidden)
+}
+
 /// The answer in plain text.
 pub fn selftest_terminal(said: &SelfTest) -> String {
     let mut out = format!(
@@ -51,6 +58,14 @@ pub fn selftest_terminal(said: &SelfTest) -> String {
             table(&mut out, &lines);
             out.push('\n');
         }
+    }
+    let hidden: Vec<String> = hidden_causes(said).collect();
+    if !hidden.is_empty() {
+        let _ = writeln!(out, "{HIDDEN}");
+        hidden.iter().for_each(|line| {
+            let _ = writeln!(out, "  {line}");
+        });
+        out.push('\n');
     }
     out.push_str("What one sensor more would bring\n");
     for with in &said.with_sensor {
@@ -78,6 +93,9 @@ pub fn selftest_html(said: &SelfTest) -> String {
                     m.within("tr", &[], |m| line(cause).iter().for_each(|cell| m.leaf("td", &[], cell)));
                 }
             });
+        });
+        section(m, HIDDEN, "Within what the robot file states of them.", |m| {
+            m.within("ul", &[], |m| hidden_causes(said).for_each(|line| m.leaf("li", &[], &line)));
         });
         section(m, "One sensor more", "At typical sizes.", |m| {
             m.within("ul", &[], |m| {

@@ -41,6 +41,8 @@ pub struct SeenCause {
     pub sigma: f64,
     /// The share of its signature, squared, that nominal numbers imitate [1].
     pub imitated: f64,
+    /// The numbers that do, where they imitate half of it or more; the one first whose exact value would show most.
+    pub imitated_by: Vec<Imitating>,
     /// True if it shows the more the smaller that number is, as a coefficient of friction; the sizes below are then the
     /// largest.
     pub shows_below: bool,
@@ -54,6 +56,26 @@ pub struct SeenCause {
     pub named_times: Option<f64>,
     /// Causes that it is not told from at its typical size, the nearest first.
     pub rivals: Vec<Rival>,
+}
+
+impl SeenCause {
+    /// True if a diagnosis finds something at its typical size.
+    pub fn is_seen(&self) -> bool {
+        self.seen_times.is_some_and(|times| if self.shows_below { times >= 1.0 } else { times <= 1.0 })
+    }
+}
+
+/// A number of the robot file that helps to imitate a cause.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Imitating {
+    /// Its key.
+    pub number: &'static str,
+    /// By how much it is wrong then, relatively [1]
+    pub by: f64,
+    /// How far the cause would move the recordings beyond imitation if this number were known just as it is stated [σ]
+    pub sigma_if_exact: f64,
+    /// True if a diagnosis would find something then.
+    pub then_seen: bool,
 }
 
 /// A cause that another can be mistaken for.

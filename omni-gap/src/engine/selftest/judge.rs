@@ -9,6 +9,7 @@ use super::sensors::Sensors;
 use super::sizes::size_needed;
 use super::standing::Standing;
 use super::suspects::{Column, Suspect, suspects};
+use super::view::View;
 use crate::engine::findings::{ConfusedCause, Confusion, SelfTest, WithSensor};
 use crate::engine::knobs::SelftestKnobs;
 use crate::engine::stepwise::Cause;
@@ -42,22 +43,23 @@ fn of_wheels<const N: usize>(file: &RobotFile, runs: &[Run], sensors: &Sensors, 
     let Asked { laid, suspects, columns, .. } = &asked;
     let logged = mask::<N>(&sensors.logged);
     let with_each = sensors.might_be_added.iter().map(|group| logged | mask::<N>(&[*group]));
-    let left = laid.left(columns, &std::iter::once(logged).chain(with_each).collect::<Vec<_>>());
+    let views: Vec<View> = std::iter::once(logged).chain(with_each).map(|mask| laid.view(mask)).collect();
+    let left = laid.left(columns, &views);
     let now = asked.standings(&left[0]);
     let shown = asked.shown(&now);
     let cause = |k: &usize| {
         let seen_times = match &columns[suspects[*k].typical] {
             // an effect without a size is there or not
             Column::Effect(effect) if !has_size(effect.card()) => now[*k].is_seen().then_some(1.0),
-            Column::Effect(effect) => size_needed(laid, effect, logged, (now[*k].size, now[*k].needed), knobs),
+            Column::Effect(effect) => size_needed(laid, effect, &views[0], (now[*k].size, now[*k].needed), knobs),
             Column::Factors(_) => Some(now[*k].seen()).filter(|times| times.is_finite()),
         };
-        now[*k].as_seen(&suspects[*k], seen_times, left[0].share_taken(&suspects[*k]), knobs.wrong)
+        now[*k].as_seen(&suspects[*k], seen_times, left[0].share_taken(suspects[*k].typical), knobs.wrong)
     };
     let replaced = sensors.might_replace.iter().map(|(name, runs)| {
         let aligned = self::aligned::<N>(file, runs);
         let laid = Laid::new(file, laid.model.clone(), &aligned, knobs);
-        (*name, asked.standings(&laid.left(columns, &[logged])[0]))
+        (*name, asked.standings(&laid.left(columns, &[laid.view(logged)])[0]))
     });
     let added =
         sensors.might_be_added.iter().zip(&left[1..]).map(|(group, left)| (group.name(), asked.standings(left)));
@@ -71,7 +73,7 @@ fn of_wheels<const N: usize>(file: &RobotFile, runs: &[Run], sensors: &Sensors, 
         WithSensor { sensor, seen: newly(Standing::is_seen), named: newly(Standing::is_named) }
     };
     SelfTest {
-        numbers: left[0].numbers(),
+        numbers: views[0].measured(),
         causes: shown.par_iter().map(cause).collect(),
         with_sensor: added.chain(replaced).map(with).collect(),
         ..sensors.show_nothing(file)
@@ -87,10 +89,10 @@ fn confused<const N: usize>(
 ) -> Option<(usize, Vec<ConfusedCause>)> {
     let aligned = aligned::<N>(file, runs);
     let asked = Asked::new(file, &aligned, knobs)?;
-    let left = asked.laid.left(&asked.columns, &[mask::<N>(logged)]).pop()?;
-    let now = asked.standings(&left);
+    let view = [asked.laid.view(mask::<N>(logged))];
+    let now = asked.standings(&asked.laid.left(&asked.columns, &view)[0]);
     let causes = asked.shown(&now).into_iter().map(|k| now[k].as_confused(&asked.suspects[k])).collect();
-    Some((left.numbers(), causes))
+    Some((view[0].measured(), causes))
 }
 
 fn aligned<const N: usize>(file: &RobotFile, runs: &[Run]) -> Vec<AlignedRun<N>> {

@@ -1,15 +1,19 @@
 //! The signatures of causes on a set of recordings.
 
+use std::collections::BTreeMap;
+
 use model_core::plant::robot::Nominal;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::left::Left;
+use super::left::{Held, Imitated, Left};
 use super::suspects::Column;
+use super::view::View;
 use crate::engine::knobs::SelftestKnobs;
 use crate::engine::predictions::predictions;
 use crate::identify::{
-    Free, Linearised, Overlap, Prior, Shots, Starts, WindowLinear, Windows, first_starts, linearise, nominal_free,
+    Free, Linearised, Overlap, Prior, SeenWindow, Shots, Starts, WindowLinear, Windows, first_starts, held_by,
+    linearise, nominal_free, slopes_of, stepped,
 };
 use crate::log::RobotFile;
 use crate::simulate::{AlignedRun, Model, Slot};
@@ -21,6 +25,16 @@ pub(super) struct Laid<'a, const N: usize> {
     free: Vec<Free>,
     prior: Prior,
     wrong: f64,
+    look_twice: f64,
+}
+
+/// A model whose numbers are moved so that it imitates a signature.
+struct Imitation<const N: usize> {
+    /// The column of the signature.
+    column: usize,
+    model: Model<N>,
+    /// By how much its numbers are moved.
+    step: DVector<f64>,
 }
 
 /// One run, linearised at the nominal model.
@@ -37,17 +51,78 @@ impl<'a, const N: usize> Laid<'a, N> {
     pub fn new(file: &RobotFile, model: Model<N>, runs: &'a [AlignedRun<N>], knobs: &SelftestKnobs) -> Self {
         let free = nominal_free(&knobs.engine.fit);
         let laid = |run| LaidRun::new(&model, run, &free, knobs.engine.layout.window_s);
-        Self { runs: runs.par_iter().map(laid).collect(), free, prior: Prior::stated(file), wrong: knobs.wrong, model }
+        Self {
+            runs: runs.par_iter().map(laid).collect(),
+            free,
+            prior: Prior::stated(file),
+            wrong: knobs.wrong,
+            look_twice: knobs.look_twice,
+            model,
+        }
     }
 
-    /// What is left of the signatures of these columns, by the channels of each bit mask.
-    pub fn left(&self, columns: &[Column], channels: &[u16]) -> Vec<Left> {
-        let none = || vec![Overlap::nothing(columns.len(), self.free.len()); channels.len()];
-        let add = |sums: Vec<Overlap>, run: Vec<Overlap>| sums.into_iter().zip(run).map(|(a, b)| a.and(b)).collect();
-        let sums = self.runs.iter().map(|run| run.overlaps(self, columns, channels)).fold(none(), add);
-        sums.into_iter()
-            .map(|sum| Left::new(sum.taken_by_parameters(&self.model, &self.free, &self.prior), sum))
-            .collect()
+    /// The recordings by the channels of a bit mask.
+    pub fn view(&self, mask: u16) -> View {
+        let windows = self.runs.iter().map(|run| run.linear.windows[0].as_slice());
+        View::new(windows, mask, self.free.len())
+    }
+
+    /// What is left of the signatures of these columns in each view. What numbers imitate in large part is looked at twice:
+    /// the second time they are moved to where a straight line says that they imitate it best.
+    pub fn left(&self, columns: &[Column], views: &[View]) -> Vec<Left> {
+        let nothing = Imitated::nothing(columns.len(), self.free.len(), self.prior.rows.len());
+        let first = self.left_after(columns, views, &views.iter().map(|_| Vec::new()).collect::<Vec<_>>());
+        let first: Vec<Left> =
+            first.iter().zip(views).map(|(sum, view)| Left::new(sum, &nothing, &self.held(view))).collect();
+        let imitations: Vec<Vec<Imitation<N>>> = first.iter().map(|left| self.imitations(columns, left)).collect();
+        if imitations.iter().all(Vec::is_empty) {
+            return first;
+        }
+        let second = self.left_after(columns, views, &imitations);
+        let left = |(((sum, view), first), imitations): (((&Overlap, &View), &Left), &Vec<Imitation<N>>)| {
+            let mut before = nothing.clone();
+            before.whole = Some(first.whole().clone());
+            for Imitation { column, model, step } in imitations {
+                before.moved.set_column(*column, step);
+                before.violated.set_column(*column, &DVector::from_vec(self.prior.violations(model)));
+            }
+            Left::new(sum, &before, &self.held(view))
+        };
+        second.iter().zip(views).zip(&first).zip(&imitations).map(left).collect()
+    }
+
+    /// The equations of the numbers.
+    fn held<'v>(&self, view: &'v View) -> Held<'v> {
+        Held {
+            view,
+            equations: held_by(view.products(), &self.model, &self.free, &self.prior),
+            slopes: slopes_of(&self.prior, &self.model, &self.free),
+        }
+    }
+
+    fn left_after(&self, columns: &[Column], views: &[View], imitations: &[Vec<Imitation<N>>]) -> Vec<Overlap> {
+        let none = || vec![Overlap::nothing(columns.len(), self.free.len()); views.len()];
+        let add = |sums: Vec<Overlap>, run: Vec<Overlap>| sums.into_iter().zip(&run).map(|(a, b)| a.and(b)).collect();
+        let of_run = |(k, run): (usize, &LaidRun<'_, N>)| {
+            let signatures: Vec<_> = columns.par_iter().map(|column| run.signature(self, column)).collect();
+            let of_view = |(view, imitations): (&View, &Vec<Imitation<N>>)| {
+                run.overlap(&view.runs[k], &signatures, imitations, self.free.len())
+            };
+            views.par_iter().zip(imitations).map(of_view).collect()
+        };
+        self.runs.iter().enumerate().map(of_run).fold(none(), add)
+    }
+
+    /// The numbers moved to where they imitate a signature best, for each that they imitate in large part.
+    fn imitations(&self, columns: &[Column], left: &Left) -> Vec<Imitation<N>> {
+        // what wrong numbers do is a straight line here
+        let of_effect = |(_, column): &(usize, &Column)| matches!(column, Column::Effect(_));
+        let twice = |(column, _): &(usize, &Column)| left.share_taken(*column) >= self.look_twice;
+        let imitation = |(column, _): (usize, &Column)| {
+            let (model, step) = stepped(&self.model, &self.free, &left.moved(column));
+            Imitation { column, model, step }
+        };
+        columns.iter().enumerate().filter(of_effect).filter(twice).map(imitation).collect()
     }
 
     /// The place of a factor among the free numbers.
@@ -67,17 +142,35 @@ impl<'a, const N: usize> LaidRun<'a, N> {
         Self { run, windows, starts, linear, plain }
     }
 
-    fn overlaps(&self, of: &Laid<'_, N>, columns: &[Column], channels: &[u16]) -> Vec<Overlap> {
-        let signatures: Vec<_> = columns.par_iter().map(|column| self.signature(of, column)).collect();
-        let summed = |channels: &u16| {
-            let mut sum = Overlap::nothing(columns.len(), of.free.len());
-            for (w, window) in self.linear.windows[0].iter().enumerate() {
-                let columns: Vec<_> = signatures.iter().map(|signature| signature[w].clone()).collect();
-                sum.add(window, &DMatrix::from_columns(&columns), *channels);
-            }
-            sum
-        };
-        channels.par_iter().map(summed).collect()
+    /// The products of signatures on what is seen of the run, each without what moved numbers make of it.
+    fn overlap(
+        &self,
+        seen: &[SeenWindow],
+        signatures: &[Vec<DVector<f64>>],
+        imitations: &[Imitation<N>],
+        numbers: usize,
+    ) -> Overlap {
+        let beyond = |by: &Imitation<N>| (by.column, self.beyond(by, &signatures[by.column], seen));
+        let beyond: BTreeMap<usize, Vec<DVector<f64>>> = imitations.par_iter().map(beyond).collect();
+        let mut sum = Overlap::nothing(signatures.len(), numbers);
+        for (w, window) in seen.iter().enumerate() {
+            let column = |(k, signature)| beyond.get(&k).unwrap_or(signature)[w].select_rows(&window.rows);
+            let columns: Vec<DVector<f64>> = signatures.iter().enumerate().map(column).collect();
+            sum.add(window, &DMatrix::from_columns(&columns));
+        }
+        sum
+    }
+
+    /// A signature without what moved numbers, and starts that move with them, make of it.
+    fn beyond(&self, by: &Imitation<N>, signature: &[DVector<f64>], seen: &[SeenWindow]) -> Vec<DVector<f64>> {
+        let moved = self.starts[0].iter().zip(seen).zip(signature).map(|((start, window), signature)| {
+            let step = window.start_moved(&signature.select_rows(&window.rows), &by.step);
+            std::array::from_fn(|k| start[k] + step[k])
+        });
+        let shots = Shots { runs: &self.run, windows: &self.windows };
+        let imitated = predictions(&by.model.plant(), shots, &[moved.collect()], &self.linear);
+        let there = imitated.into_iter().flatten().zip(&self.plain);
+        signature.iter().zip(there).map(|(signature, (there, here))| signature - (there - here)).collect()
     }
 
     /// By how much a cause moves every number, window by window [σ].

@@ -3,27 +3,85 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::suspects::Suspect;
-use crate::identify::Overlap;
+use super::view::View;
+use crate::identify::{Overlap, Products};
+use crate::simulate::MAX_CHANNELS;
+
+/// What imitates signatures already: numbers that are moved.
+#[derive(Clone)]
+pub(super) struct Imitated {
+    /// By how much each number is moved, one column a signature.
+    pub moved: DMatrix<f64>,
+    /// How far each statement is violated by that [σ], one column a signature.
+    pub violated: DMatrix<f64>,
+    /// |s|² of the signatures before any number was moved [σ²]; none: they are as they were.
+    pub whole: Option<DVector<f64>>,
+}
+
+impl Imitated {
+    /// No number is moved.
+    pub fn nothing(signatures: usize, numbers: usize, statements: usize) -> Self {
+        let still = |rows| DMatrix::zeros(rows, signatures);
+        Self { moved: still(numbers), violated: still(statements), whole: None }
+    }
+}
+
+/// What holds the numbers of a robot while they imitate.
+pub(super) struct Held<'a> {
+    /// What is seen.
+    pub view: &'a View,
+    /// Their equations: J'ᵀJ' and what was stated.
+    pub equations: DMatrix<f64>,
+    /// d violation / d number: a row for each statement.
+    pub slopes: DMatrix<f64>,
+}
 
 /// The products of what is left.
 pub(super) struct Left {
-    sum: Overlap,
-    /// The numbers' share of the products [σ²]
+    /// Over all numbers and statements.
+    all: Products,
+    /// |s⊥|² of each signature per number measured, in the channel where it is largest [σ²]
+    most_in_a_channel: DVector<f64>,
+    /// By how much the numbers are moved to imitate each signature, one column a signature.
+    moved: DMatrix<f64>,
+    /// The share of the products that they take by their last step [σ²]
     taken: DMatrix<f64>,
+    /// |s|² of each signature before any number was moved [σ²]
+    whole: DVector<f64>,
+    /// How far each statement is violated by what imitates a signature [σ], one column a signature.
+    violated: DMatrix<f64>,
+    /// a·H⁻¹·aᵀ of each statement, a its slopes: how far it moves where everything else gives way [σ²]
+    gives: DVector<f64>,
 }
 
 impl Left {
-    pub fn new(taken: DMatrix<f64>, sum: Overlap) -> Self {
-        Self { sum, taken }
+    /// What is left of signatures from which what [`Imitated`] predicts is taken away already.
+    pub fn new(overlap: &Overlap, before: &Imitated, held: &Held<'_>) -> Self {
+        let mut all = overlap.sum();
+        // a statement that is violated is a number that is missed
+        all.signatures += before.violated.tr_mul(&before.violated);
+        all.shared -= held.slopes.tr_mul(&before.violated);
+        let n = held.equations.nrows();
+        let inverse = held.equations.clone().cholesky().map_or_else(|| DMatrix::zeros(n, n), |c| c.inverse());
+        let step = &inverse * &all.shared;
+        Self {
+            violated: &before.violated + &held.slopes * &step,
+            gives: (&held.slopes * inverse * held.slopes.transpose()).diagonal(),
+            taken: all.shared.tr_mul(&step),
+            whole: before.whole.clone().unwrap_or_else(|| all.signatures.diagonal()),
+            most_in_a_channel: most_in_a_channel(overlap.channels(), &held.view.channels, &step),
+            moved: &before.moved + step,
+            all,
+        }
     }
 
     fn at(&self, a: usize, b: usize) -> f64 {
-        self.sum.signatures[(a, b)] - self.taken[(a, b)]
+        self.all.signatures[(a, b)] - self.taken[(a, b)]
     }
 
-    /// How many numbers were measured.
-    pub fn numbers(&self) -> usize {
-        self.sum.numbers
+    /// |s|² of each signature before any number was moved [σ²]
+    pub fn whole(&self) -> &DVector<f64> {
+        &self.whole
     }
 
     /// |s⊥|² of one column [σ²]
@@ -31,16 +89,32 @@ impl Left {
         self.at(column, column).max(0.0)
     }
 
-    /// |s⊥|² of a suspect at its typical size [σ²]
-    pub fn size(&self, suspect: &Suspect) -> f64 {
-        self.size_of(suspect.typical)
+    /// |s⊥|² of one column per number measured, in the channel where it is largest [σ²].
+    pub fn most_in_a_channel(&self, column: usize) -> f64 {
+        self.most_in_a_channel[column]
     }
 
-    /// The share of |s|² that the nominal numbers take, within what is stated of them [1].
-    pub fn share_taken(&self, suspect: &Suspect) -> f64 {
-        let k = suspect.typical;
-        let whole = self.sum.signatures[(k, k)];
-        if whole > 0.0 { (self.taken[(k, k)] / whole).clamp(0.0, 1.0) } else { 0.0 }
+    /// The share of |s|² that the nominal numbers take of a column, within what is stated of them [1].
+    pub fn share_taken(&self, column: usize) -> f64 {
+        let whole = self.whole[column];
+        if whole > 0.0 { (1.0 - self.size_of(column) / whole).clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// By how much each number is moved to imitate a column.
+    pub fn moved(&self, column: usize) -> DVector<f64> {
+        self.moved.column(column).into_owned()
+    }
+
+    /// How far each statement is violated by what imitates a column [σ].
+    pub fn violated(&self, column: usize) -> Vec<f64> {
+        self.violated.column(column).iter().copied().collect()
+    }
+
+    /// |s⊥|² of a column if a number were known just as it is stated [σ²]: v²/(a·H⁻¹·aᵀ) more, the least that it costs to
+    /// imitate without violating the statement.
+    pub fn size_if_exact(&self, column: usize, statement: usize) -> f64 {
+        let (violated, gives) = (self.violated[(statement, column)], self.gives[statement]);
+        self.size_of(column) + if gives > 0.0 { violated * violated / gives } else { 0.0 }
     }
 
     /// What is left of a suspect beside the best that a rival can make of its free numbers [σ²]; the rival's own products
@@ -54,6 +128,25 @@ impl Left {
         }
         let shared = DVector::from_fn(free.len(), |k, _| self.at(free[k], suspect.typical));
         let imitated = own.cholesky().map_or(0.0, |c| shared.dot(&c.solve(&shared)));
-        (self.size(suspect) - imitated).max(0.0)
+        (self.size_of(suspect.typical) - imitated).max(0.0)
     }
+}
+
+/// |s' − J'·step|² of each signature per number measured, in the channel where it is largest [σ²].
+fn most_in_a_channel(
+    overlap: &[Products; MAX_CHANNELS],
+    numbers: &[(DMatrix<f64>, usize); MAX_CHANNELS],
+    step: &DMatrix<f64>,
+) -> DVector<f64> {
+    let of = |column: usize| {
+        let step = step.column(column);
+        let measured = overlap.iter().zip(numbers).filter(|(_, (_, measured))| *measured > 0);
+        let each = measured.map(|(of, (products, measured))| {
+            let left = of.signatures[(column, column)] - 2.0 * step.dot(&of.shared.column(column))
+                + step.dot(&(products * step));
+            left / *measured as f64
+        });
+        each.fold(0.0, f64::max)
+    };
+    DVector::from_fn(step.ncols(), |column, _| of(column))
 }

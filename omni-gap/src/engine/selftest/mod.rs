@@ -21,6 +21,7 @@ mod sizes;
 mod sizing;
 mod standing;
 mod suspects;
+mod view;
 
 pub use judge::{confusion, selftest};
 pub use sensors::Sensors;

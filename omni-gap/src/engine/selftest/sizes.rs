@@ -4,24 +4,26 @@ use model_core::effects::card::Role;
 
 use super::laid::Laid;
 use super::suspects::Column;
+use super::view::View;
 use crate::engine::knobs::SelftestKnobs;
 use crate::simulate::EffectInstance;
 
 /// The multiple of an effect's typical departure from which on its |s⊥|² is `needed` [σ²]; none where it is not within its
-/// bounds. `typical` is |s⊥|² at the typical size, by the channels of a bit mask.
+/// bounds. `typical` is |s⊥|² at the typical size, in the view.
 ///
 /// Between two tries |s⊥| is taken for a power of the size: of most effects the first, of a coefficient of friction, which
 /// shows the more the smaller it is, a negative one. An effect that is seen at its bound is seen from there on.
 pub(super) fn size_needed<const N: usize>(
     laid: &Laid<'_, N>,
     effect: &EffectInstance,
-    channels: u16,
+    view: &View,
     (typical, needed): (f64, f64),
     knobs: &SelftestKnobs,
 ) -> Option<f64> {
-    let bounds = bounds(effect);
+    let bounds = bounds(effect, knobs.least_times);
     let size_at = |times: f64| {
-        laid.left(&[Column::Effect(scaled(effect, times))], &[channels])[0].size_of(0).max(knobs.least_size)
+        let scaled = Column::Effect(scaled(effect, times));
+        laid.left(&[scaled], std::slice::from_ref(view))[0].size_of(0).max(knobs.least_size)
     };
     // how far |s⊥| is above what is needed, over the size; both in logarithms
     let above = |size: f64| 0.5 * (size / needed).ln();
@@ -53,9 +55,9 @@ pub(super) fn size_needed<const N: usize>(
     seen.map(f64::exp)
 }
 
-/// The logarithms of the multiples between which all sizes are within their bounds.
-fn bounds(effect: &EffectInstance) -> (f64, f64) {
-    let mut bounds = (f64::MIN_POSITIVE.ln(), f64::MAX.ln());
+/// The logarithms of the multiples, `least_times` or more, between which all sizes are within their bounds.
+fn bounds(effect: &EffectInstance, least_times: f64) -> (f64, f64) {
+    let mut bounds = (least_times.ln(), f64::MAX.ln());
     for (p, x) in effect.card().params.iter().zip(&effect.params).filter(|(p, _)| p.role == Role::Size) {
         let times = [p.within.0, p.within.1].map(|bound| ((bound - p.absent) / (x - p.absent)).max(0.0));
         let (low, high) = (times[0].min(times[1]), times[0].max(times[1]));

@@ -3,7 +3,9 @@
 use super::left::Left;
 use super::sizing::Sizing;
 use super::suspects::Suspect;
-use crate::engine::findings::{ConfusedCause, Rival, SeenCause};
+use model_core::effects::nominal;
+
+use crate::engine::findings::{ConfusedCause, Imitating, Rival, SeenCause};
 use crate::engine::knobs::SelftestKnobs;
 use crate::engine::stepwise::Cause;
 use crate::identify::Prior;
@@ -15,6 +17,8 @@ pub(super) struct Standing {
     pub size: f64,
     /// What the engine would ask of it [σ²]
     pub needed: f64,
+    /// The numbers that imitate it, the one first whose exact value would show most.
+    imitated_by: Vec<Imitating>,
     /// Every other cause, the nearest first, each where it is nearest.
     others: Vec<Rival>,
 }
@@ -22,19 +26,21 @@ pub(super) struct Standing {
 impl Standing {
     pub fn of_all(suspects: &[Suspect], left: &Left, file: &RobotFile, knobs: &SelftestKnobs) -> Vec<Self> {
         let prior = Prior::stated(file);
-        suspects.iter().map(|s| Self::of(s, suspects, left, s.cause.freedom(&prior), knobs)).collect()
+        suspects.iter().map(|s| Self::of(s, suspects, left, &prior, knobs)).collect()
     }
 
-    fn of(suspect: &Suspect, all: &[Suspect], left: &Left, freedom: usize, knobs: &SelftestKnobs) -> Self {
+    fn of(suspect: &Suspect, all: &[Suspect], left: &Left, prior: &Prior, knobs: &SelftestKnobs) -> Self {
+        let freedom = suspect.cause.freedom(prior);
         let search = &knobs.engine.search;
         // a cause is judged by the runs that are held out
         let held = 1.0 / knobs.engine.layout.hold_out_every as f64;
         let gain = search.convincing + (search.convincing_each + search.price_of_freedom) * freedom as f64;
+        let size = left.size_of(suspect.typical);
         let relevant = match suspect.cause {
-            Cause::Effect(..) => search.relevant * left.numbers() as f64,
+            // by the channel where it shows most
+            Cause::Effect(..) => search.relevant * size / left.most_in_a_channel(suspect.typical),
             Cause::Parameter(_) => 0.0,
         };
-        let size = left.size(suspect);
         let rival = |rival: &Suspect| {
             let beside = left.beside(suspect, rival, knobs.regular);
             // what leaves nothing is not told from anything
@@ -50,7 +56,9 @@ impl Standing {
             ids.push(other.cause);
             new
         });
-        Self { size, needed: (gain / held).max(relevant), others }
+        let needed = (gain / held).max(relevant);
+        let imitated_by = imitating(suspect.typical, left, prior, (needed, knobs));
+        Self { size, needed, imitated_by, others }
     }
 
     /// The multiple of its size from which on it is seen, as a straight line.
@@ -90,6 +98,7 @@ impl Standing {
             typical: sizing.typical,
             sigma: self.size.sqrt(),
             imitated,
+            imitated_by: self.imitated_by.clone(),
             shows_below,
             seen_from: seen_times.and_then(|times| sizing.at(times)),
             seen_times,
@@ -111,4 +120,24 @@ impl Standing {
             others: self.others.clone(),
         }
     }
+}
+
+/// The numbers of the robot file that imitate a column, where they do so in large part; those that hardly move are left out.
+fn imitating(column: usize, left: &Left, prior: &Prior, (needed, knobs): (f64, &SelftestKnobs)) -> Vec<Imitating> {
+    if left.share_taken(column) < knobs.look_twice {
+        return Vec::new();
+    }
+    let statements = nominal::numbers().zip(&prior.rows).zip(left.violated(column)).enumerate();
+    let mut all: Vec<Imitating> = statements
+        .map(|(at, ((number, row), violated))| {
+            let exact = left.size_if_exact(column, at);
+            // a violation is the logarithm of the factor, over its sigma
+            let by = (row.sigma * violated).exp_m1();
+            Imitating { number: number.key, by, sigma_if_exact: exact.sqrt(), then_seen: exact >= needed }
+        })
+        .collect();
+    let most = all.iter().map(|number| number.by.abs()).fold(0.0, f64::max);
+    all.retain(|number| number.by.abs() > knobs.hardly_moved * most);
+    all.sort_by(|a, b| b.sigma_if_exact.total_cmp(&a.sigma_if_exact));
+    all
 }

@@ -1,6 +1,6 @@
 //! A cause of the self-test in phrases.
 
-use crate::engine::findings::{Rival, SeenCause};
+use crate::engine::findings::{Imitating, Rival, SeenCause};
 use crate::report::number::num;
 use crate::vocabulary::Kind;
 
@@ -39,6 +39,32 @@ fn rivals(all: &[Rival]) -> String {
 fn from(x: Option<f64>, cause: &SeenCause) -> String {
     let below = if x.is_some() && cause.shows_below { "up to " } else { "" };
     format!("{below}{}", size(x, cause))
+}
+
+/// Numbers that a line of the hidden names.
+const NAMED_NUMBERS: usize = 4;
+
+/// True if it is not seen because numbers of the robot imitate it.
+pub(super) fn is_hidden(cause: &SeenCause) -> bool {
+    cause.kind == Kind::Effect && !cause.is_seen() && !cause.imitated_by.is_empty()
+}
+
+/// What a hidden cause looks like, and which number would show it.
+pub(super) fn hidden(cause: &SeenCause) -> String {
+    let numbers = &cause.imitated_by;
+    let mut largest: Vec<_> = numbers.iter().collect();
+    largest.sort_by(|a, b| b.by.abs().total_cmp(&a.by.abs()));
+    let moved = |number: &&Imitating| {
+        let by = 100.0 * number.by;
+        format!("{} {}{} %", number.number, if by < 0.0 { "−" } else { "+" }, num(by.abs()))
+    };
+    let moved: Vec<String> = largest.iter().take(NAMED_NUMBERS).map(moved).collect();
+    let shown: Vec<&str> = numbers.iter().filter(|number| number.then_seen).map(|number| number.number).collect();
+    let shown = match &shown[..] {
+        [] => "no number alone would show it, were it known exactly".to_owned(),
+        shown => format!("seen if this were known exactly: {}", shown.join(" or ")),
+    };
+    format!("{} at its typical size looks like {}; {shown}", name(cause), moved.join(", "))
 }
 
 /// The heads of the table.
