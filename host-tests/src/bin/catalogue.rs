@@ -4,6 +4,7 @@
 
 use std::process::ExitCode;
 
+use host_tests::catalogue::misses::misses;
 use host_tests::catalogue::outcome::{BenchmarkOutcome, ENGINES, Judgement, diagnose_case};
 use host_tests::catalogue::page::{by_engine, page, plain, promises, word};
 use host_tests::catalogue::sessions::cases;
@@ -50,7 +51,7 @@ fn benchmark(only: Option<&str>) -> Result<(), Error> {
         seconds.iter().sum::<f64>() / seconds.len() as f64
     );
     if only.is_none() {
-        record("catalogue.md", &page(&outcomes), "cargo xtask benchmark")?;
+        record("catalogue.md", &(page(&outcomes) + &misses(&outcomes)?), "cargo xtask benchmark")?;
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ use omni_gap::synthesize::{Scenario, synthesize};
 use super::sessions::{plain, truth};
 
 /// Camera frames a second, as many as are recorded [1/s]
-const CAMERA: f64 = 60.0;
+pub(super) const CAMERA: f64 = 60.0;
 
 /// What is foretold of a hidden cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
