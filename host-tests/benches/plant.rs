@@ -1,7 +1,7 @@
-//! Plant steps a second, on one core: the plain four-wheel model at 1 kHz, each effect alone, and three together.
+//! Plant steps a second, on one core: the plain four-wheel model at 1 kHz, each effect alone, three and ten together.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use host_tests::plant_cases::{PLANT_CASES, STEPS, model, run, with_derivatives};
+use host_tests::plant_cases::{PLANT_CASES, STEPS, TEN, model, run, with_derivatives};
 use model_core::effects::EffectKind;
 use std::hint::black_box;
 
@@ -13,7 +13,7 @@ fn bench(c: &mut Criterion) {
         let mut memory = plant.memory().collect::<Vec<_>>();
         group.bench_function(name, |b| b.iter(|| black_box(run(black_box(&plant), &mut memory))));
     };
-    for case in PLANT_CASES {
+    for case in PLANT_CASES.into_iter().chain([TEN]) {
         one(case.name, case.effects);
     }
     for effect in &EffectKind::ALL {

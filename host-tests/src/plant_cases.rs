@@ -52,6 +52,23 @@ pub const PLANT_CASES: [PlantCase; 4] = [
     },
 ];
 
+/// As many as a robot has that is wrong in everything that real logs show most.
+pub const TEN: PlantCase = PlantCase {
+    name: "ten: from the supply to the camera",
+    effects: &[
+        "supply_sag",
+        "dead_time",
+        "motor_mismatch",
+        "gear_efficiency",
+        "stribeck",
+        "wheel_friction",
+        "roller_friction",
+        "coriolis",
+        "camera_latency",
+        "encoder_lag",
+    ],
+};
+
 /// The robot with effects of typical size.
 pub fn model(effects: &[&str]) -> Model<4> {
     let file = RobotFile::parse(truth(4), Path::new("robot.toml"), &known_effects()).expect("the example is sound");
