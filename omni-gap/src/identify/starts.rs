@@ -49,18 +49,11 @@ pub fn profile<const N: usize>(
     let mut linear = linearise(model, shots, &starts, &[], false);
     let mut part: Vec<Vec<f64>> = starts.iter().map(|run| vec![1.0; run.len()]).collect();
     for _ in 0..settings.start_rounds {
-        let mut moved = linear.starts_after(&starts, &none);
-        for (window, (start, part)) in
-            moved.iter_mut().flatten().zip(starts.iter().flatten().zip(part.iter().flatten()))
-        {
-            for (to, from) in window.iter_mut().zip(start) {
-                *to = from + part * (*to - from);
-            }
-        }
+        let moved = part_of_the_way(&starts, linear.starts_after(&starts, &none), &part);
         let trial = linearise(model, shots, &moved, &[], false);
         // each window on its own: a start that got worse stays, and goes a part of the way in the next round
         let (old, new) = (linear.misfits(), trial.misfits());
-        let mut gained = 0.0;
+        let (mut gained, mut all_better) = (0.0, true);
         for (run, (old, new)) in old.iter().zip(&new).enumerate() {
             for (k, (old, new)) in old.iter().zip(new).enumerate() {
                 if new.cost() < old.cost() {
@@ -68,16 +61,28 @@ pub fn profile<const N: usize>(
                     gained += old.cost() - new.cost();
                 } else {
                     part[run][k] *= settings.start_part;
+                    all_better = false;
                 }
             }
         }
-        linear = linearise(model, shots, &starts, &[], false);
+        linear = if all_better { trial } else { linearise(model, shots, &starts, &[], false) };
         if gained < settings.least_gain {
             break;
         }
     }
     let misfits = linear.misfits();
     (starts, misfits)
+}
+
+/// Starts on the way from one to another, each its own part of it.
+fn part_of_the_way(from: &[Starts], mut to: Vec<Starts>, part: &[Vec<f64>]) -> Vec<Starts> {
+    let between = from.iter().flatten().zip(part.iter().flatten());
+    for (to, (from, part)) in to.iter_mut().flatten().zip(between) {
+        for (to, from) in to.iter_mut().zip(from) {
+            *to = from + part * (*to - from);
+        }
+    }
+    to
 }
 
 /// Of two starts of each window the better one: a robot that friction stops at once tells nothing of the speed with which

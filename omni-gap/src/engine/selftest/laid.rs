@@ -71,14 +71,14 @@ impl<'a, const N: usize> Laid<'a, N> {
     /// the second time they are moved to where a straight line says that they imitate it best.
     pub fn left(&self, columns: &[Column], views: &[View]) -> Vec<Left> {
         let nothing = Imitated::nothing(columns.len(), self.free.len(), self.prior.rows.len());
-        let first = self.left_after(columns, views, &views.iter().map(|_| Vec::new()).collect::<Vec<_>>());
+        let first = self.overlaps(columns, views, &views.iter().map(|_| Vec::new()).collect::<Vec<_>>());
         let first: Vec<Left> =
             first.iter().zip(views).map(|(sum, view)| Left::new(sum, &nothing, &self.held(view))).collect();
         let imitations: Vec<Vec<Imitation<N>>> = first.iter().map(|left| self.imitations(columns, left)).collect();
         if imitations.iter().all(Vec::is_empty) {
             return first;
         }
-        let second = self.left_after(columns, views, &imitations);
+        let second = self.overlaps(columns, views, &imitations);
         let left = |(((sum, view), first), imitations): (((&Overlap, &View), &Left), &Vec<Imitation<N>>)| {
             let mut before = nothing.clone();
             before.whole = Some(first.whole().clone());
@@ -100,7 +100,8 @@ impl<'a, const N: usize> Laid<'a, N> {
         }
     }
 
-    fn left_after(&self, columns: &[Column], views: &[View], imitations: &[Vec<Imitation<N>>]) -> Vec<Overlap> {
+    /// The products of signatures in each view, each signature without what its imitation makes of it.
+    fn overlaps(&self, columns: &[Column], views: &[View], imitations: &[Vec<Imitation<N>>]) -> Vec<Overlap> {
         let none = || vec![Overlap::nothing(columns.len(), self.free.len()); views.len()];
         let add = |sums: Vec<Overlap>, run: Vec<Overlap>| sums.into_iter().zip(&run).map(|(a, b)| a.and(b)).collect();
         let of_run = |(k, run): (usize, &LaidRun<'_, N>)| {

@@ -1,10 +1,10 @@
 //! How a suspect of typical size stands among the others.
 
+use model_core::effects::nominal;
+
 use super::left::Left;
 use super::sizing::Sizing;
 use super::suspects::Suspect;
-use model_core::effects::nominal;
-
 use crate::engine::findings::{ConfusedCause, Imitating, Rival, SeenCause};
 use crate::engine::knobs::SelftestKnobs;
 use crate::engine::stepwise::Cause;
