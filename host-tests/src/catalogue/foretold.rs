@@ -12,7 +12,17 @@ use omni_gap::synthesize::{Scenario, synthesize};
 use super::sessions::{plain, truth};
 
 /// Camera frames a second, as many as are recorded [1/s]
-pub(super) const CAMERA: f64 = 60.0;
+const CAMERA: f64 = 60.0;
+
+/// What a staged scenario records, as the self-test is asked about it.
+pub(super) fn planned(staged: &Scenario) -> PlannedRuns {
+    let Scenario { runs, duration, rate, voltage, .. } = *staged;
+    PlannedRuns {
+        driven: Driven::Random { runs, duration, rate, voltage },
+        logged: vec![SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose],
+        camera_rate: CAMERA,
+    }
+}
 
 /// What is foretold of a hidden cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -51,12 +61,7 @@ impl Forecast {
     /// Where the robot file is not sound.
     pub fn ask() -> Result<Self> {
         let file = RobotFile::parse(truth(4), Path::new("robot.toml"), &known_effects())?;
-        let Scenario { runs, duration, rate, voltage, .. } = plain();
-        let usual = PlannedRuns {
-            driven: Driven::Random { runs, duration, rate, voltage },
-            logged: vec![SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose],
-            camera_rate: CAMERA,
-        };
+        let usual = planned(&plain());
         let more = PlannedRuns { logged: SignalGroup::ALL.to_vec(), ..usual.clone() };
         let set = Scenario { by_set_speed: true, ..plain() };
         let scripts = synthesize(truth(4), &set, &known_effects())?.runs;

@@ -1,18 +1,18 @@
 //! Every miss with its reason: what the self-test says of the hidden cause in such recordings, before any is made.
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::fmt::Write;
 use std::path::Path;
 
-use omni_gap::api::{Driven, PlannedRuns, SelftestKnobs, selftest};
+use omni_gap::api::{SelftestKnobs, selftest};
 use omni_gap::engine::findings::{Imitating, SeenCause};
 use omni_gap::error::Result;
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
 use omni_gap::report::{num, percent};
-use omni_gap::simulate::SignalGroup;
-use omni_gap::synthesize::Scenario;
 
-use super::foretold::CAMERA;
+use super::foretold::planned;
 use super::outcome::{BenchmarkOutcome, Judgement};
 use super::page::{plain, word};
 use super::sessions::{BenchmarkCase, HiddenCause};
@@ -36,17 +36,12 @@ pub fn misses(outcomes: &[BenchmarkOutcome]) -> Result<String> {
         these recordings, whatever looks at them; what is foretold and missed is the engine's own.\n\n\
         | wheels | hidden | answered | moves by | found from | imitated | why |\n|---|---|---|---|---|---|---|\n"
         .to_owned();
-    let mut told: Vec<(usize, Vec<SeenCause>)> = Vec::new();
+    let mut told: BTreeMap<usize, Vec<SeenCause>> = BTreeMap::new();
     for o in missed {
-        let known = told.iter().position(|(wheels, _)| *wheels == o.case.wheels);
-        let known = match known {
-            Some(at) => at,
-            None => {
-                told.push((o.case.wheels, foretold(&o.case)?));
-                told.len() - 1
-            }
-        };
-        let _ = writeln!(text, "{}", row(o, &told[known].1));
+        if let Entry::Vacant(unasked) = told.entry(o.case.wheels) {
+            unasked.insert(foretold(&o.case)?);
+        }
+        let _ = writeln!(text, "{}", row(o, &told[&o.case.wheels]));
     }
     Ok(text)
 }
@@ -55,13 +50,7 @@ pub fn misses(outcomes: &[BenchmarkOutcome]) -> Result<String> {
 fn foretold(case: &BenchmarkCase) -> Result<Vec<SeenCause>> {
     let plain = BenchmarkCase { hidden: HiddenCause::Nothing, ..case.clone() };
     let file = RobotFile::parse(&plain.truth()?, Path::new("robot.toml"), &known_effects())?;
-    let Scenario { runs, duration, rate, voltage, .. } = plain.plan();
-    let plan = PlannedRuns {
-        driven: Driven::Random { runs, duration, rate, voltage },
-        logged: vec![SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose],
-        camera_rate: CAMERA,
-    };
-    Ok(selftest(&file, &plan, &SelftestKnobs::default())?.causes)
+    Ok(selftest(&file, &planned(&plain.plan()), &SelftestKnobs::default())?.causes)
 }
 
 fn row(o: &BenchmarkOutcome, told: &[SeenCause]) -> String {
