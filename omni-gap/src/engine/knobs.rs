@@ -118,7 +118,7 @@ pub struct SearchKnobs {
     /// An effect has to take this share off Σ error² of one channel [1]: a significant but tiny improvement explains nothing.
     /// Of one channel, since what shows in the poses alone, or on one wheel, is not made smaller by what else was logged.
     pub relevant: f64,
-    /// A further effect has to take this share off what the first causes left [1]. By trial.
+    /// A further effect has to take this share off what the first causes left of one channel [1]. By trial.
     pub relevant_further: f64,
     /// Score within which two causes are not told apart [1]: a likelihood ratio of e⁴ at the most.
     pub tie: f64,
