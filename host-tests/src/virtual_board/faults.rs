@@ -6,6 +6,7 @@ use model_core::effects::card::{Card, Physics, Scope, Seam, Undone};
 use model_core::effects::seams::{
     Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, SpeedDrive, StepOutcome, Supply, Winding,
 };
+use model_core::effects::telegram::{Command, Delivery};
 use model_core::effects::{Effect, EffectSet, EffectState, Needs};
 
 /// Something that is wrong.
@@ -113,6 +114,12 @@ impl EffectSet<f64> for OnBoard {
         match self {
             OnBoard::Effect(effect) => effect.needs(),
             OnBoard::BlockedWheel => Needs::NOTHING,
+        }
+    }
+
+    fn command(&self, s: &mut [Self::State], delivery: Option<Delivery>, x: &mut Command<f64>) {
+        if let OnBoard::Effect(effect) = self {
+            effect.command(s, delivery, x);
         }
     }
 

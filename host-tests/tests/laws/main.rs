@@ -19,6 +19,7 @@ mod clock_drift;
 mod cog_offset;
 mod cogging;
 mod command_deadband;
+mod command_loss;
 mod commutation_ripple;
 mod current_lag;
 mod current_limit;

@@ -115,9 +115,10 @@ fn record<const N: usize>(plant: Plant<N, f64>, steps: u32) -> Vec<Seen<N>> {
     for hold in holds::<N>() {
         for _ in 0..hold.milliseconds / 2 {
             let mut first: Option<(Reading<N, f64>, [f64; 3])> = None;
+            let input = run.send(hold.u);
             for _ in 0..steps {
                 let twist = run.twist();
-                let read = run.drive(hold.u, dt);
+                let read = run.step(&input, dt);
                 first.get_or_insert((read, twist));
             }
             let (read, twist) = first.expect("a step");

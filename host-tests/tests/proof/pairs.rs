@@ -11,6 +11,7 @@ use model_core::effects::card::Seam;
 use model_core::effects::seams::{
     Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, SpeedDrive, Supply, Winding,
 };
+use model_core::effects::telegram::Command;
 use model_core::effects::{Effect, EffectKind, EffectSet, EffectState};
 use model_core::plant::Plant;
 use omni_gap::known_effects;
@@ -20,7 +21,7 @@ use omni_gap::simulate::{EffectInstance, Model};
 use crate::bounds::stays_finite;
 use crate::fixture::{four, typical, usual_placement};
 use crate::golden;
-use crate::seams::{Described, NOW, at, remembered};
+use crate::seams::{Described, LOST, NOW, at, remembered};
 
 /// Every pair at a seam, in the order of the catalogue.
 fn pairs(seam: Seam) -> Vec<[EffectKind; 2]> {
@@ -91,6 +92,7 @@ fn commutes(seam: Seam, pair: [EffectKind; 2]) -> bool {
     });
     let pair = [&a, &b];
     !match seam {
+        Seam::Command => parts::<Command<f64>>(|(e, s), _, x| e.command(&mut s.clone(), LOST, x), pair),
         Seam::SpeedDrive => parts::<SpeedDrive<f64>>(|(e, s), at, x| e.speed_drive(s, at, x), pair),
         Seam::Supply => parts::<Supply<f64>>(|(e, s), at, x| e.supply(s, at, x), pair),
         Seam::Bridge => parts::<Bridge<f64>>(|(e, s), at, x| e.bridge(s, at, x), pair),

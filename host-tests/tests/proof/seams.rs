@@ -5,6 +5,7 @@ use model_core::effects::card::Seam;
 use model_core::effects::seams::{
     Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, SpeedDrive, StepOutcome, Supply, Winding,
 };
+use model_core::effects::telegram::{Command, Delivery};
 use model_core::effects::{Effect, EffectKind, EffectSet, EffectState};
 use model_core::geometry::frames::{BodyTwist, Pose};
 
@@ -42,6 +43,16 @@ pub fn at(rng: &mut SeededRng) -> EffectContext<f64> {
         acceleration: [(); 3].map(|()| rng.between(-5.0, 5.0)),
         bus: rng.between(9.0, 13.0),
         nominal_supply: 12.0,
+    }
+}
+
+impl Described for Command<f64> {
+    fn random(rng: &mut SeededRng) -> Self {
+        let sent = rng.between(-12.0, 12.0);
+        Self { sent, arrived: sent }
+    }
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.sent, self.arrived]
     }
 }
 
@@ -205,6 +216,9 @@ fn touches<D: Described>(seed: u64, hook: impl Fn(&EffectContext<f64>, &mut D)) 
     })
 }
 
+/// A telegram that a record shows as lost for certain, one of ten.
+pub const LOST: Option<Delivery> = Some(Delivery::Shown(10.0));
+
 /// When the hooks are asked: when a run has gone on long enough for what grows with time to show [s].
 pub const NOW: f64 = 10.0;
 
@@ -240,6 +254,7 @@ fn hooks_that_a_card_does_not_list_change_nothing_and_those_it_lists_do() {
         let now = |at: &EffectContext<f64>| EffectContext { time: NOW, ..*at };
         for seam in Seam::ALL {
             let touched = match seam {
+                Seam::Command => touches(seed, |_, x| effect.command(&mut s.clone(), LOST, x)),
                 Seam::SpeedDrive => touches(seed, |at, x| effect.speed_drive(&s, &now(at), x)),
                 Seam::Supply => touches(seed, |at, x| effect.supply(&s, &now(at), x)),
                 Seam::Bridge => touches(seed, |at, x| effect.bridge(&s, &now(at), x)),

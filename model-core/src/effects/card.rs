@@ -10,6 +10,8 @@ pub const MAX_PARAMS: usize = 8;
 /// Where on the signal path an effect acts, in signal order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Seam {
+    /// Telegram: command that is sent → command that arrives.
+    Command,
     /// Drive that controls wheel speed: speed that is set → speed of the wheel.
     SpeedDrive,
     /// Battery: bus current → bus voltage.
@@ -32,7 +34,8 @@ pub enum Seam {
 
 impl Seam {
     /// All seams in signal order.
-    pub const ALL: [Seam; 9] = [
+    pub const ALL: [Seam; 10] = [
+        Seam::Command,
         Seam::SpeedDrive,
         Seam::Supply,
         Seam::Bridge,
@@ -47,7 +50,7 @@ impl Seam {
     /// The stage that a report names for this seam.
     pub const fn stage(self) -> Stage {
         match self {
-            Seam::SpeedDrive | Seam::Supply | Seam::Bridge | Seam::Winding => Stage::Electrical,
+            Seam::Command | Seam::SpeedDrive | Seam::Supply | Seam::Bridge | Seam::Winding => Stage::Electrical,
             Seam::Shaft | Seam::Gear => Stage::Drivetrain,
             Seam::Contact => Stage::Contact,
             Seam::Body => Stage::Body,

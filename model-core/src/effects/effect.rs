@@ -7,6 +7,7 @@ use super::seams::{
     Body, BodyMotion, Bridge, Contact, EffectContext, Gear, RimMotion, Sense, Shaft, SpeedDrive, StepOutcome, Supply,
     Winding,
 };
+use super::telegram::{Command, Delivery};
 use crate::number::scalar::Real;
 
 /// What the plant keeps up only while an effect looks at it. An effect that has not asked for it is told NaN, so that a law
@@ -75,7 +76,7 @@ impl<T> State<T> for () {
 ///
 /// `s` is what the effect remembers; on an effect of wheels it is that wheel's. A hook is a pure function of what it is
 /// given: the plant may call it several times within a step while it solves for a current, and only [`Hooks::advance`],
-/// called once a step, may change what is remembered. Parameters at their absent value leave every description bit for
+/// called once a step, and [`Hooks::command`], called once an input, may change what is remembered. Parameters at their absent value leave every description bit for
 /// bit as it was.
 #[allow(unused_variables)]
 pub trait Hooks<T: Real>: Copy + Debug {
@@ -87,6 +88,10 @@ pub trait Hooks<T: Real>: Copy + Debug {
     /// What it looks at that the plant keeps up only for effects that need it.
     const NEEDS: Needs = Needs::NOTHING;
 
+    /// Telegram: command that is sent → command that arrives; `delivery` is none where nothing new is sent. Asked once for
+    /// every input, it may change what is remembered.
+    #[inline]
+    fn command(&self, s: &mut Self::State, delivery: Option<Delivery>, x: &mut Command<T>) {}
     /// Drive that controls wheel speed: speed that is set → speed of the wheel.
     #[inline]
     fn speed_drive(&self, s: &Self::State, at: &EffectContext<T>, x: &mut SpeedDrive<T>) {}
@@ -173,6 +178,8 @@ pub trait EffectSet<T: Real>: Copy + Debug {
     fn settles_contact(&self) -> bool;
     /// [`Hooks::NEEDS`]
     fn needs(&self) -> Needs;
+    /// [`Hooks::command`]
+    fn command(&self, s: &mut [Self::State], delivery: Option<Delivery>, x: &mut Command<T>);
     /// [`Hooks::speed_drive`]
     fn speed_drive(&self, s: &[Self::State], at: &EffectContext<T>, x: &mut SpeedDrive<T>);
     /// [`Hooks::supply`]

@@ -68,6 +68,21 @@ macro_rules! effect_set {
                 match self { $($Set::$Variant(e) => $crate::effects::Hooks::<$n>::invert_sensing(e, at, x)),* }
             }
 
+            fn command(
+                &self,
+                s: &mut [Self::State],
+                delivery: Option<$crate::effects::telegram::Delivery>,
+                x: &mut $crate::effects::telegram::Command<$n>,
+            ) {
+                #[allow(unreachable_patterns)]
+                match (self, s) {
+                    $(($Set::$Variant(e), [$State::$Variant(s)]) => {
+                        $crate::effects::Hooks::<$n>::command(e, s, delivery, x);
+                    })*
+                    _ => {}
+                }
+            }
+
             fn restart(&self, s: &mut [Self::State], at: &$crate::effects::seams::EffectContext<$n>) {
                 #[allow(unreachable_patterns)]
                 match (self, s) {

@@ -20,6 +20,8 @@ mod ripple;
 
 mod springs;
 
+pub mod telegram;
+
 mod effect;
 pub use effect::{Catalogued, EffectSet, Hooks, Needs, Numbers, State};
 
@@ -32,6 +34,7 @@ pub mod electrical {
     pub mod actuation_delay;
     pub mod cogging;
     pub mod command_deadband;
+    pub mod command_loss;
     pub mod commutation_ripple;
     pub mod current_limit;
     pub mod dead_time;
@@ -107,6 +110,7 @@ mod list {
 
     // In signal order, which is that in which effects act at a seam that they share
     catalogue! {
+        electrical::command_loss::CommandLoss,
         electrical::command_deadband::CommandDeadband,
         electrical::speed_loop::SpeedLoop,
         electrical::actuation_delay::ActuationDelay,

@@ -41,6 +41,8 @@ pub use state::{Input, Reading, State};
 mod model;
 pub use model::Plant;
 
+mod command;
+
 mod source;
 
 mod axis;

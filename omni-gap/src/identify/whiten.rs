@@ -68,7 +68,7 @@ mod tests {
     use rand_distr::{Distribution, StandardNormal};
 
     use super::*;
-    use crate::simulate::Chain;
+    use crate::simulate::{Chain, Losses};
 
     /// A run without rows whose channels all have this correlation time [s].
     fn run(tau: f64) -> AlignedRun<4> {
@@ -84,6 +84,7 @@ mod tests {
             measured: Vec::new(),
             has: Vec::new(),
             turned: Vec::new(),
+            losses: Losses::default(),
             sigma: [1.0; MAX_CHANNELS],
             correlation_time: [tau; MAX_CHANNELS],
             unsigned_current: false,

@@ -5,10 +5,12 @@
 
 use std::ops::Range;
 
+use model_core::effects::telegram::Telegram;
 use model_core::number::scalar::Real;
 use model_core::plant::Input;
 
 use super::channels::{Channels, MAX_CHANNELS, Row, SignalGroup};
+use super::losses::Losses;
 use super::model::robot_of;
 use super::open_circuit::open_circuit_voltage;
 use super::row_passed::RowPassed;
@@ -45,6 +47,8 @@ pub struct AlignedRun<const N: usize> {
     pub has: Vec<u16>,
     /// By how much each wheel has turned before each row, by its measured speed [rad]; empty where none is logged
     pub turned: Vec<[f64; N]>,
+    /// How the telegrams with the driving signal fared
+    pub losses: Losses<N>,
     /// One-sigma noise of each channel, by the robot file
     pub sigma: Row,
     /// How long the noise of each channel remembers itself [s], as an Ornstein–Uhlenbeck process; zero is white
@@ -185,7 +189,7 @@ impl<const N: usize> AlignedRun<N> {
             .chain(run.vbat.iter().flat_map(|c| c.present()))
             .fold(0.0, |most: f64, (_, u)| most.max(u.abs()));
         let turned = turned(signals_of(&run.w), span.clone(), &dt);
-        Some(Self {
+        let mut laid = Self {
             name: run.name.clone(),
             steps: steps_of_rows(&robot_of::<N, f64>(robot, 1.0), &rims, &t, &dt),
             t,
@@ -197,11 +201,14 @@ impl<const N: usize> AlignedRun<N> {
             measured,
             has,
             turned,
+            losses: Losses::default(),
             sigma,
             correlation_time: [0.0; MAX_CHANNELS],
             unsigned_current: run.i.as_ref().is_some_and(|g| g.unsigned),
             largest_voltage,
-        })
+        };
+        laid.losses = Losses::shown(&laid, robot);
+        Some(laid)
     }
 
     /// The run cut into `parts` of equal length, each beginning on a row of the driving signal.
@@ -222,6 +229,7 @@ impl<const N: usize> AlignedRun<N> {
                 measured: self.measured[first..end].to_vec(),
                 has: self.has[first..end].to_vec(),
                 turned: self.turned.get(first..end).unwrap_or_default().to_vec(),
+                losses: self.losses.part(first..end),
                 ..self.without_rows()
             })
             .collect()
@@ -239,6 +247,7 @@ impl<const N: usize> AlignedRun<N> {
             measured: Vec::new(),
             has: Vec::new(),
             turned: Vec::new(),
+            losses: Losses::default(),
             ..*self
         }
     }
@@ -269,6 +278,12 @@ impl<const N: usize> AlignedRun<N> {
     #[inline]
     pub fn turned(&self, row: usize) -> Option<[f64; N]> {
         self.turned.get(row).copied()
+    }
+
+    /// The telegram that was sent on a row; none where nothing new was.
+    #[inline]
+    pub fn telegram(&self, row: usize) -> Option<Telegram<N>> {
+        self.driven[row].then(|| self.losses.telegram(row))
     }
 
     /// True if any row has a channel of the group.

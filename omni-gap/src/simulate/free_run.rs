@@ -5,6 +5,7 @@
 //! a run is, and a window does not depend on how well the windows before it were met.
 
 use model_core::effects::EffectState;
+use model_core::effects::card::Seam;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::{Input, Plant, State};
@@ -74,6 +75,15 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
         self.restart(row, state);
     }
 
+    /// What arrives of the input that is sent on a row.
+    #[inline]
+    fn arrived(&mut self, row: usize, sent: &Input<N, T>) -> Input<N, T> {
+        if self.plant.effects().none_at(Seam::Command) {
+            return *sent;
+        }
+        self.plant.receive(&mut self.memory, sent, self.run.telegram(row).as_ref())
+    }
+
     /// Takes the plant through a row with the input held.
     #[inline]
     pub fn pass(&mut self, row: usize, input: &Input<N, T>) -> RowPassed<N, T> {
@@ -81,6 +91,7 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
         let steps = self.run.steps(row).max((self.run.dt[row] / self.longest_s - ROUNDED).ceil() as usize);
         self.steps_taken += steps as u64;
         let dt = T::lit(self.run.dt[row] / steps as f64);
+        let input = &self.arrived(row, input);
         let unloaded = self.plant.open_circuit_voltage(&self.state, &self.memory);
         let reading = self.plant.step(&mut self.state, &mut self.memory, input, dt);
         let bus = self.state.bus;

@@ -1,5 +1,6 @@
 //! A recording of a robot that is not there: a plant, its sensors, their noise and their gaps.
 
+use model_core::effects::telegram::Telegram;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::{Input, Plant, Reading};
 use rand::{RngExt, SeedableRng};
@@ -83,6 +84,7 @@ pub fn record<const N: usize>(
     };
     let mut gaps = ChaCha8Rng::seed_from_u64(seed ^ 0x9e37_79b9_7f4a_7c15);
     let mut beside = ChaCha8Rng::seed_from_u64(seed ^ 0x6a09_e667_f3bc_c908);
+    let mut losses = ChaCha8Rng::seed_from_u64(seed ^ 0xbb67_ae85_84ca_a73b);
     let (mut gyro, mut vbat) = (Channel::with_capacity(rows), Channel::with_capacity(rows));
     let mut memory = plant.memory().collect::<Vec<_>>();
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
@@ -96,7 +98,8 @@ pub fn record<const N: usize>(
         let length = t.get(row + 1).map_or(step, |next| next - t[row]);
         let steps = if step > 0.0 { (length / step * how.steps_a_row as f64).round().max(1.0) as usize } else { 1 };
         let dt = length / steps as f64;
-        let reading: Reading<N, f64> = plant.step(&mut state, &mut memory, held, dt);
+        let arrived = plant.receive(&mut memory, held, Some(&Telegram::drawn(losses.random())));
+        let reading: Reading<N, f64> = plant.step(&mut state, &mut memory, &arrived, dt);
         let mut of = |sigma: f64| -> f64 { sigma * Distribution::<f64>::sample(&StandardNormal, &mut beside) };
         gyro.push(reading.gyro + of(how.sensors.gyro_noise_rad_s.unwrap_or(GYRO_NOISE_RAD_S)));
         vbat.push(state.bus + of(how.sensors.battery_noise_v.unwrap_or(BATTERY_NOISE_V)));
@@ -117,7 +120,7 @@ pub fn record<const N: usize>(
         };
         turn(&reading, 0);
         for k in 1..steps {
-            let reading = plant.step(&mut state, &mut memory, held, dt);
+            let reading = plant.step(&mut state, &mut memory, &arrived, dt);
             turn(&reading, k);
         }
         // an Ornstein–Uhlenbeck process: n ← ρ·n + √(1 − ρ²)·white, ρ = e^(−Δt/τ)
