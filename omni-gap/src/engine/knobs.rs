@@ -53,8 +53,11 @@ pub struct LayoutKnobs {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ScreenKnobs {
-    /// Runs that the screen looks at, at the most [runs]: four tell candidates apart, and more only take time.
+    /// Runs that the screen looks at, at the most where they are long enough [runs]: four tell candidates apart, and more only
+    /// take time.
     pub runs: usize,
+    /// How long these last together, at least, where there are more runs [s]: 24 windows. Of short runs it looks at more.
+    pub least_s: f64,
     /// Rows of these that it looks at, at the most [rows]: what tells candidates apart shows in a minute, and the matrices of
     /// every window are kept.
     pub rows: usize,
@@ -277,6 +280,7 @@ impl Default for ScreenKnobs {
     fn default() -> Self {
         Self {
             runs: 4,
+            least_s: 12.0,
             rows: 20_000,
             promising: 9.0,
             worth_a_fit: 0.25,

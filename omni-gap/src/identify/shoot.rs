@@ -78,9 +78,11 @@ pub struct Shots<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Shots<'a, N> {
-    /// The first `count` runs alone.
-    pub fn first(&self, count: usize) -> Self {
-        let count = count.min(self.runs.len());
+    /// The first `runs` runs alone, or more until they last `least_s` [s] together.
+    pub fn beginning(&self, runs: usize, least_s: f64) -> Self {
+        let lengths = self.runs.iter().map(|run| run.dt.iter().sum::<f64>());
+        let before = lengths.scan(0.0, |sum, length| Some(std::mem::replace(sum, *sum + length)));
+        let count = before.enumerate().take_while(|(k, sum)| *k < runs || *sum < least_s).count();
         Self { runs: &self.runs[..count], windows: &self.windows[..count] }
     }
 
@@ -170,6 +172,35 @@ pub(super) fn run_some_windows<const N: usize, T: Real>(
         for row in rows {
             let passed = on_the_way.pass(row, &run.input(row));
             each(window, row, &run.row_of(&passed));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::log::{Catalogue, Channel, Group, RobotFile, Run};
+
+    /// A run of three wheels at a hundred rows a second.
+    fn lasting(seconds: f64) -> AlignedRun<3> {
+        let text = include_str!("../../../examples/feup-3w/robot.toml");
+        let robot = RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap();
+        let rows = (100.0 * seconds) as usize;
+        let still = || Group::new((0..3).map(|_| Channel::from_values((0..rows).map(|_| 0.0))).collect());
+        let t_s = (0..rows).map(|row| row as f64 / 100.0).collect();
+        AlignedRun::new(&Run { t_s, u: Some(still()), i: Some(still()), ..Run::default() }, &robot).unwrap()
+    }
+
+    #[test]
+    fn a_beginning_has_more_runs_the_shorter_they_are() {
+        for (seconds, count) in [(6.0, 4), (3.0, 4), (1.5, 8), (1.0, 12), (0.2, 40)] {
+            let runs: Vec<AlignedRun<3>> = (0..40).map(|_| lasting(seconds)).collect();
+            let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, WINDOW_S)).collect();
+            let runs: Vec<&AlignedRun<3>> = runs.iter().collect();
+            let few = Shots { runs: &runs, windows: &windows }.beginning(4, 11.9);
+            assert_eq!((few.runs.len(), few.windows.len()), (count, count), "runs of {seconds} s");
         }
     }
 }
