@@ -16,13 +16,16 @@ pub const FIRST_SEED: u64 = 2000;
 /// The seed of the reduced benchmark's first session.
 pub const FIRST_SHORT_SEED: u64 = 4000;
 
+/// The seed of the first of the sessions that were added when all effects had theirs.
+pub const FIRST_FURTHER_SEED: u64 = 8000;
+
 /// The seed of the first session of the diagnosis's own medicine.
 pub const FIRST_PLAIN_SEED: u64 = 6000;
 
 /// Effects that there were when the sessions with nothing hidden and those with wrong numbers got their seeds.
 const FIRST_EFFECTS: usize = 13;
 
-/// Sessions with nothing hidden, on each robot.
+/// Sessions with nothing hidden, on each robot, and as many more that were added later.
 pub const NO_GAP_CASES: usize = 5;
 
 /// The same, of the reduced benchmark.
@@ -39,6 +42,8 @@ pub const WHEELS: [usize; 2] = [3, 4];
 pub struct WrongParameter {
     /// Its key.
     pub key: &'static str,
+    /// Another number that is as wrong, because both are one.
+    pub with: Option<&'static str>,
     /// The cause that names it.
     pub cause: &'static str,
     /// True value over the file's.
@@ -49,10 +54,33 @@ pub struct WrongParameter {
 
 /// The wrong numbers, each well beyond what is stated of it.
 pub const WRONG_PARAMETERS: [WrongParameter; 3] = [
-    WrongParameter { key: "mass_kg", cause: "mass", ratio: 1.25, stated: 0.01 },
-    WrongParameter { key: "resistance_ohm", cause: "resistance", ratio: 1.6, stated: 0.1 },
-    WrongParameter { key: "coulomb_v_N", cause: "coulomb_friction", ratio: 2.5, stated: 0.2 },
+    WrongParameter { key: "mass_kg", with: None, cause: "mass", ratio: 1.25, stated: 0.01 },
+    WrongParameter { key: "resistance_ohm", with: None, cause: "resistance", ratio: 1.6, stated: 0.1 },
+    WrongParameter { key: "coulomb_v_N", with: None, cause: "coulomb_friction", ratio: 2.5, stated: 0.2 },
 ];
+
+/// The wrong numbers of the other parameter causes. K_t and K_v of a motor that is another one are wrong together.
+pub const FURTHER_WRONG_PARAMETERS: [WrongParameter; 6] = [
+    WrongParameter { key: "inertia_kg_m2", with: None, cause: "inertia", ratio: 1.6, stated: 0.1 },
+    WrongParameter {
+        key: "emf_constant_V_s",
+        with: Some("torque_constant_Nm_per_A"),
+        cause: "torque_constant",
+        ratio: 1.2,
+        stated: 0.03,
+    },
+    WrongParameter { key: "torque_constant_Nm_per_A", with: None, cause: "kt_over_kv", ratio: 1.2, stated: 0.03 },
+    WrongParameter { key: "viscous_v_N_s_per_m", with: None, cause: "viscous_friction", ratio: 2.5, stated: 0.2 },
+    WrongParameter { key: "radius_m", with: None, cause: "wheel_radius", ratio: 1.06, stated: 0.01 },
+    WrongParameter { key: "distance_m", with: None, cause: "center_distance", ratio: 1.06, stated: 0.01 },
+];
+
+impl fmt::Display for WrongParameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let with = self.with.map_or(String::new(), |key| format!(" and `{key}`"));
+        write!(f, "`{}`{with} × {}", self.key, self.ratio)
+    }
+}
 
 /// What the simulator does not know.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,7 +112,7 @@ impl fmt::Display for HiddenCause {
                 None => write!(f, "`{}`", effect.id),
             },
             HiddenCause::Nothing => write!(f, "nothing"),
-            HiddenCause::Parameter(wrong) => write!(f, "`{}` × {}", wrong.key, wrong.ratio),
+            HiddenCause::Parameter(wrong) => write!(f, "{wrong}"),
         }
     }
 }
@@ -116,7 +144,11 @@ pub struct BenchmarkCase {
 
 /// All sessions, in the order of their seeds.
 pub fn cases() -> Vec<BenchmarkCase> {
-    numbered(FIRST_SEED, NO_GAP_CASES, Staging::Full)
+    let nothing = std::iter::repeat_n(HiddenCause::Nothing, NO_GAP_CASES);
+    let further = nothing.chain(FURTHER_WRONG_PARAMETERS.map(HiddenCause::Parameter));
+    let mut all = numbered(FIRST_SEED, NO_GAP_CASES, Staging::Full);
+    all.extend(on_both(FIRST_FURTHER_SEED, further, Staging::Full));
+    all
 }
 
 /// The reduced benchmark: the same, short, with seeds of its own and fewer sessions with nothing hidden.
@@ -160,6 +192,11 @@ fn numbered(first_seed: u64, nothing_each: usize, staging: Staging) -> Vec<Bench
     let nothing = std::iter::repeat_n(HiddenCause::Nothing, nothing_each);
     let wrong = WRONG_PARAMETERS.map(HiddenCause::Parameter);
     let all = effects(first).into_iter().chain(nothing).chain(wrong).chain(effects(later));
+    on_both(first_seed, all, staging)
+}
+
+/// Each of these on both robots.
+fn on_both(first_seed: u64, all: impl Iterator<Item = HiddenCause>, staging: Staging) -> Vec<BenchmarkCase> {
     let on_both = all.flat_map(|hidden| WHEELS.map(|wheels| (wheels, hidden.clone())));
     let seeded = (first_seed..).zip(on_both);
     seeded.map(|(seed, (wheels, hidden))| BenchmarkCase { seed, wheels, hidden, staging }).collect()
@@ -205,7 +242,9 @@ impl BenchmarkCase {
                 plan.hidden.push(effect.clone());
             }
             HiddenCause::Nothing => {}
-            HiddenCause::Parameter(wrong) => plan.wrong.push((wrong.key, wrong.ratio)),
+            HiddenCause::Parameter(wrong) => {
+                plan.wrong.extend([Some(wrong.key), wrong.with].into_iter().flatten().map(|key| (key, wrong.ratio)));
+            }
         }
         plan
     }
@@ -232,6 +271,7 @@ impl BenchmarkCase {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use model_core::effects::nominal::NOMINAL;
     use omni_gap::log::RobotFile;
     use std::path::Path;
 
@@ -240,16 +280,18 @@ mod tests {
         let all = cases();
         let count = |of: fn(&HiddenCause) -> bool| all.iter().filter(|case| of(&case.hidden)).count();
         assert_eq!(count(|h| matches!(h, HiddenCause::Effect(_))), 2 * EffectKind::ALL.len());
-        assert_eq!(count(|h| matches!(h, HiddenCause::Nothing)), 10);
-        assert_eq!(count(|h| matches!(h, HiddenCause::Parameter(_))), 6);
-        assert!(all.windows(2).all(|pair| pair[1].seed == pair[0].seed + 1));
+        assert_eq!(count(|h| matches!(h, HiddenCause::Nothing)), 20);
+        assert_eq!(count(|h| matches!(h, HiddenCause::Parameter(_))), 2 * NOMINAL.len());
+        let gaps = all.windows(2).filter(|pair| pair[1].seed != pair[0].seed + 1).count();
+        assert_eq!(gaps, 1, "one row of seeds, and one of those that were added");
     }
 
     #[test]
-    fn the_reduced_benchmark_hides_the_same_and_shares_no_seed() {
+    fn the_reduced_benchmark_hides_the_same_effects_and_shares_no_seed() {
         let (all, short) = (cases(), short_cases());
         let hidden = |cases: &[BenchmarkCase]| {
-            let mut named: Vec<String> = cases.iter().map(|c| format!("{} on {}", c.hidden, c.wheels)).collect();
+            let effects = cases.iter().filter(|c| matches!(c.hidden, HiddenCause::Effect(_)));
+            let mut named: Vec<String> = effects.map(|c| format!("{} on {}", c.hidden, c.wheels)).collect();
             named.sort();
             named.dedup();
             named
@@ -270,8 +312,10 @@ mod tests {
         for wheels in WHEELS {
             let file = RobotFile::parse(truth(wheels), Path::new("robot.toml"), &known_effects()).unwrap();
             assert_eq!(file.wheel.len(), wheels);
-            for wrong in WRONG_PARAMETERS {
-                assert_eq!(file.relative_uncertainty(wrong.key), Some(wrong.stated), "{}", wrong.key);
+            for wrong in WRONG_PARAMETERS.into_iter().chain(FURTHER_WRONG_PARAMETERS) {
+                for key in [Some(wrong.key), wrong.with].into_iter().flatten() {
+                    assert_eq!(file.relative_uncertainty(key), Some(wrong.stated), "{key}");
+                }
                 assert!(wrong.ratio.ln() > 4.0 * wrong.stated, "{}", wrong.key);
             }
         }
