@@ -11,6 +11,7 @@ use model_core::effects::Hooks;
 use model_core::effects::active::Effects;
 use model_core::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use model_core::effects::seams::{Body, EffectContext};
+use model_core::effects::shows::{Channel, Parity, Regime, Shows};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::{Input, Plant};
 use omni_gap::api::{Error, RobotFile, known_effects};
@@ -38,6 +39,7 @@ const CARPET: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Speed, parity: Parity::Odd, order: None },
     signature: "slower than the model beyond the edge, on any heading",
     look_alikes: &[],
     code: 0,

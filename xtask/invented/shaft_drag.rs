@@ -16,6 +16,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -38,6 +39,7 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows { channels: &[Channel::YawRate, Channel::WheelSpeed], regime: Regime::Speed, parity: Parity::Odd, order: None },
     signature: "torque short in step with the wheels' speed; current itself right",
     look_alikes: &[],
     code: 0,

@@ -6,6 +6,7 @@ use model_core::effects::card::{Card, Physics, Scope, Seam, Undone};
 use model_core::effects::seams::{
     Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, SpeedDrive, StepOutcome, Supply, Winding,
 };
+use model_core::effects::shows::{Channel, Parity, Regime, Shows};
 use model_core::effects::telegram::{Command, Delivery};
 use model_core::effects::{Effect, EffectSet, EffectState, Needs};
 
@@ -60,6 +61,7 @@ static CARD: Card = Card {
     scope: Scope::OneWheel,
     params: &[],
     needs_current: false,
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Driven, parity: Parity::Odd, order: None },
     signature: "the wheel stands, whatever its current",
     look_alikes: &[],
     code: 0,

@@ -1,6 +1,7 @@
 //! The card of an effect that stands only in a test.
 
 use model_core::effects::card::{Card, Param, Physics, Role, Scope, Undone};
+use model_core::effects::shows::{Parity, Regime, Shows};
 
 const PARAM: Param =
     Param { key: "x", symbol: "x", unit: "1", absent: 0.0, typical: 1.0, within: (0.0, 1e3), role: Role::Size };
@@ -16,6 +17,7 @@ pub const BLANK: Card = Card {
     scope: Scope::Wheels,
     params: &[PARAM],
     needs_current: false,
+    shows: Shows { channels: &[], regime: Regime::Always, parity: Parity::Even, order: None },
     signature: "",
     look_alikes: &[],
     code: 0,

@@ -4,6 +4,8 @@
 //! written once, as a constant beside the law. `omni-gap explain` prints a card, `robot.toml` takes its keys from it,
 //! the ranking takes its bounds and look-alikes from it, and the tests hold every card to what it says.
 
+use super::shows::Shows;
+
 /// The most parameters that one effect may have.
 pub const MAX_PARAMS: usize = 8;
 
@@ -247,6 +249,8 @@ pub struct Card {
     /// True if its drive hook looks at the current, which then has to be solved for.
     pub needs_current: bool,
     /// Where it shows in a recording.
+    pub shows: Shows,
+    /// How it shows there, as far as that says more.
     pub signature: &'static str,
     /// What it can be mistaken for.
     pub look_alikes: &'static [LookAlike],

@@ -10,6 +10,8 @@
 // What an effect is
 pub mod card;
 
+pub mod shows;
+
 pub mod seams;
 
 mod changes;

@@ -25,6 +25,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -76,7 +77,8 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "a force towards one point of the world, at rest too; its direction changes with the place, its size does not",
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Motion, parity: Parity::Even, order: None },
+    signature: "a force towards one point of the world, which dry friction hides at rest; its direction changes with the place, its size does not",
     look_alikes: &[LookAlike {
         with: "floor_tilt",
         settled_by: "drive the same way once without the cable: what still pulls is the floor",

@@ -30,6 +30,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, BodyMotion, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -72,6 +73,7 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Motion, parity: Parity::Neither, order: None },
     signature: "a constant force in the world frame while the robot moves, and none at rest; friction larger against it than with it",
     look_alikes: &[LookAlike {
         with: "floor_tilt",

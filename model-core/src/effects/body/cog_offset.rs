@@ -32,6 +32,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
@@ -66,7 +67,13 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "the robot turns while it speeds up, the other way while it brakes; on the spot v and vn drift with ω²",
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::TurningWhileDriving,
+        parity: Parity::Neither,
+        order: None,
+    },
+    signature: "the robot turns while it speeds up, the other way while it brakes; in a curve it is turned by ω times its speed, and on the spot v and vn drift with ω²",
     look_alikes: &[],
     code: 20,
     undone: Undone::No(

@@ -23,6 +23,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, BodyMotion, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
@@ -46,6 +47,12 @@ pub const CARD: Card = Card {
         role: Role::Fixed,
     }],
     needs_current: false,
+    shows: Shows {
+        channels: &[Channel::WheelSpeed],
+        regime: Regime::TurningWhileDriving,
+        parity: Parity::Even,
+        order: None,
+    },
     signature: "force missing in step with ω·vn on v and with −ω·v on vn; nothing in runs along one axis",
     look_alikes: &[],
     code: 10,

@@ -26,6 +26,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -77,6 +78,12 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
+    shows: Shows {
+        channels: &[Channel::WheelSpeed, Channel::YawRate],
+        regime: Regime::Motion,
+        parity: Parity::Odd,
+        order: None,
+    },
     signature: "more friction, or less, wherever the robot comes to one place, whatever its heading; right elsewhere",
     look_alikes: &[LookAlike {
         with: "coulomb_friction",

@@ -27,6 +27,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, BodyMotion, EffectContext, STANDARD_GRAVITY};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -60,7 +61,8 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "a constant force in the world frame, at rest too; in the body frame it turns with the heading",
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Motion, parity: Parity::Even, order: None },
+    signature: "a constant force in the world frame, which dry friction hides at rest; in the body frame it turns with the heading",
     look_alikes: &[
         LookAlike {
             with: "carpet_nap",

@@ -31,6 +31,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -56,6 +57,7 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Aslant, parity: Parity::Odd, order: None },
     signature: "too little friction on ways aslant to the body's axes, up to 30 % on the diagonal; right along one axis",
     look_alikes: &[LookAlike {
         with: "coulomb_friction",

@@ -36,6 +36,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::effect::{Numbers, State};
 use crate::effects::seams::{Body, EffectContext, StepOutcome};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::decay::{mean_behind, mean_remaining, remaining};
 use crate::number::scalar::Real;
@@ -62,6 +63,12 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows {
+        channels: &[Channel::WheelSpeed, Channel::YawRate],
+        regime: Regime::Reversal,
+        parity: Parity::Odd,
+        order: None,
+    },
     signature: "friction missing over the first fraction of a millimetre of every start and after every reversal; small motion of a robot that should stand",
     look_alikes: &[LookAlike {
         with: "backlash",

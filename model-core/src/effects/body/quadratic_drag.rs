@@ -23,6 +23,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, BodyMotion, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
@@ -46,6 +47,7 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Speed, parity: Parity::Odd, order: None },
     signature: "force missing against the motion, four times as large at twice the speed; nothing while it spins on the spot",
     look_alikes: &[LookAlike {
         with: "viscous_friction",

@@ -20,6 +20,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -42,7 +43,8 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "wheels lead the body while it speeds up and trail it while it brakes, in proportion to the force",
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Current, parity: Parity::Odd, order: None },
+    signature: "wheels lead the body while they drive it and trail it while they brake it, in proportion to the force",
     look_alikes: &[LookAlike {
         with: "wheel_slip",
         settled_by: "drive gently: creep stays at small forces, slip does not",

@@ -29,6 +29,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext, STANDARD_GRAVITY};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks, Needs};
 use crate::number::scalar::Real;
 
@@ -51,6 +52,7 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Acceleration, parity: Parity::Even, order: None },
     signature: "slip begins at the wheels in front while the robot gains speed and at those behind while it brakes",
     look_alikes: &[LookAlike {
         with: "uneven_load",

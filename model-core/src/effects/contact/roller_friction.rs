@@ -28,6 +28,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -61,6 +62,7 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Motion, parity: Parity::Odd, order: None },
     signature: "force short by a constant that depends on the direction of travel, none while turning on the spot",
     look_alikes: &[LookAlike {
         with: "coulomb_friction",

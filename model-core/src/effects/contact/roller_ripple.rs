@@ -34,6 +34,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::ripple::wave;
 use crate::effects::seams::{Contact, EffectContext};
+use crate::effects::shows::{Channel, Order, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks, Needs};
 use crate::number::scalar::Real;
 
@@ -76,6 +77,12 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
+    shows: Shows {
+        channels: &[Channel::WheelSpeed],
+        regime: Regime::Speed,
+        parity: Parity::Neither,
+        order: Some(Order::OfWheel(2)),
+    },
     signature: "one wheel's speed ripples as often in a turn as it has rollers, in proportion to its speed",
     look_alikes: &[
         LookAlike {

@@ -24,6 +24,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -46,6 +47,7 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Current, parity: Parity::Odd, order: None },
     signature: "one wheel slips before the others, always the same one",
     look_alikes: &[LookAlike {
         with: "load_transfer",

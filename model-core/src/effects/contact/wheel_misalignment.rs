@@ -27,6 +27,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -49,6 +50,7 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::AlongAxle, parity: Parity::Odd, order: None },
     signature: "one wheel turns while the robot moves along that wheel's axle, and its force pushes the robot that way",
     look_alikes: &[],
     code: 19,

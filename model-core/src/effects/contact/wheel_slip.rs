@@ -26,6 +26,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -68,7 +69,8 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "wheels faster than the body at high current; wheels disagree with each other; current itself right",
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Current, parity: Parity::Odd, order: None },
+    signature: "wheels faster than the body; wheels disagree with each other",
     look_alikes: &[
         LookAlike { with: "creep", settled_by: "drive gently: creep stays at small forces, slip does not" },
         LookAlike {

@@ -25,6 +25,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear, RimMotion};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -47,7 +48,13 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "torque short on one wheel alone and while it turns one way; current itself right",
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Motion,
+        parity: Parity::Neither,
+        order: None,
+    },
+    signature: "torque short on one wheel alone and while it turns one way",
     look_alikes: &[LookAlike {
         with: "wheel_friction",
         settled_by: "lift the robot and raise the wheel's voltage slowly until it turns, once each way: the two differ if friction is asymmetric",

@@ -31,6 +31,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Shaft};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::springs::{self, Spring};
 use crate::effects::{Catalogued, Hooks, Needs};
 use crate::number::scalar::Real;
@@ -67,7 +68,13 @@ pub const CARD: Card = Card {
         springs::ROTOR_INERTIA,
     ],
     needs_current: false,
-    signature: "at every reversal the current drops for a moment and then jumps, and the wheel starts late",
+    shows: Shows {
+        channels: &[Channel::Current, Channel::YawRate],
+        regime: Regime::CommandChange,
+        parity: Parity::Odd,
+        order: None,
+    },
+    signature: "whenever the torque turns round the current drops for a moment and then jumps, and the wheel follows late",
     look_alikes: &[
         LookAlike {
             with: "shaft_elasticity",

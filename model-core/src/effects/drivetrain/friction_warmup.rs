@@ -29,6 +29,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -62,7 +63,13 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "torque short at the start of a run and less so later, whatever the speed; current itself right",
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Motion,
+        parity: Parity::Odd,
+        order: None,
+    },
+    signature: "torque short at the start of a run and less so later",
     look_alikes: &[LookAlike {
         with: "coulomb_friction",
         settled_by: "drive the same slow circle for ten minutes: friction of the body stays, what warms up falls",

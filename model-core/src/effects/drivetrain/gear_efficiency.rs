@@ -25,6 +25,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -47,7 +48,13 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "torque at the wheel short by a share of the current while driving, and too large while braking; current itself right",
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Current,
+        parity: Parity::Odd,
+        order: None,
+    },
+    signature: "torque at the wheel short by a share of the current while driving, and too large while braking",
     look_alikes: &[],
     code: 5,
     undone: Undone::By("torque over η while driving, times η while driven"),

@@ -25,6 +25,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Shaft};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -47,6 +48,12 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Acceleration,
+        parity: Parity::Odd,
+        order: None,
+    },
     signature: "torque missing in step with the wheels' acceleration, on all axes at once",
     look_alikes: &[
         LookAlike {

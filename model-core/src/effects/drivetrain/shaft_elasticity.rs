@@ -28,6 +28,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Shaft};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::springs::{self, Spring};
 use crate::effects::{Catalogued, Hooks, Needs};
 use crate::number::scalar::Real;
@@ -55,6 +56,12 @@ pub const CARD: Card = Card {
         springs::ROTOR_INERTIA,
     ],
     needs_current: false,
+    shows: Shows {
+        channels: &[Channel::Current, Channel::YawRate],
+        regime: Regime::CommandChange,
+        parity: Parity::Odd,
+        order: None,
+    },
     signature: "currents and speeds ring for some hundredths of a second after every step of the voltage",
     look_alikes: &[
         LookAlike {

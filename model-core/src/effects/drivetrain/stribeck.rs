@@ -23,6 +23,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear, RimMotion};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -65,7 +66,13 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "torque short near zero speed, at starts and reversals; current itself right",
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Creeping,
+        parity: Parity::Odd,
+        order: None,
+    },
+    signature: "torque short near zero speed, at starts and reversals",
     look_alikes: &[],
     code: 6,
     undone: Undone::By("each wheel's static excess is added, against the rim speed of the reference"),

@@ -24,6 +24,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear, RimMotion};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -57,7 +58,13 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "torque short on one wheel alone, by as much both ways (τ_b) or in step with its speed (b); current itself right",
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Motion,
+        parity: Parity::Odd,
+        order: None,
+    },
+    signature: "torque short on one wheel alone, by as much both ways (τ_b) or in step with its speed (b)",
     look_alikes: &[LookAlike {
         with: "asymmetric_friction",
         settled_by: "lift the robot and raise the wheel's voltage slowly until it turns, once each way: the two differ if friction is asymmetric",

@@ -28,6 +28,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::changes::Changes;
 use crate::effects::seams::{Bridge, EffectContext, StepOutcome};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -56,6 +57,7 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows { channels: &[Channel::Current], regime: Regime::CommandChange, parity: Parity::Odd, order: None },
     signature: "current wrong for a moment after every change of voltage, and right in between; speed and pose late with it",
     look_alikes: &[LookAlike {
         with: "winding_inductance",

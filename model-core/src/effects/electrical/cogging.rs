@@ -34,6 +34,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::ripple::mean_wave;
 use crate::effects::seams::{EffectContext, Winding};
+use crate::effects::shows::{Channel, Order, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks, Needs};
 use crate::number::scalar::Real;
 
@@ -76,7 +77,13 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "one wheel's speed ripples many times in a turn while it is slow; it stops in detents; current itself right",
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Creeping,
+        parity: Parity::Neither,
+        order: Some(Order::OfRotor(2)),
+    },
+    signature: "one wheel ripples many times in a turn, and stops in detents; a fast turn evens the ripple out",
     look_alikes: &[LookAlike {
         with: "roller_ripple",
         settled_by: "turn the wheel slowly by hand with the robot lifted: cogging is felt there too, rollers are not",

@@ -22,6 +22,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, SpeedDrive};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -44,6 +45,12 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows {
+        channels: &[Channel::WheelSpeed, Channel::YawRate],
+        regime: Regime::Creeping,
+        parity: Parity::Odd,
+        order: None,
+    },
     signature: "the wheel stands while a small speed is set, and is right at larger ones; the pose goes with the wheels",
     look_alikes: &[],
     code: 28,

@@ -31,6 +31,7 @@
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::ripple::mean_wave;
 use crate::effects::seams::{EffectContext, Winding};
+use crate::effects::shows::{Channel, Order, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks, Needs};
 use crate::number::scalar::Real;
 
@@ -73,7 +74,13 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "torque of one wheel too large and too small in turn, n times in a turn of its rotor; current itself right",
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Current,
+        parity: Parity::Neither,
+        order: Some(Order::OfRotor(2)),
+    },
+    signature: "torque of one wheel too large and too small in turn",
     look_alikes: &[],
     code: 32,
     undone: Undone::No("the controller does not follow the rotors' angles, and the ripple is faster than its turns"),

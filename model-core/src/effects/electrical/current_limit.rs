@@ -24,6 +24,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -46,6 +47,7 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows { channels: &[Channel::Current], regime: Regime::Current, parity: Parity::Odd, order: None },
     signature: "current cut off at the same height at starts and reversals, and right elsewhere; acceleration constant meanwhile",
     look_alikes: &[LookAlike {
         with: "wheel_slip",

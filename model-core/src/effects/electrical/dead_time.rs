@@ -22,6 +22,7 @@
 use crate::effects::bridges;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -47,7 +48,8 @@ pub const CARD: Card = Card {
         bridges::SMOOTHING_CURRENT,
     ],
     needs_current: false,
-    signature: "current short of (u − K_v·ω)/R by V_d/R, against its own sign, at all speeds; wheels do not start at small voltages",
+    shows: Shows { channels: &[Channel::Current], regime: Regime::Driven, parity: Parity::Odd, order: None },
+    signature: "current short of (u − K_v·ω)/R by V_d/R, against its own sign; wheels do not start at small voltages",
     look_alikes: &[
         LookAlike {
             with: "resistance",

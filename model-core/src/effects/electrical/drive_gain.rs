@@ -26,6 +26,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -59,6 +60,7 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
+    shows: Shows { channels: &[Channel::Current], regime: Regime::Voltage, parity: Parity::Odd, order: None },
     signature: "current wrong on one wheel alone, in step with its command (g) or by a constant (o); right where currents are imposed",
     look_alikes: &[LookAlike {
         with: "motor_mismatch",

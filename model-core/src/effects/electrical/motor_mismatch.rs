@@ -23,6 +23,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Winding};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -56,6 +57,7 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
+    shows: Shows { channels: &[Channel::Current], regime: Regime::Speed, parity: Parity::Odd, order: None },
     signature: "current and torque wrong on one wheel alone: in step with its speed (k) or with its current (ρ)",
     look_alikes: &[
         LookAlike {

@@ -25,6 +25,7 @@
 use crate::effects::bridges;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -50,6 +51,7 @@ pub const CARD: Card = Card {
         bridges::SMOOTHING_CURRENT,
     ],
     needs_current: false,
+    shows: Shows { channels: &[Channel::Current], regime: Regime::Braking, parity: Parity::Odd, order: None },
     signature: "current weaker than (u − K_v·ω)/R by V_b/R while it brakes, and right while it drives",
     look_alikes: &[LookAlike {
         with: "dead_time",

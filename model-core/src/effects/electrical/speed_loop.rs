@@ -32,6 +32,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::changes::Changes;
 use crate::effects::seams::{EffectContext, SpeedDrive, StepOutcome};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::decay::remaining;
 use crate::number::scalar::Real;
@@ -73,6 +74,12 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Acceleration,
+        parity: Parity::Odd,
+        order: None,
+    },
     signature: "wheel speed behind the speed that is set after every change, by a time (t_d) or along a curve (T), and short of it all along (k); the pose goes with the wheels",
     look_alikes: &[LookAlike {
         with: "encoder_lag",

@@ -24,6 +24,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Supply};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -57,6 +58,12 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
+    shows: Shows {
+        channels: &[Channel::BusVoltage, Channel::Current],
+        regime: Regime::Current,
+        parity: Parity::Even,
+        order: None,
+    },
     signature: "current short on all wheels at once, most while the other wheels pull; bus voltage falls with the total current",
     look_alikes: &[LookAlike {
         with: "resistance",

@@ -23,6 +23,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Winding};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -45,7 +46,13 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: true,
-    signature: "torque short at high current, in step with its square; current itself right, and right at small ones",
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Current,
+        parity: Parity::Odd,
+        order: None,
+    },
+    signature: "torque short in step with the square of the current, and right at small ones",
     look_alikes: &[LookAlike {
         with: "torque_constant",
         settled_by: "hold a wheel with a spring balance at a small and at a large current: a wrong constant is wrong by the same share at both, saturation only at the large one",

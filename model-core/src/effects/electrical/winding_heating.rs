@@ -34,6 +34,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, StepOutcome, Winding};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks, Needs, Numbers, State};
 use crate::number::decay;
 use crate::number::scalar::Real;
@@ -89,7 +90,8 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "current right at the start of a run and short later on, most at standstill; free speed rises a little",
+    shows: Shows { channels: &[Channel::Current], regime: Regime::Current, parity: Parity::Odd, order: None },
+    signature: "current right at the start of a run and short later on; free speed rises a little",
     look_alikes: &[LookAlike {
         with: "resistance",
         settled_by: "let the motors cool, and do the same run again: a resistance that is wrong shows from the start, heating only later on",

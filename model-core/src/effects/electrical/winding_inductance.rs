@@ -24,6 +24,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Winding};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -46,6 +47,7 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
+    shows: Shows { channels: &[Channel::Current], regime: Regime::CommandChange, parity: Parity::Odd, order: None },
     signature: "a current read sooner than some L/R after a change of voltage is still near its old value; speed late by L/R",
     look_alikes: &[
         LookAlike {

@@ -26,6 +26,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::poses::{Poses, onward};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -48,7 +49,13 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "pose behind by velocity times latency, in x, y and heading alike; current and wheel speed right",
+    shows: Shows {
+        channels: &[Channel::Heading, Channel::Position],
+        regime: Regime::Speed,
+        parity: Parity::Odd,
+        order: None,
+    },
+    signature: "pose behind by velocity times latency, in x, y and heading alike",
     look_alikes: &[LookAlike {
         with: "clock_drift",
         settled_by: "start the robot with a jerk at the beginning of a long run and again at its end: a latency is the same both times, with a clock that drifts the camera sees the second one later or earlier",

@@ -25,6 +25,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::Pose;
 use crate::number::scalar::Real;
@@ -62,7 +63,13 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "x and y change by more than the wheels say on one side of the floor and by less on the other; wheel speed right",
+    shows: Shows {
+        channels: &[Channel::Position, Channel::Heading],
+        regime: Regime::Distance,
+        parity: Parity::Even,
+        order: None,
+    },
+    signature: "x and y change by more than the wheels say on one side of the floor and by less on the other",
     look_alikes: &[LookAlike {
         with: "camera_scale",
         settled_by: "move the robot along a tape measure on both sides of the floor: a wrong scale reads both too long by the same share",

@@ -23,6 +23,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -46,7 +47,8 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "the robot seems to drive aslant by a constant angle, whatever its speed; lengths, turns and wheel speed right",
+    shows: Shows { channels: &[Channel::Position], regime: Regime::Distance, parity: Parity::Odd, order: None },
+    signature: "the robot seems to drive aslant by a constant angle; lengths and turns are right",
     look_alikes: &[],
     code: 22,
     undone: Undone::No("the control loop on the robot does not see the camera"),

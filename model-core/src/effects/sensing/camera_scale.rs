@@ -22,6 +22,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::Pose;
 use crate::number::scalar::Real;
@@ -45,7 +46,8 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "x and y change by one share more than the wheels say, in all directions alike; heading and wheel speed right",
+    shows: Shows { channels: &[Channel::Position], regime: Regime::Distance, parity: Parity::Odd, order: None },
+    signature: "x and y change by one share more than the wheels say, in all directions alike",
     look_alikes: &[
         LookAlike {
             with: "wheel_radius",

@@ -34,6 +34,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::poses::{Poses, onward};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -56,7 +57,13 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "pose behind by velocity times a time that grows over the run, or ahead; current and wheel speed right",
+    shows: Shows {
+        channels: &[Channel::Heading, Channel::Position],
+        regime: Regime::Speed,
+        parity: Parity::Odd,
+        order: None,
+    },
+    signature: "pose behind by velocity times a time that grows over the run, or ahead",
     look_alikes: &[LookAlike {
         with: "camera_latency",
         settled_by: "start the robot with a jerk at the beginning of a long run and again at its end: a latency is the same both times, with a clock that drifts the camera sees the second one later or earlier",

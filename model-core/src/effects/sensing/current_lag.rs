@@ -34,6 +34,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks, Needs, Numbers, State};
 use crate::number::decay;
 use crate::number::scalar::Real;
@@ -60,7 +61,8 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "current behind after every change of voltage, and right where it stays; speed and pose right",
+    shows: Shows { channels: &[Channel::Current], regime: Regime::CommandChange, parity: Parity::Odd, order: None },
+    signature: "current behind after every change of voltage, and right where it stays",
     look_alikes: &[LookAlike {
         with: "winding_inductance",
         settled_by: "lock a wheel, step its voltage and hold what the robot reads of its current against an oscilloscope at the same lead: an inductance bends both, a smoothing sensor only what is read",

@@ -20,6 +20,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -42,7 +43,8 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "current wrong by one share at every speed and load; speed and pose right",
+    shows: Shows { channels: &[Channel::Current], regime: Regime::Current, parity: Parity::Odd, order: None },
+    signature: "current wrong by one share at every speed and load",
     look_alikes: &[
         LookAlike {
             with: "resistance",

@@ -17,6 +17,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -39,7 +40,8 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "a constant in the current, at rest too; speed and pose right",
+    shows: Shows { channels: &[Channel::Current], regime: Regime::Always, parity: Parity::Even, order: None },
+    signature: "a constant in the current",
     look_alikes: &[],
     code: 13,
     undone: Undone::By("the current wanted is asked for as its sensor will show it"),

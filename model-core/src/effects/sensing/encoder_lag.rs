@@ -31,6 +31,7 @@
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense, StepOutcome};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks, Numbers, State};
 use crate::number::decay;
 use crate::number::scalar::Real;
@@ -54,7 +55,8 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "wheel speed behind by T times its acceleration, and right at constant speed; current and pose right",
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Acceleration, parity: Parity::Odd, order: None },
+    signature: "wheel speed behind by T times its acceleration, and right at constant speed",
     look_alikes: &[LookAlike {
         with: "speed_loop",
         settled_by: "film the wheel, or log a pose: a drive that answers late moves the robot late, an encoder that reads late does not",

@@ -18,6 +18,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -40,7 +41,8 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "speed of one wheel wrong in step with itself; its current, the other wheels and the pose right",
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Speed, parity: Parity::Odd, order: None },
+    signature: "speed of one wheel wrong in step with itself; the other wheels right",
     look_alikes: &[],
     code: 24,
     undone: Undone::No(

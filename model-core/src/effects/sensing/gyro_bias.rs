@@ -18,6 +18,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -40,7 +41,8 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "a constant in the yaw rate, at rest too; wheel speeds, currents and pose right",
+    shows: Shows { channels: &[Channel::YawRate], regime: Regime::Always, parity: Parity::Even, order: None },
+    signature: "a constant in the yaw rate",
     look_alikes: &[],
     code: 26,
     undone: Undone::No("the control loop on the robot does not see the gyro"),

@@ -26,6 +26,7 @@
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::Pose;
 use crate::number::scalar::Real;
@@ -60,7 +61,8 @@ pub const CARD: Card = Card {
         },
     ],
     needs_current: false,
-    signature: "x and y go round a circle while the robot spins, and are right on straight ways; heading and wheel speed right",
+    shows: Shows { channels: &[Channel::Position], regime: Regime::Turned, parity: Parity::Neither, order: None },
+    signature: "x and y go round a circle while the robot spins, and are right on straight ways",
     look_alikes: &[],
     code: 23,
     undone: Undone::No("the control loop on the robot does not see the camera"),
