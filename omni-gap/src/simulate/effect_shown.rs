@@ -75,13 +75,13 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// A part of the drive.
-struct Part {
+pub(super) struct Part {
     /// What the robot does in it.
-    name: &'static str,
+    pub name: &'static str,
     /// How much is asked of v, vn and ω, each within ±1.
-    to: [f64; 3],
+    pub to: [f64; 3],
     /// How long it takes to get from the part before to that, and how long that is held [s]
-    ramp_and_hold: (f64, f64),
+    pub ramp_and_hold: (f64, f64),
 }
 
 /// What is driven.
@@ -103,7 +103,7 @@ const STEPS_A_ROW: usize = 4;
 /// More frames a second than there are rows, so that every row gets one [1/s]
 const EVERY_ROW: f64 = 1e8;
 /// The wheel of an effect that sits on one wheel alone.
-const ONE_WHEEL: usize = 0;
+pub(super) const ONE_WHEEL: usize = 0;
 
 /// Drives the robot of a file without an effect and with it at its typical size. Effects of drives that control wheel
 /// speed are driven by speeds that are set, and say nothing of currents; all others by voltages. What shows beside another
@@ -115,7 +115,8 @@ pub fn effect_shown(file: &RobotFile, card: &'static Card) -> EffectShown {
     }
 }
 
-fn shown<const N: usize>(file: &RobotFile, card: &'static Card) -> EffectShown {
+/// The robot of a file without an effect and with it, on the wheel that one such effect sits on.
+pub(super) fn pair<const N: usize>(file: &RobotFile, card: &'static Card) -> [Model<N>; 2] {
     let voltage = usual_voltage(file);
     let typical =
         |card: &'static Card| EffectInstance::typical(card, (card.scope == Scope::OneWheel).then_some(ONE_WHEEL));
@@ -128,9 +129,16 @@ fn shown<const N: usize>(file: &RobotFile, card: &'static Card) -> EffectShown {
         without.add_effect(typical(beside.card()));
     }
     let mut with = without.clone();
-    with.add_effect(effect.clone());
+    with.add_effect(effect);
+    [without, with]
+}
 
-    let volts = played(|axes| voltages(&without.robot().wheels, axes, voltage));
+fn shown<const N: usize>(file: &RobotFile, card: &'static Card) -> EffectShown {
+    let voltage = usual_voltage(file);
+    let [without, with] = pair::<N>(file, card);
+    let effect = EffectInstance::typical(card, (card.scope == Scope::OneWheel).then_some(ONE_WHEEL));
+
+    let volts = played(&DRIVE, |axes| voltages(&without.robot().wheels, axes, voltage));
     let command = |u: [f64; N]| match card.of_speed_drive() {
         true => Input::SetSpeed(u.map(|u| u / file.volts_per_wheel_speed())),
         false => Input::Voltage(u),
@@ -158,10 +166,10 @@ fn shown<const N: usize>(file: &RobotFile, card: &'static Card) -> EffectShown {
 }
 
 /// The drive row by row, of what `of` makes of its three axes.
-fn played<T>(of: impl Fn([f64; 3]) -> T) -> Vec<T> {
+pub(super) fn played<T>(drive: &[Part], of: impl Fn([f64; 3]) -> T) -> Vec<T> {
     let mut from = [0.0; 3];
     let mut script = Vec::new();
-    for Part { to, ramp_and_hold: (ramp, hold), .. } in &DRIVE {
+    for Part { to, ramp_and_hold: (ramp, hold), .. } in drive {
         let ramp = in_rows(*ramp);
         for k in 1..=ramp + in_rows(*hold) {
             let share = if k < ramp { k as f64 / ramp as f64 } else { 1.0 };
@@ -203,7 +211,7 @@ fn values(channel: &Channel) -> Vec<f64> {
     channel.iter().map(|x| x.unwrap_or(f64::NAN)).collect()
 }
 
-fn noise_of(sensors: &SensorsFile, channels: Channels, channel: usize) -> f64 {
+pub(super) fn noise_of(sensors: &SensorsFile, channels: Channels, channel: usize) -> f64 {
     match channels.group(channel) {
         SignalGroup::Current => sensors.current_noise_a,
         SignalGroup::WheelSpeed => sensors.wheel_speed_noise_rad_s,

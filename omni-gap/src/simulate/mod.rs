@@ -4,7 +4,8 @@
 //! [`AlignedRun`] run is a recording laid out row by row for the plant; [`predict`] lets the one run freely beside the
 //! other, restarted every horizon from a [`Start`] that no model had a part in; [`record`] makes a recording of a robot
 //! that is not there, and [`excite`] or [`rich_allowed`] tells it what to do. [`sensitivity()`] says which numbers of a file
-//! the motion depends on, [`effect_shown()`] what an effect of the catalogue does to a drive.
+//! the motion depends on, [`effect_shown()`] what an effect of the catalogue does to a drive,
+//! [`where_shown()`] where that shows.
 
 mod aligned_run;
 mod channels;
@@ -22,8 +23,11 @@ mod model;
 mod open_circuit;
 mod predict;
 mod record;
+mod regimes;
+mod restarted;
 mod rich;
 mod rich_limits;
+mod ripple_order;
 mod row_passed;
 mod script;
 mod sensing;
@@ -32,6 +36,7 @@ mod start;
 mod step_lengths;
 mod terms;
 mod tried_path;
+mod where_shown;
 mod white_noise;
 
 pub use crate::log::Chain;
@@ -57,3 +62,4 @@ pub use sensing::Sensing;
 pub use sensitivity::{AxisSensitivity, CurvePoint, Influence, PAPER_VOLTAGE, Sensitivity, StepPlan, sensitivity};
 pub use start::{Start, start_at};
 pub use terms::{Terms, terms};
+pub use where_shown::{WhereShown, where_shown};
