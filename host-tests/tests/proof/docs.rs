@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Role, Scope, Undone};
+use omni_gap::report::shown_in;
 
 use crate::{golden, shown};
 
@@ -41,6 +42,7 @@ fn section(card: &Card) -> String {
     let _ = writeln!(page, "{}\n", shown::picture_of(card.id));
     let _ = writeln!(page, "- stage: {} (seam: {})", card.stage().name(), seams.join(", "));
     let _ = writeln!(page, "- sits on: {}", scope_of(card));
+    let _ = writeln!(page, "- shows in: {}", shown_in(card));
     let _ = writeln!(page, "- shows as: {}", card.signature);
     let _ = match card.undone {
         Undone::By(how) | Undone::Folded(how) => writeln!(page, "- the robot undoes it: {how}"),

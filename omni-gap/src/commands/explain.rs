@@ -8,7 +8,7 @@ use model_core::effects::card::{Card, Role, Scope};
 use model_core::effects::nominal::{NOMINAL, NominalCard};
 use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, nearest, write_whole};
-use omni_gap::report::{effect_picture, num};
+use omni_gap::report::{effect_picture, num, shown_in};
 use omni_gap::simulate::{NOMINAL_KEYS, effect_shown};
 
 use super::cli_error::CliError;
@@ -113,6 +113,8 @@ fn effect(card: &Card) -> String {
             }
         };
     }
+    page += "\nWhere it shows\n";
+    page += &wrapped(2, &shown_in(card));
     page += "\nHow it shows\n";
     page += &wrapped(2, card.signature);
     page += "\nWhat it can be mistaken for\n";

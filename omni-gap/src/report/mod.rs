@@ -3,7 +3,7 @@
 //! A [`Report`] is the diagnosis as data: `report.json` is that struct and nothing else. [`terminal()`] says it in about
 //! ten lines, [`html()`] draws it on one page that needs no network, and [`write()`] puts the files into a folder so that
 //! none is ever half-written. [`sensitivity_html()`] is a page of its own; [`validation`] does the same for a model laid
-//! over its recordings; [`effect_picture()`] shows what an effect of the catalogue does. Neither prose nor page computes
+//! over its recordings; [`effect_picture()`] shows what an effect of the catalogue does, and [`shown_in()`] says where. Neither prose nor page computes
 //! anything: every sentence traces to a number in the report.
 
 mod decimate;
@@ -23,6 +23,7 @@ mod sample;
 mod scale;
 mod selftest;
 mod sensitivity;
+mod shown_in;
 mod terminal;
 mod validate;
 pub mod validation;
@@ -38,6 +39,7 @@ pub use picture::{MEASURED, Panel, Pictures, Series};
 pub use rich_instructions::{RichInstructions, rich_instructions};
 pub use selftest::{selftest_html, selftest_json, selftest_terminal, write_selftest};
 pub use sensitivity::{sensitivity_html, sensitivity_terminal, write_sensitivity};
+pub use shown_in::shown_in;
 pub use terminal::terminal;
 pub use write::{Written, write};
 
