@@ -30,6 +30,7 @@
 //! Transactions on Automatic Control 54 (5), 2009; sizes: estimated, 1 to 5 % over a busy radio channel.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
+use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::telegram::{Command, Delivery};
 use crate::effects::{Catalogued, Hooks, Numbers, State};
 use crate::number::scalar::Real;
@@ -53,7 +54,8 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    signature: "now and then the current answers to a change of command one row late, or two; pose and speeds go on from there",
+    shows: Shows { channels: &[Channel::Current], regime: Regime::CommandChange, parity: Parity::Odd, order: None },
+    signature: "at some changes of command and not at others, and for one telegram or two",
     look_alikes: &[],
     code: 53,
     undone: Undone::No(
