@@ -51,5 +51,5 @@ pub use experiment::{
 pub use identify::{FitRemark, FittedEffectNumber, FittedNumber, Identification, identify};
 pub use predict::predict;
 pub use record::{Recorded, Recording, record};
-pub use selftest::{Driven, PlannedRuns, confusion, selftest};
+pub use selftest::{Driven, PlannedRuns, confusion, selftest, verify};
 pub use simulate::simulate;

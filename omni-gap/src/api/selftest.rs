@@ -7,7 +7,8 @@ use crate::engine::knobs::SelftestKnobs;
 use crate::engine::selftest::{self as engine, Sensors};
 use crate::error::Result;
 use crate::log::{RobotFile, Run};
-use crate::simulate::{AlignedRun, Excitation, Model, SensorSetup, SignalGroup, drivable, excite, record, supply_seen};
+use crate::simulate::{AlignedRun, Excitation, Model, RunPlan, SensorSetup, SignalGroup, drivable, excite, supply_seen};
+use crate::vocabulary::Progress;
 
 /// Recordings that somebody means to make.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,6 +94,26 @@ pub fn confusion(robot: &RobotFile, plan: &PlannedRuns, knobs: &SelftestKnobs) -
     Ok(engine::confusion(robot, &planned(robot, plan, plan.camera_rate)?, &plan.logged, knobs))
 }
 
+/// Finds for every cause of an answer of [`selftest`](fn@selftest) from what size on simulated recordings show it: robots
+/// that have the cause are recorded as planned and judged by the engine itself. This takes minutes.
+///
+/// # Errors
+/// Where nothing in a script can drive the model.
+pub fn verify(
+    robot: &RobotFile,
+    plan: &PlannedRuns,
+    said: &mut SelfTest,
+    knobs: &SelftestKnobs,
+    progress: Progress<'_>,
+) -> Result<()> {
+    let rate = plan.camera_rate;
+    match robot.wheel.len() {
+        3 => engine::verify(robot, &run_plans::<3>(robot, plan, rate)?, &plan.logged, said, (knobs, progress)),
+        _ => engine::verify(robot, &run_plans::<4>(robot, plan, rate)?, &plan.logged, said, (knobs, progress)),
+    }
+    Ok(())
+}
+
 fn planned(robot: &RobotFile, plan: &PlannedRuns, camera_rate: f64) -> Result<Vec<Run>> {
     match robot.wheel.len() {
         3 => recorded::<3>(robot, plan, camera_rate),
@@ -100,7 +121,19 @@ fn planned(robot: &RobotFile, plan: &PlannedRuns, camera_rate: f64) -> Result<Ve
     }
 }
 
+/// By a robot that is just what the file says.
 fn recorded<const N: usize>(robot: &RobotFile, plan: &PlannedRuns, camera_rate: f64) -> Result<Vec<Run>> {
+    let (model, plans) = run_plans::<N>(robot, plan, camera_rate)?;
+    let plant = model.plant();
+    Ok(plans.iter().map(|plan| plan.recorded_of(&plant)).collect())
+}
+
+/// What is planned, run by run, and the model of the file.
+fn run_plans<const N: usize>(
+    robot: &RobotFile,
+    plan: &PlannedRuns,
+    camera_rate: f64,
+) -> Result<(Model<N>, Vec<RunPlan<N>>)> {
     let how = SensorSetup {
         camera_rate,
         dropouts: 0.0,
@@ -111,28 +144,30 @@ fn recorded<const N: usize>(robot: &RobotFile, plan: &PlannedRuns, camera_rate: 
     };
     match &plan.driven {
         Driven::Random { runs, duration, rate, voltage } => {
-            let plant = Model::<N>::nominal(robot, *voltage).plant();
+            let model = Model::<N>::nominal(robot, *voltage);
             let wish = Excitation { duration: *duration, rate: *rate, voltage: *voltage };
             let one = |k: usize| {
                 let seed = SEED + k as u64;
                 let input: Vec<Input<N, f64>> =
-                    excite(&plant.robot().wheels, &wish, seed).into_iter().map(Input::Voltage).collect();
-                let t: Vec<f64> = (0..input.len()).map(|row| row as f64 / rate).collect();
-                record(&plant, &format!("run{k:02}"), &t, &input, &how, seed)
+                    excite(&model.robot().wheels, &wish, seed).into_iter().map(Input::Voltage).collect();
+                let t = (0..input.len()).map(|row| row as f64 / rate).collect();
+                RunPlan { name: format!("run{k:02}"), t, input, how, seed }
             };
-            Ok((0..*runs).map(one).collect())
+            let plans = (0..*runs).map(one).collect();
+            Ok((model, plans))
         }
         Driven::Scripts(scripts) => {
             let aligned = scripts.iter().map(|script| drivable::<N>(script, robot)).collect::<Result<Vec<_>>>()?;
-            let plant = Model::<N>::nominal(robot, supply_seen(&aligned)).plant();
+            let model = Model::<N>::nominal(robot, supply_seen(&aligned));
             let one = |(k, run): (usize, &AlignedRun<N>)| {
                 let rows = run.rows();
                 let mean: usize = (0..rows).map(|row| run.steps(row)).sum::<usize>().div_ceil(rows);
                 let how = SensorSetup { steps_a_row: mean * how.steps_a_row, ..how };
-                let input: Vec<Input<N, f64>> = (0..rows).map(|row| run.input(row)).collect();
-                record(&plant, &run.name, &run.t, &input, &how, SEED + k as u64)
+                let input = (0..rows).map(|row| run.input(row)).collect();
+                RunPlan { name: run.name.clone(), t: run.t.clone(), input, how, seed: SEED + k as u64 }
             };
-            Ok(aligned.iter().enumerate().map(one).collect())
+            let plans = aligned.iter().enumerate().map(one).collect();
+            Ok((model, plans))
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use omni_gap::api::{Driven, PlannedRuns, RobotFile, SelftestKnobs, known_effects, selftest};
+use omni_gap::api::{Driven, PlannedRuns, RobotFile, SelftestKnobs, known_effects, selftest, verify};
 use omni_gap::report::{selftest_json, selftest_terminal, write_selftest};
 use omni_gap::simulate::{SignalGroup, usual_voltage};
 
@@ -51,6 +51,10 @@ pub struct Selftest {
     #[arg(long, value_name = "V", value_parser = volts)]
     voltage: Option<f64>,
 
+    /// Look for every cause in simulated recordings too, as a diagnosis does: one more column; takes minutes
+    #[arg(long)]
+    verify: bool,
+
     /// Folder for selftest.json and selftest.html; made if need be
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -79,7 +83,11 @@ impl Selftest {
         }
         let (file, plan) = self.planned(console)?;
         console.phase("looking for every cause");
-        let said = selftest(&file, &plan, &SelftestKnobs::default())?;
+        let knobs = SelftestKnobs::default();
+        let mut said = selftest(&file, &plan, &knobs)?;
+        if self.verify {
+            verify(&file, &plan, &mut said, &knobs, &|phrase| console.phase(phrase))?;
+        }
         let mut text = if self.json { selftest_json(&said) } else { selftest_terminal(&said) };
         if let Some(out) = &self.out {
             let folder = NewFolder::make(out)?;

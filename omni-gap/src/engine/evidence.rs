@@ -92,6 +92,18 @@ impl<const N: usize> Runs<N> {
         }
         Ok(Self { fit, held })
     }
+
+    /// Runs of which none was said to be held out; where there are too few of them, each in parts.
+    pub(super) fn with_some_held_out(mut runs: Vec<AlignedRun<N>>, knobs: &LayoutKnobs) -> Self {
+        if runs.len() < knobs.hold_out_every {
+            runs = runs.iter().flat_map(|run| run.cut(knobs.parts_of_a_lone_run)).collect();
+        }
+        let (mut fit, mut held) = (Vec::new(), Vec::new());
+        for (k, run) in runs.into_iter().enumerate() {
+            if k % knobs.hold_out_every == knobs.hold_out_every - 1 { held.push(run) } else { fit.push(run) }
+        }
+        Self { fit, held }
+    }
 }
 
 fn laid_out<const N: usize>(session: &Session, knobs: &LayoutKnobs, notices: &mut Vec<String>) -> Runs<N> {
@@ -107,7 +119,7 @@ fn laid_out<const N: usize>(session: &Session, knobs: &LayoutKnobs, notices: &mu
             })
             .collect()
     };
-    let mut fit = of(&session.runs);
+    let fit = of(&session.runs);
     let held = of(&session.heldout);
     if !held.is_empty() {
         return Runs { fit, held };
@@ -117,13 +129,8 @@ fn laid_out<const N: usize>(session: &Session, knobs: &LayoutKnobs, notices: &mu
             "{} run(s) only: each was cut into {parts} parts to have some held out; hidden states start cold in each",
             fit.len()
         ));
-        fit = fit.iter().flat_map(|run| run.cut(parts)).collect();
     }
-    let (mut kept, mut out) = (Vec::new(), Vec::new());
-    for (k, run) in fit.into_iter().enumerate() {
-        if k % hold_out_every == hold_out_every - 1 { out.push(run) } else { kept.push(run) }
-    }
-    Runs { fit: kept, held: out }
+    Runs::with_some_held_out(fit, knobs)
 }
 
 fn driven(chain: Chain) -> &'static str {

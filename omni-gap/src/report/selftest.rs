@@ -11,19 +11,26 @@ use super::write::put;
 use crate::engine::findings::{SelfTest, WithSensor};
 use crate::error::Result;
 use crate::vocabulary::Kind;
-use phrases::{HEADS, hidden, is_hidden, line};
+use phrases::{heads, hidden, is_hidden, line};
 
-fn table(out: &mut String, lines: &[[String; 6]]) {
-    let heads = HEADS.map(str::to_owned);
-    let wide = |k: usize| lines.iter().chain([&heads]).map(|line| line[k].chars().count()).max().unwrap_or(0);
-    let widths: [usize; 6] = std::array::from_fn(wide);
-    for line in [&heads].into_iter().chain(lines) {
-        let [first, .., last] = line;
-        let middle: String =
-            (1..5).map(|k| format!("  {}{}", " ".repeat(widths[k] - line[k].chars().count()), line[k])).collect();
-        let space = " ".repeat(widths[0] - first.chars().count());
-        let _ = writeln!(out, "{}", format!("  {first}{space}{middle}  {last}").trim_end());
+/// Lines under their heads, the first and the last column to the left, the others to the right.
+fn table(out: &mut String, heads: &[&str], lines: &[Vec<String>]) {
+    let heads: Vec<String> = heads.iter().map(|head| (*head).to_owned()).collect();
+    let all = || [&heads].into_iter().chain(lines);
+    let wide = |k: usize| all().map(|line| line[k].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..heads.len()).map(wide).collect();
+    for line in all() {
+        let [first, middle @ .., last] = line.as_slice() else { continue };
+        let space = |text: &str, width: usize| " ".repeat(width - text.chars().count());
+        let right = |(text, width): (&String, &usize)| format!("  {}{text}", space(text, *width));
+        let middle: String = middle.iter().zip(&widths[1..]).map(right).collect();
+        let _ = writeln!(out, "{}", format!("  {first}{}{middle}  {last}", space(first, widths[0])).trim_end());
     }
+}
+
+/// True if simulated recordings were asked too.
+fn is_verified(said: &SelfTest) -> bool {
+    said.causes.iter().any(|cause| cause.verified.is_some())
 }
 
 fn with_sensor(with: &WithSensor) -> String {
@@ -45,6 +52,7 @@ fn hidden_causes(said: &SelfTest) -> impl Iterator<Item = String> {
 
 /// The answer in plain text.
 pub fn selftest_terminal(said: &SelfTest) -> String {
+    let verified = is_verified(said);
     let mut out = format!(
         "{}: what such recordings could show ({} numbers of {})\n\n",
         said.robot,
@@ -52,10 +60,11 @@ pub fn selftest_terminal(said: &SelfTest) -> String {
         said.logged.join(", ")
     );
     for (kind, title) in [(Kind::Effect, "Effects"), (Kind::Parameter, "Numbers of the robot file that are wrong by")] {
-        let lines: Vec<_> = said.causes.iter().filter(|cause| cause.kind == kind).map(line).collect();
+        let lines: Vec<_> =
+            said.causes.iter().filter(|cause| cause.kind == kind).map(|cause| line(cause, verified)).collect();
         if !lines.is_empty() {
             let _ = writeln!(out, "{title}");
-            table(&mut out, &lines);
+            table(&mut out, &heads(verified), &lines);
             out.push('\n');
         }
     }
@@ -76,7 +85,7 @@ pub fn selftest_terminal(said: &SelfTest) -> String {
 
 /// The answer on a page.
 pub fn selftest_html(said: &SelfTest) -> String {
-    let title = format!("What recordings of {} could show", said.robot);
+    let (title, verified) = (format!("What recordings of {} could show", said.robot), is_verified(said));
     page(&title, |m| {
         m.leaf("h1", &[], &title);
         let logged = format!("{} numbers of {}.", said.numbers, said.logged.join(", "));
@@ -88,9 +97,9 @@ pub fn selftest_html(said: &SelfTest) -> String {
             imitate, and the angle to the causes that it could be taken for.";
         section(m, "Sizes", explained, |m| {
             m.within("table", &[], |m| {
-                m.within("tr", &[], |m| HEADS.iter().for_each(|head| m.leaf("th", &[], head)));
+                m.within("tr", &[], |m| heads(verified).iter().for_each(|head| m.leaf("th", &[], head)));
                 for cause in &said.causes {
-                    m.within("tr", &[], |m| line(cause).iter().for_each(|cell| m.leaf("td", &[], cell)));
+                    m.within("tr", &[], |m| line(cause, verified).iter().for_each(|cell| m.leaf("td", &[], cell)));
                 }
             });
         });

@@ -54,6 +54,9 @@ pub struct SeenCause {
     pub named_from: Option<f64>,
     /// The same as a multiple of the typical departure [1].
     pub named_times: Option<f64>,
+    /// What simulated recordings say of the same; none where they were not asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verified: Option<VerifiedSize>,
     /// Causes that it is not told from at its typical size, the nearest first.
     pub rivals: Vec<Rival>,
 }
@@ -63,6 +66,15 @@ impl SeenCause {
     pub fn is_seen(&self) -> bool {
         self.seen_times.is_some_and(|times| if self.shows_below { times >= 1.0 } else { times <= 1.0 })
     }
+}
+
+/// The size from which on simulated recordings of a robot that has a cause show it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct VerifiedSize {
+    /// The size, in the unit of the cause's own number; none where the number has no such value.
+    pub from: Option<f64>,
+    /// The same as a multiple of the typical departure [1]; none where no size within bounds is seen.
+    pub times: Option<f64>,
 }
 
 /// A number of the robot file that helps to imitate a cause.

@@ -102,7 +102,7 @@ fn aligned<const N: usize>(file: &RobotFile, runs: &[Run]) -> Vec<AlignedRun<N>>
 }
 
 /// The channels of groups of signals, as a bit mask.
-fn mask<const N: usize>(groups: &[SignalGroup]) -> u16 {
+pub(super) fn mask<const N: usize>(groups: &[SignalGroup]) -> u16 {
     groups.iter().flat_map(|g| AlignedRun::<N>::channels().of(*g)).fold(0_u16, |mask, c| mask | 1 << c)
 }
 

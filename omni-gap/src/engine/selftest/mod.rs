@@ -21,7 +21,9 @@ mod sizes;
 mod sizing;
 mod standing;
 mod suspects;
+mod verify;
 mod view;
 
 pub use judge::{confusion, selftest};
 pub use sensors::Sensors;
+pub use verify::verify;

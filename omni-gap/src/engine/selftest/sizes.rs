@@ -10,9 +10,6 @@ use crate::simulate::EffectInstance;
 
 /// The multiple of an effect's typical departure from which on its |s⊥|² is `needed` [σ²]; none where it is not within its
 /// bounds. `typical` is |s⊥|² at the typical size, in the view.
-///
-/// Between two tries |s⊥| is taken for a power of the size: of most effects the first, of a coefficient of friction, which
-/// shows the more the smaller it is, a negative one. An effect that is seen at its bound is seen from there on.
 pub(super) fn size_needed<const N: usize>(
     laid: &Laid<'_, N>,
     effect: &EffectInstance,
@@ -20,43 +17,73 @@ pub(super) fn size_needed<const N: usize>(
     (typical, needed): (f64, f64),
     knobs: &SelftestKnobs,
 ) -> Option<f64> {
-    let bounds = bounds(effect, knobs.least_times);
     let size_at = |times: f64| {
         let scaled = Column::Effect(scaled(effect, times));
-        laid.left(&[scaled], std::slice::from_ref(view))[0].size_of(0).max(knobs.least_size)
+        laid.left(&[scaled], std::slice::from_ref(view))[0].size_of(0)
     };
-    // how far |s⊥| is above what is needed, over the size; both in logarithms
-    let above = |size: f64| 0.5 * (size / needed).ln();
-    let mut here = (0.0_f64, above(typical.max(knobs.least_size)));
+    let above = |size: f64| 0.5 * (size.max(knobs.least_size) / needed).ln();
+    let first = Tried { log_times: 0.0, above: above(typical) };
+    let found = searched(first, bounds(effect, knobs.least_times), |times| above(size_at(times)), knobs)?;
+    Some(found.tried.log_times.exp())
+}
+
+/// A size that was tried.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tried {
+    /// The logarithm of its multiple of the typical departure.
+    pub log_times: f64,
+    /// The logarithm of how far what it does is above what is needed.
+    pub above: f64,
+}
+
+/// The size that a search came to, and the power of the size that what it does was found to be there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reached {
+    pub tried: Tried,
+    pub power: f64,
+}
+
+/// Searches the size that does what is needed, between two logarithms of its multiple; none where there is none.
+///
+/// Between two tries what it does is taken for a power of the size: of most effects the first, of a coefficient of friction,
+/// which shows the more the smaller it is, a negative one. An effect that is seen at its bound is seen from there on.
+pub(super) fn searched(
+    first: Tried,
+    bounds: (f64, f64),
+    above: impl Fn(f64) -> f64,
+    knobs: &SelftestKnobs,
+) -> Option<Reached> {
+    let mut here = first;
     // the nearest tries on both sides
-    let (mut seen, mut unseen) = (None, None);
+    let (mut seen, mut unseen): (Option<Tried>, Option<Tried>) = (None, None);
     let mut power = 1.0;
     for try_ in 0..knobs.tries {
-        *(if here.1 >= 0.0 { &mut seen } else { &mut unseen }) = Some(here.0);
-        if here.1.abs() <= knobs.near.ln() {
-            return Some(here.0.exp());
+        *(if here.above >= 0.0 { &mut seen } else { &mut unseen }) = Some(here);
+        if here.above.abs() <= knobs.near.ln() {
+            return Some(Reached { tried: here, power });
         }
         let most = if try_ == 0 { knobs.first_try } else { knobs.most_a_try };
-        let step = (-here.1 / power).clamp(-most.ln(), most.ln());
-        let next = match (seen, unseen) {
+        let step = (-here.above / power).clamp(-most.ln(), most.ln());
+        let between = seen.zip(unseen).map(|(a, b)| (a.log_times, b.log_times));
+        let next = match between {
             // between the two, if the power leads out of them
-            (Some(a), Some(b)) if !(a.min(b)..a.max(b)).contains(&(here.0 + step)) => 0.5 * (a + b),
-            _ => (here.0 + step).clamp(bounds.0, bounds.1),
+            Some((a, b)) if !(a.min(b)..a.max(b)).contains(&(here.log_times + step)) => 0.5 * (a + b),
+            _ => (here.log_times + step).clamp(bounds.0, bounds.1),
         };
-        if next == here.0 {
+        if next == here.log_times {
             // at the bound
-            return (here.1 >= 0.0).then_some(here.0.exp());
+            return (here.above >= 0.0).then_some(Reached { tried: here, power });
         }
-        let there = (next, above(size_at(next.exp())));
-        let found = (there.1 - here.1) / (there.0 - here.0);
+        let there = Tried { log_times: next, above: above(next.exp()) };
+        let found = (there.above - here.above) / (there.log_times - here.log_times);
         power = if found.abs() > knobs.least_power { found } else { power };
         here = there;
     }
-    seen.map(f64::exp)
+    seen.map(|tried| Reached { tried, power })
 }
 
 /// The logarithms of the multiples, `least_times` or more, between which all sizes are within their bounds.
-fn bounds(effect: &EffectInstance, least_times: f64) -> (f64, f64) {
+pub(super) fn bounds(effect: &EffectInstance, least_times: f64) -> (f64, f64) {
     let mut bounds = (least_times.ln(), f64::MAX.ln());
     for (p, x) in effect.card().params.iter().zip(&effect.params).filter(|(p, _)| p.role == Role::Size) {
         let times = [p.within.0, p.within.1].map(|bound| ((bound - p.absent) / (x - p.absent)).max(0.0));
@@ -67,7 +94,7 @@ fn bounds(effect: &EffectInstance, least_times: f64) -> (f64, f64) {
 }
 
 /// The effect with its sizes at a multiple of their departure from absent.
-fn scaled(effect: &EffectInstance, times: f64) -> EffectInstance {
+pub(super) fn scaled(effect: &EffectInstance, times: f64) -> EffectInstance {
     let mut scaled = effect.clone();
     for (p, x) in effect.card().params.iter().zip(&mut scaled.params).filter(|(p, _)| p.role == Role::Size) {
         *x = (p.absent + times * (*x - p.absent)).clamp(p.within.0, p.within.1);

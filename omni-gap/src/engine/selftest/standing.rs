@@ -104,6 +104,7 @@ impl Standing {
             seen_times,
             named_from: named_times.and_then(|times| sizing.at(times)),
             named_times,
+            verified: None,
             rivals: rivals.cloned().collect(),
         }
     }

@@ -26,12 +26,11 @@ use super::evidence::{Evidence, LaidOut, Runs};
 use super::findings::{EngineRecord, FileChanges, Findings};
 use super::knobs::Knobs;
 use super::seam::Engine;
-use crate::identify::Windows;
 use crate::simulate::{Model, supply_seen};
 use crate::vocabulary::{Progress, Verdict};
 pub(super) use candidate::{Cause, freed_priors, has_a_say};
 use distances::Plants;
-use scored::Data;
+pub(super) use scored::{Data, Scored};
 use search::{Outcome, Search};
 
 /// Forward stepwise selection of causes, scored on held-out runs.
@@ -58,18 +57,9 @@ impl Engine for Stepwise {
 }
 
 fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, progress: Progress<'_>) -> Findings {
-    let Runs { fit, held } = runs;
     let robot = &evidence.robot;
-    let nominal = Model::<N>::nominal(robot, supply_seen(fit.iter().chain(held)));
-    let window_s = knobs.layout.window_s;
-    let data = Data {
-        fit_windows: fit.iter().map(|r| Windows::new(r, window_s)).collect(),
-        held_windows: held.iter().map(|r| Windows::new(r, window_s)).collect(),
-        fit: fit.iter().collect(),
-        held: held.iter().collect(),
-        prior: &evidence.prior,
-        knobs,
-    };
+    let nominal = Model::<N>::nominal(robot, supply_seen(runs.fit.iter().chain(&runs.held)));
+    let data = Data::of(runs, &evidence.prior, knobs);
     let search = search::search(&data, &nominal, progress);
     progress("writing the report");
 

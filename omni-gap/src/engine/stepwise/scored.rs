@@ -1,5 +1,6 @@
 //! A model judged: fitted on some runs, and scored by how well it predicts those that no fit has seen.
 
+use crate::engine::evidence::Runs;
 use crate::engine::knobs::Knobs;
 use crate::identify::{
     Fit, Free, Misfit, Prior, Shots, Starts, Windows, effect_free, fit_with_dispersion, nominal_free, profile,
@@ -96,7 +97,20 @@ fn standard_error(parts: &[f64]) -> f64 {
     (n * variance).sqrt()
 }
 
-impl<const N: usize> Data<'_, N> {
+impl<'a, const N: usize> Data<'a, N> {
+    /// Of runs that are laid out.
+    pub fn of(runs: &'a Runs<N>, prior: &'a Prior, knobs: &'a Knobs) -> Self {
+        let windows = |run: &AlignedRun<N>| Windows::new(run, knobs.layout.window_s);
+        Self {
+            fit_windows: runs.fit.iter().map(windows).collect(),
+            held_windows: runs.held.iter().map(windows).collect(),
+            fit: runs.fit.iter().collect(),
+            held: runs.held.iter().collect(),
+            prior,
+            knobs,
+        }
+    }
+
     /// What models are fitted to.
     pub fn to_fit(&self) -> Shots<'_, N> {
         Shots { runs: &self.fit, windows: &self.fit_windows }

@@ -67,18 +67,21 @@ pub(super) fn hidden(cause: &SeenCause) -> String {
     format!("{} at its typical size looks like {}; {shown}", name(cause), moved.join(", "))
 }
 
-/// The heads of the table.
-pub(super) const HEADS: [&str; 6] =
-    ["", "typical", "moves by", "seen from", "named from", "not told from, at that size"];
+/// The heads of the table, with a column for what was verified or without.
+pub(super) fn heads(verified: bool) -> Vec<&'static str> {
+    let simulated = verified.then_some("seen, simulated");
+    let first = ["", "typical", "moves by", "seen from"];
+    first.into_iter().chain(simulated).chain(["named from", "not told from, at that size"]).collect()
+}
 
-/// A line of the table.
-pub(super) fn line(cause: &SeenCause) -> [String; 6] {
-    [
+/// A line of the table, under the same heads.
+pub(super) fn line(cause: &SeenCause, verified: bool) -> Vec<String> {
+    let first = [
         name(cause),
         size(Some(cause.typical), cause),
         format!("{} σ", num(cause.sigma)),
         from(cause.seen_from, cause),
-        from(cause.named_from, cause),
-        rivals(&cause.rivals),
-    ]
+    ];
+    let simulated = verified.then(|| cause.verified.map_or("–".to_owned(), |size| from(size.from, cause)));
+    first.into_iter().chain(simulated).chain([from(cause.named_from, cause), rivals(&cause.rivals)]).collect()
 }
