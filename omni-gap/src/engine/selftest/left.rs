@@ -110,6 +110,12 @@ impl Left {
         self.violated.column(column).iter().copied().collect()
     }
 
+    /// The share of |s⊥|² of a column that is what was stated, and is violated [1].
+    pub fn share_stated(&self, column: usize) -> f64 {
+        let size = self.size_of(column);
+        if size > 0.0 { (self.violated.column(column).norm_squared() / size).clamp(0.0, 1.0) } else { 0.0 }
+    }
+
     /// |s⊥|² of a column if a number were known just as it is stated [σ²]: v²/(a·H⁻¹·aᵀ) more, the least that it costs to
     /// imitate without violating the statement.
     pub fn size_if_exact(&self, column: usize, statement: usize) -> f64 {

@@ -32,8 +32,9 @@ impl Standing {
     fn of(suspect: &Suspect, all: &[Suspect], left: &Left, prior: &Prior, knobs: &SelftestKnobs) -> Self {
         let freedom = suspect.cause.freedom(prior);
         let search = &knobs.engine.search;
-        // a cause is judged by the runs that are held out
-        let held = 1.0 / knobs.engine.layout.hold_out_every as f64;
+        // what is measured counts by the runs that are held out, what was stated counts whole
+        let (held, stated) = (1.0 / knobs.engine.layout.hold_out_every as f64, left.share_stated(suspect.typical));
+        let counts = held + (1.0 - held) * stated;
         let gain = search.convincing + (search.convincing_each + search.price_of_freedom) * freedom as f64;
         let size = left.size_of(suspect.typical);
         let relevant = match suspect.cause {
@@ -45,7 +46,7 @@ impl Standing {
             let beside = left.beside(suspect, rival, knobs.regular);
             // what leaves nothing is not told from anything
             let angle_rad = if size > 0.0 { (beside / size).sqrt().clamp(0.0, 1.0).asin() } else { 0.0 };
-            let told_times = (angle_rad > knobs.same_angle_rad).then(|| (search.tie / (held * beside)).sqrt());
+            let told_times = (angle_rad > knobs.same_angle_rad).then(|| (search.tie / (counts * beside)).sqrt());
             Rival { cause: rival.cause.id(), axis: rival.cause.axis(), angle_rad, told_times }
         };
         let mut others: Vec<Rival> = all.iter().filter(|r| !r.cause.same_id(&suspect.cause)).map(rival).collect();
@@ -56,7 +57,7 @@ impl Standing {
             ids.push(other.cause);
             new
         });
-        let needed = (gain / held).max(relevant);
+        let needed = (gain / counts).max(relevant);
         let imitated_by = imitating(suspect.typical, left, prior, (needed, knobs));
         Self { size, needed, imitated_by, others }
     }
