@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use host_tests::paper_source::tree;
-use omni_gap::api::{Driven, PlannedRuns, SelfTest, SelftestKnobs, selftest};
+use omni_gap::api::{Driven, PlannedRuns, SelfTest, SelftestKnobs, selftest, verify};
 use omni_gap::engine::findings::SeenCause;
+use omni_gap::identify::{FreedPrior, Prior};
 use omni_gap::log::{Channel, Group, RobotFile, Run};
 use omni_gap::simulate::{EffectInstance, SignalGroup};
 use omni_gap::synthesize::{Scenario, synthesize};
@@ -146,4 +147,59 @@ fn what_the_robots_own_numbers_imitate_is_not_foretold_and_the_number_that_would
     let (foretold, then) = (best.sigma_if_exact, of(&told, "rotor_inertia").sigma);
     assert!((0.8..1.25).contains(&(then / foretold)), "{}: {foretold} σ foretold, {then} σ then", best.number);
     assert_eq!(of(&told, "rotor_inertia").is_seen(), best.then_seen);
+}
+
+/// Short recordings, and what they show of these causes beside what was foretold.
+fn verified(file: &RobotFile, ids: &[&str]) -> SelfTest {
+    let driven = Driven::Random { runs: 3, duration: 3.0, rate: RATE, voltage: VOLTAGE };
+    let plan = PlannedRuns { driven, ..planned() };
+    let mut said = said(file, &plan);
+    said.causes.retain(|cause| ids.contains(&cause.cause));
+    verify(file, &plan, &mut said, &SelftestKnobs::default(), &|_| ()).expect("a sound plan");
+    said
+}
+
+fn found(said: &SelfTest, id: &str) -> Option<f64> {
+    of(said, id).verified.expect("it was looked for").from
+}
+
+#[test]
+fn simulated_recordings_show_an_offset_from_the_size_on_that_its_closed_form_says() {
+    let file = robot(&text("feup-4w"));
+    let said = verified(&file, &["current_sensor_offset", "gyro_bias", "mass"]);
+    // b²/(σ² + b²) = share     an offset b of every current that nothing imitates takes this share of Σ error²
+    let share = SelftestKnobs::default().engine.search.relevant;
+    let offset = file.sensors.current_noise_a * (share / (1.0 - share)).sqrt();
+    let times = found(&said, "current_sensor_offset").expect("it is seen") / offset;
+    assert!((0.9..1.1).contains(&times), "{times} times {offset} A");
+    // without a gyro
+    assert_eq!(found(&said, "gyro_bias"), None);
+    // (ln(1 + x)/σ)² − (ln(1 + x)/loose)² = gain     a mass that the recordings tell well, and a statement of σ that is struck out
+    let SelftestKnobs { engine, .. } = SelftestKnobs::default();
+    let gain = engine.search.convincing + engine.search.convincing_each + engine.search.price_of_freedom;
+    let stated = Prior::stated(&file);
+    let release = FreedPrior { cause: "mass", axis: None };
+    let sigma = stated.rows[stated.rows_of(release)[0]].sigma;
+    let weight = sigma.powi(-2) - engine.fit.released_sigma.powi(-2);
+    let wrong = (gain / weight).sqrt().exp_m1();
+    let times = found(&said, "mass").expect("it is seen") / wrong;
+    assert!((0.9..1.1).contains(&times), "{times} times {wrong}");
+}
+
+#[test]
+fn twice_the_noise_needs_twice_the_size_in_simulated_recordings() {
+    let fine = robot(&text("feup-3w"));
+    let mut coarse = fine.clone();
+    let s = &mut coarse.sensors;
+    for noise in
+        [&mut s.current_noise_a, &mut s.wheel_speed_noise_rad_s, &mut s.position_noise_m, &mut s.heading_noise_rad]
+    {
+        *noise *= 2.0;
+    }
+    let ids = ["cog_offset", "floor_tilt"];
+    let (fine, coarse) = (verified(&fine, &ids), verified(&coarse, &ids));
+    for id in ids {
+        let ratio = found(&coarse, id).zip(found(&fine, id)).map(|(coarse, fine)| coarse / fine);
+        assert!(ratio.is_some_and(|ratio| (1.7..2.3).contains(&ratio)), "{id}: {ratio:?}");
+    }
 }

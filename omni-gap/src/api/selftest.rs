@@ -7,7 +7,9 @@ use crate::engine::knobs::SelftestKnobs;
 use crate::engine::selftest::{self as engine, Sensors};
 use crate::error::Result;
 use crate::log::{RobotFile, Run};
-use crate::simulate::{AlignedRun, Excitation, Model, RunPlan, SensorSetup, SignalGroup, drivable, excite, supply_seen};
+use crate::simulate::{
+    AlignedRun, Excitation, Model, RunPlan, SensorSetup, SignalGroup, drivable, excite, supply_seen,
+};
 use crate::vocabulary::Progress;
 
 /// Recordings that somebody means to make.

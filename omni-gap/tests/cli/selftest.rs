@@ -37,3 +37,28 @@ fn what_cannot_be_planned_is_told_with_its_mend() {
         assert!(refused.code == 2 && refused.err.contains(told), "{}", refused.err);
     }
 }
+
+#[test]
+fn what_simulated_recordings_show_stands_in_a_column_of_its_own_where_it_is_asked() {
+    let bench = Bench::empty();
+    bench.write("robot.toml", ROBOT);
+    let asked = |more: &[&str]| {
+        let short = ["selftest", "robot.toml", "--runs", "1", "--duration", "2", "--rate", "100", "--sensors", "w"];
+        bench.done(&[&short[..], more].concat()).out
+    };
+    let (plain, verified) = (asked(&["--out", "a"]), asked(&["--verify", "--out", "b"]));
+    let page = |folder: &str| bench.read(&format!("{folder}/selftest.html"));
+    let head = "seen, simulated";
+    assert!(verified.contains(head) && page("b").contains(head));
+    assert!(!plain.contains(head) && !page("a").contains(head));
+    let file = |folder: &str| -> serde_json::Value {
+        serde_json::from_str(&bench.read(&format!("{folder}/selftest.json"))).expect("JSON")
+    };
+    let sizes = |file: &serde_json::Value| -> Vec<serde_json::Value> {
+        file["causes"].as_array().expect("causes").iter().filter_map(|cause| cause.get("verified")).cloned().collect()
+    };
+    assert!(sizes(&file("a")).is_empty());
+    let found = sizes(&file("b"));
+    assert_eq!(Some(found.len()), file("b")["causes"].as_array().map(Vec::len));
+    assert!(found.iter().any(|size| size["from"].is_f64()) && found.iter().any(|size| size["from"].is_null()));
+}

@@ -20,7 +20,7 @@ pub use confusion::{ConfusedCause, Confusion};
 pub use considered::{ConsideredCause, EstimatedBy, EstimatedNumber};
 pub use gap::{Gap, HorizonError, Shrink, SignalGap};
 pub use place::{Regime, Where};
-pub use selftest::{Imitating, Rival, SeenCause, SelfTest, VerifiedSize, WithSensor};
+pub use selftest::{Imitating, Rival, SeenCause, SelfTest, ShownThere, VerifiedSize, WithSensor};
 pub use traces::{SignalTrace, Traces};
 
 use super::knobs::Knobs;

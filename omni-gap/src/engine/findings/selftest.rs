@@ -75,6 +75,24 @@ pub struct VerifiedSize {
     pub from: Option<f64>,
     /// The same as a multiple of the typical departure [1]; none where no size within bounds is seen.
     pub times: Option<f64>,
+    /// What recordings show at that size; none where there is none.
+    pub there: Option<ShownThere>,
+}
+
+/// What simulated recordings show of a cause, without noise.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ShownThere {
+    /// What the model with the cause betters the score by, its price aside [1].
+    pub gain: f64,
+    /// The part of that by what was stated of the robot's numbers [1].
+    pub stated: f64,
+    /// The share that it takes off Σ error² of one channel, noise among it, where it takes most [1].
+    pub taken: f64,
+    /// The share of the plain model's Σ error² that it leaves [1]: of a law for which the diagnosis's own time steps are too
+    /// coarse.
+    pub left: f64,
+    /// Σ error² of the plain model in a run that is held out, over that in a run to fit on [1].
+    pub held_out: f64,
 }
 
 /// A number of the robot file that helps to imitate a cause.

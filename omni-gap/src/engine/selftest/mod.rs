@@ -11,7 +11,7 @@
 //! ```
 //!
 //! m is a multiple of the typical size. From what size on an effect is seen is looked for at that size; what it takes more to
-//! be told apart is taken as at the typical one.
+//! be told apart is taken as at the typical one. `verify` finds the first of these sizes once more, in recordings.
 
 mod judge;
 mod laid;

@@ -22,9 +22,9 @@ pub(super) fn size_needed<const N: usize>(
         laid.left(&[scaled], std::slice::from_ref(view))[0].size_of(0)
     };
     let above = |size: f64| 0.5 * (size.max(knobs.least_size) / needed).ln();
-    let first = Tried { log_times: 0.0, above: above(typical) };
+    let first = Tried { log_times: 0.0, above: above(typical), power: 1.0 };
     let found = searched(first, bounds(effect, knobs.least_times), |times| above(size_at(times)), knobs)?;
-    Some(found.tried.log_times.exp())
+    Some(found.log_times.exp())
 }
 
 /// A size that was tried.
@@ -34,12 +34,7 @@ pub(super) struct Tried {
     pub log_times: f64,
     /// The logarithm of how far what it does is above what is needed.
     pub above: f64,
-}
-
-/// The size that a search came to, and the power of the size that what it does was found to be there.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Reached {
-    pub tried: Tried,
+    /// The power of the size that what it does is taken for there.
     pub power: f64,
 }
 
@@ -52,18 +47,17 @@ pub(super) fn searched(
     bounds: (f64, f64),
     above: impl Fn(f64) -> f64,
     knobs: &SelftestKnobs,
-) -> Option<Reached> {
+) -> Option<Tried> {
     let mut here = first;
     // the nearest tries on both sides
     let (mut seen, mut unseen): (Option<Tried>, Option<Tried>) = (None, None);
-    let mut power = 1.0;
     for try_ in 0..knobs.tries {
         *(if here.above >= 0.0 { &mut seen } else { &mut unseen }) = Some(here);
         if here.above.abs() <= knobs.near.ln() {
-            return Some(Reached { tried: here, power });
+            return Some(here);
         }
         let most = if try_ == 0 { knobs.first_try } else { knobs.most_a_try };
-        let step = (-here.above / power).clamp(-most.ln(), most.ln());
+        let step = (-here.above / here.power).clamp(-most.ln(), most.ln());
         let between = seen.zip(unseen).map(|(a, b)| (a.log_times, b.log_times));
         let next = match between {
             // between the two, if the power leads out of them
@@ -72,14 +66,14 @@ pub(super) fn searched(
         };
         if next == here.log_times {
             // at the bound
-            return (here.above >= 0.0).then_some(Reached { tried: here, power });
+            return (here.above >= 0.0).then_some(here);
         }
-        let there = Tried { log_times: next, above: above(next.exp()) };
-        let found = (there.above - here.above) / (there.log_times - here.log_times);
-        power = if found.abs() > knobs.least_power { found } else { power };
-        here = there;
+        let there = above(next.exp());
+        let found = (there - here.above) / (next - here.log_times);
+        let power = if found.abs() > knobs.least_power { found } else { here.power };
+        here = Tried { log_times: next, above: there, power };
     }
-    seen.map(|tried| Reached { tried, power })
+    seen
 }
 
 /// The logarithms of the multiples, `least_times` or more, between which all sizes are within their bounds.

@@ -23,11 +23,11 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::judge::mask;
-use super::sizes::{Reached, Tried, bounds, scaled, searched};
+use super::sizes::{Tried, bounds, scaled, searched};
 use super::sizing::Sizing;
 use super::suspects::{Column, Suspect, suspects};
 use crate::engine::evidence::Runs;
-use crate::engine::findings::{SeenCause, SelfTest, VerifiedSize};
+use crate::engine::findings::{SeenCause, SelfTest, ShownThere, VerifiedSize};
 use crate::engine::knobs::SelftestKnobs;
 use crate::engine::stepwise::{Cause, Data, Scored};
 use crate::identify::Prior;
@@ -104,35 +104,47 @@ impl<'a, const N: usize> Simulated<'a, N> {
         let is = |of: &Cause| of.id() == cause.cause && of.wheel() == cause.wheel && of.axis() == cause.axis;
         let suspect = self.suspects.iter().find(|suspect| is(&suspect.cause))?;
         let column = &self.columns[suspect.typical];
-        let times = self.size_found(&suspect.cause, column, cause.seen_times);
+        let times = self.size_found(&suspect.cause, column, cause);
+        let there = times.map(|times| self.shown(&suspect.cause, column, times));
         let sizing = Sizing::of(&suspect.cause, self.knobs.wrong);
-        Some(VerifiedSize { from: times.and_then(|times| sizing.at(times)), times })
+        Some(VerifiedSize { from: times.and_then(|times| sizing.at(times)), times, there })
     }
 
     /// The multiple of the typical departure from which on a cause is seen, looked for from the one that was foretold on.
-    fn size_found(&self, cause: &Cause, column: &Column, foretold: Option<f64>) -> Option<f64> {
+    fn size_found(&self, cause: &Cause, column: &Column, foretold: &SeenCause) -> Option<f64> {
         let (low, high) = match column {
             Column::Effect(effect) => bounds(effect, self.knobs.least_times),
             // no number is wrong by more than the whole of it
             Column::Factors(_) => (self.knobs.least_times.ln(), -self.knobs.wrong.ln()),
         };
-        let above = |times: f64| self.above(cause, column, times);
+        let above = |times: f64| self.above(cause, &self.shown(cause, column, times));
         if high == f64::MAX.ln() {
             // an effect without a size is there or not
             return (above(1.0) >= 0.0).then_some(1.0);
         }
-        let first = foretold.map_or(0.0, f64::ln).clamp(low, high);
-        let first = Tried { log_times: first, above: above(first.exp()) };
-        let Reached { tried, power } = searched(first, (low, high), above, self.knobs)?;
+        let log_times = foretold.seen_times.map_or(0.0, f64::ln).clamp(low, high);
+        let power = if foretold.shows_below { -1.0 } else { 1.0 };
+        let first = Tried { log_times, above: above(log_times.exp()), power };
+        let Tried { log_times, above, power } = searched(first, (low, high), above, self.knobs)?;
         // the last part of the way by the power found; at a bound there is none
-        let near = tried.above.abs() <= self.knobs.near.ln();
-        let to = if near { tried.log_times - tried.above / power } else { tried.log_times };
-        Some(to.clamp(low, high).exp())
+        let near = above.abs() <= self.knobs.near.ln();
+        Some(if near { log_times - above / power } else { log_times }.clamp(low, high).exp())
     }
 
-    /// The logarithm of how far a cause of a size is above what the engine asks of it; as that of a size, whose square it
-    /// gains.
-    fn above(&self, cause: &Cause, column: &Column, times: f64) -> f64 {
+    /// The logarithm of how far a cause is above what the engine asks of it; as that of a size, whose square it gains.
+    fn above(&self, cause: &Cause, shown: &ShownThere) -> f64 {
+        let search = &self.knobs.engine.search;
+        let each = search.convincing_each + search.price_of_freedom;
+        let gain = shown.gain / (search.convincing + each * cause.freedom(&self.prior) as f64);
+        let quotient = match cause {
+            Cause::Effect(..) => gain.min(shown.taken / search.relevant),
+            Cause::Parameter(_) => gain,
+        };
+        0.5 * quotient.max(self.knobs.least_size).ln()
+    }
+
+    /// What recordings of a robot that has a cause of a size show of it.
+    fn shown(&self, cause: &Cause, column: &Column, times: f64) -> ShownThere {
         let mut truth = self.nominal.clone();
         match column {
             Column::Effect(effect) => {
@@ -142,23 +154,27 @@ impl<'a, const N: usize> Simulated<'a, N> {
                 factors.iter().for_each(|factor| truth.factor[*factor as usize] = 1.0 + times * self.knobs.wrong);
             }
         }
-        let SelftestKnobs { engine, least_size, .. } = self.knobs;
+        let engine = &self.knobs.engine;
+        let prior = match cause {
+            Cause::Effect(..) => self.prior.clone(),
+            Cause::Parameter(release) => self.prior.without(*release, engine.fit.released_sigma),
+        };
         let runs = self.recorded(&truth);
         let data = Data::of(&runs, &self.prior, engine);
         let plain = data.judge(self.nominal.clone(), None, &self.prior, 0);
-        let (search, freedom) = (&engine.search, cause.freedom(&self.prior));
-        let asked = search.convincing + (search.convincing_each + search.price_of_freedom) * freedom as f64;
-        let quotient = match cause {
-            Cause::Effect(..) => {
-                let with = data.judge(truth, Some(&plain), &self.prior, freedom);
-                (gain(&plain, &with) / asked).min(share_taken(&plain, &with, &data.held) / search.relevant)
-            }
-            Cause::Parameter(release) => {
-                let prior = self.prior.without(*release, engine.fit.released_sigma);
-                gain(&plain, &data.judge(truth, Some(&plain), &prior, freedom)) / asked
-            }
-        };
-        0.5 * quotient.max(*least_size).ln()
+        let with = data.judge(truth, Some(&plain), &prior, cause.freedom(&self.prior));
+        // noise adds one to the Σ error² of each number
+        let scale = 1.0 + with.held() / with.freedom;
+        let stated = plain.stated - with.stated;
+        let [held_out, fitted] =
+            [(plain.held(), data.held.len()), (plain.fit.cost, data.fit.len())].map(|(sum, runs)| sum / runs as f64);
+        ShownThere {
+            gain: (plain.held() - with.held()) / scale + stated,
+            stated,
+            taken: share_taken(&plain, &with, &data.held),
+            left: quotient(with.held(), plain.held()),
+            held_out: quotient(held_out, fitted),
+        }
     }
 
     /// The recordings of a robot, laid out as a diagnosis does it.
@@ -179,10 +195,9 @@ impl<'a, const N: usize> Simulated<'a, N> {
     }
 }
 
-/// What a cause betters the score by, its price aside; noise adds one to each number's Σ error².
-fn gain<const N: usize>(plain: &Scored<N>, with: &Scored<N>) -> f64 {
-    let scale = 1.0 + with.held() / with.freedom;
-    (plain.held() - with.held()) / scale + plain.stated - with.stated
+/// A quotient of two sums of squares; one where both are nothing.
+fn quotient(a: f64, b: f64) -> f64 {
+    (a + f64::MIN_POSITIVE) / (b + f64::MIN_POSITIVE)
 }
 
 /// The share of Σ error² that a cause takes off the channel where it takes most [1]; noise adds one to each number's.
