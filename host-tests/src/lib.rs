@@ -12,6 +12,7 @@
 //! - [`paper_source`]: the paper's robots as Rust, from their robot files;
 //! - [`catalogue`]: the benchmark of the diagnosis, on recordings whose truth is known;
 //! - [`confusion`]: which cause would be taken for which, on three robots and with two kinds of motion;
+//! - [`verified`]: the sizes that the self-test foretells, found in simulated recordings of three robots;
 //! - [`frozen`]: whole reports that stay as they are while walls move;
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
 //! - [`real`]: what the diagnosis says of recordings of real robots;
@@ -52,4 +53,5 @@ pub mod plant_cases;
 pub mod printed;
 pub mod real;
 pub mod reference;
+pub mod verified;
 pub mod virtual_board;

@@ -44,6 +44,12 @@ pub const ERRANDS: &[Errand] = &[
         run: confusion,
     },
     Errand {
+        name: "selftest",
+        takes: "",
+        does: "look in simulated recordings for the sizes that the self-test foretells (BLESS=1: rewrite)",
+        run: selftest,
+    },
+    Errand {
         name: "identification",
         takes: "",
         does: "identify robots whose truth is known by the thousand and rewrite the golden page (most of an hour)",
@@ -162,6 +168,10 @@ fn medicine(_: Option<OsString>) -> Result<(), String> {
 
 fn confusion(_: Option<OsString>) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin confusion"))
+}
+
+fn selftest(_: Option<OsString>) -> Result<(), String> {
+    announced(Line::of("cargo run --release -p host-tests --bin selftest"))
 }
 
 fn identification(_: Option<OsString>) -> Result<(), String> {

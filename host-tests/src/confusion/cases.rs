@@ -77,7 +77,8 @@ impl Layout {
         }
     }
 
-    fn title(self) -> &'static str {
+    /// Its name for people.
+    pub fn title(self) -> &'static str {
         match self {
             Layout::Three => "three wheels",
             Layout::Plus => "four wheels, +",
