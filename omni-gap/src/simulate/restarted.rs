@@ -1,6 +1,7 @@
 //! What an effect does at once: a drive of a robot with it, beside the model without it that is restarted from the truth
 //! again and again, so that nothing tells what was before.
 
+use model_core::effects::telegram::Telegram;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::{Input, Plant, Reading, State};
 
@@ -55,6 +56,7 @@ impl<const N: usize> Beside<N> {
                 self.model.restart(&model, &mut kept);
             }
             let began = truth;
+            let held = &self.truth.receive(&mut memory, held, Some(&Telegram::drawn(spread(row))));
             let read = self.truth.step(&mut truth, &mut memory, held, dt);
             let said = self.model.step(&mut model, &mut kept, held, dt);
             let frame = *first.get_or_insert((said.pose, read.pose));
@@ -85,6 +87,11 @@ impl<const N: usize> TurnedRound<'_, N> {
             ..*on
         }
     }
+}
+
+/// A number between 0 and 1 for each row, spread evenly over any rows that follow each other: multiples of the golden ratio.
+fn spread(row: usize) -> f64 {
+    (row as f64 * 0.618_033_988_749_894_9).fract()
 }
 
 /// One reading less another, in the order of the channels.

@@ -14,7 +14,7 @@ use crate::engine::findings::{ConfusedCause, Confusion, SelfTest, WithSensor};
 use crate::engine::knobs::SelftestKnobs;
 use crate::engine::stepwise::Cause;
 use crate::log::{RobotFile, Run};
-use crate::simulate::{AlignedRun, Model, SignalGroup, supply_seen};
+use crate::simulate::{AlignedRun, Chain, Model, SignalGroup, supply_seen};
 
 /// What recordings of the robot of a file could show. `runs` are such recordings by a robot that is just what the file
 /// says, with every sensor there is; `sensors` says which of these would be logged, and others that might be added.
@@ -38,7 +38,7 @@ pub fn confusion(file: &RobotFile, runs: &[Run], logged: &[SignalGroup], knobs: 
 }
 
 fn of_wheels<const N: usize>(file: &RobotFile, runs: &[Run], sensors: &Sensors, knobs: &SelftestKnobs) -> SelfTest {
-    let aligned = aligned::<N>(file, runs);
+    let aligned = aligned::<N>(file, runs, &sensors.logged);
     let Some(asked) = Asked::new(file, &aligned, knobs) else { return sensors.show_nothing(file) };
     let Asked { laid, suspects, columns, .. } = &asked;
     let logged = mask::<N>(&sensors.logged);
@@ -57,7 +57,7 @@ fn of_wheels<const N: usize>(file: &RobotFile, runs: &[Run], sensors: &Sensors, 
         now[*k].as_seen(&suspects[*k], seen_times, left[0].share_taken(suspects[*k].typical), knobs.wrong)
     };
     let replaced = sensors.might_replace.iter().map(|(name, runs)| {
-        let aligned = self::aligned::<N>(file, runs);
+        let aligned = self::aligned::<N>(file, runs, &sensors.logged);
         let laid = Laid::new(file, laid.model.clone(), &aligned, knobs);
         (*name, asked.standings(&laid.left(columns, &[laid.view(logged)])[0]))
     });
@@ -87,7 +87,7 @@ fn confused<const N: usize>(
     logged: &[SignalGroup],
     knobs: &SelftestKnobs,
 ) -> Option<(usize, Vec<ConfusedCause>)> {
-    let aligned = aligned::<N>(file, runs);
+    let aligned = aligned::<N>(file, runs, logged);
     let asked = Asked::new(file, &aligned, knobs)?;
     let view = [asked.laid.view(mask::<N>(logged))];
     let now = asked.standings(&asked.laid.left(&asked.columns, &view)[0]);
@@ -95,10 +95,14 @@ fn confused<const N: usize>(
     Some((view[0].measured(), causes))
 }
 
-fn aligned<const N: usize>(file: &RobotFile, runs: &[Run]) -> Vec<AlignedRun<N>> {
-    let aligned = runs.iter().filter_map(|run| AlignedRun::new(run, file));
-    // none of these recordings was made, so that none shows which telegrams it lost
-    aligned.enumerate().map(|(k, run)| run.with_drawn_losses(k as u64)).collect()
+/// Runs laid out. None of them was made, so that none shows which telegrams it lost: where what answers to commands is
+/// logged, that is drawn.
+fn aligned<const N: usize>(file: &RobotFile, runs: &[Run], logged: &[SignalGroup]) -> Vec<AlignedRun<N>> {
+    let drawn = |(seed, run): (u64, AlignedRun<N>)| {
+        let answers = if run.chain == Chain::SetSpeed { SignalGroup::WheelSpeed } else { SignalGroup::Current };
+        if logged.contains(&answers) { run.with_drawn_losses(seed) } else { run }
+    };
+    (0..).zip(runs.iter().filter_map(|run| AlignedRun::new(run, file))).map(drawn).collect()
 }
 
 /// The channels of groups of signals, as a bit mask.
