@@ -166,7 +166,7 @@ fn found(said: &SelfTest, id: &str) -> Option<f64> {
 #[test]
 fn simulated_recordings_show_an_offset_from_the_size_on_that_its_closed_form_says() {
     let file = robot(&text("feup-4w"));
-    let said = verified(&file, &["current_sensor_offset", "gyro_bias", "mass"]);
+    let said = verified(&file, &["current_sensor_offset", "gyro_bias", "wheel_radius"]);
     // b²/(σ² + b²) = share     an offset b of every current that nothing imitates takes this share of Σ error²
     let share = SelftestKnobs::default().engine.search.relevant;
     let offset = file.sensors.current_noise_a * (share / (1.0 - share)).sqrt();
@@ -174,15 +174,15 @@ fn simulated_recordings_show_an_offset_from_the_size_on_that_its_closed_form_say
     assert!((0.9..1.1).contains(&times), "{times} times {offset} A");
     // without a gyro
     assert_eq!(found(&said, "gyro_bias"), None);
-    // (ln(1 + x)/σ)² − (ln(1 + x)/loose)² = gain     a mass that the recordings tell well, and a statement of σ that is struck out
+    // (ln(1 + x)/σ)² − (ln(1 + x)/loose)² = gain     a radius that recordings tell well, and a statement of σ struck out
     let SelftestKnobs { engine, .. } = SelftestKnobs::default();
     let gain = engine.search.convincing + engine.search.convincing_each + engine.search.price_of_freedom;
     let stated = Prior::stated(&file);
-    let release = FreedPrior { cause: "mass", axis: None };
+    let release = FreedPrior { cause: "wheel_radius", axis: None };
     let sigma = stated.rows[stated.rows_of(release)[0]].sigma;
     let weight = sigma.powi(-2) - engine.fit.released_sigma.powi(-2);
     let wrong = (gain / weight).sqrt().exp_m1();
-    let times = found(&said, "mass").expect("it is seen") / wrong;
+    let times = found(&said, "wheel_radius").expect("it is seen") / wrong;
     assert!((0.9..1.1).contains(&times), "{times} times {wrong}");
 }
 
