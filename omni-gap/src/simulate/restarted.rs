@@ -47,7 +47,7 @@ impl<const N: usize> Beside<N> {
         let mut truth = self.truth.start(0.0, Pose::default(), BodyTwist::default());
         let mut memory = self.truth.memory().collect::<Vec<_>>();
         let (mut model, mut kept) = (truth, self.model.memory().collect::<Vec<_>>());
-        let mut first = None;
+        let (mut first, mut lost) = (None, false);
         let mut rows = Vec::with_capacity(input.len());
         for (row, held) in input.iter().enumerate() {
             if row % self.restarted == 0 {
@@ -56,14 +56,18 @@ impl<const N: usize> Beside<N> {
                 self.model.restart(&model, &mut kept);
             }
             let began = truth;
-            let held = &self.truth.receive(&mut memory, held, Some(&Telegram::drawn(spread(row))));
-            let read = self.truth.step(&mut truth, &mut memory, held, dt);
+            // the robot loses every other change of command, if it ever loses any
+            let changes = row > 0 && input[row - 1] != *held;
+            lost ^= changes;
+            let telegram = Telegram::drawn(if changes && lost { 0.0 } else { 1.0 });
+            let arrived = self.truth.receive(&mut memory, held, Some(&telegram));
+            let read = self.truth.step(&mut truth, &mut memory, &arrived, dt);
             let said = self.model.step(&mut model, &mut kept, held, dt);
             let frame = *first.get_or_insert((said.pose, read.pose));
             let said = Reading { pose: seen_in(frame, said.pose), ..said };
             rows.push(RowBeside { change: change(&read, &said, truth.bus - model.bus), model: said, truth: began });
             for _ in 1..steps {
-                self.truth.step(&mut truth, &mut memory, held, dt);
+                self.truth.step(&mut truth, &mut memory, &arrived, dt);
                 self.model.step(&mut model, &mut kept, held, dt);
             }
         }
@@ -87,11 +91,6 @@ impl<const N: usize> TurnedRound<'_, N> {
             ..*on
         }
     }
-}
-
-/// A number between 0 and 1 for each row, spread evenly over any rows that follow each other: multiples of the golden ratio.
-fn spread(row: usize) -> f64 {
-    (row as f64 * 0.618_033_988_749_894_9).fract()
 }
 
 /// One reading less another, in the order of the channels.
