@@ -11,7 +11,8 @@ const STEADY: f64 = 1e-4;
 /// A line has this share of all that varies.
 const A_LINE: f64 = 0.5;
 
-/// Periods in a turn of the wheel, of rows of a length [s] of which the last before each restart counts; `None` where the change is steady, or goes by anything else than the wheel's angle.
+/// Periods in a turn of the wheel, of rows of a length [s] of which the last before each restart counts; `None` where the
+/// change is steady, or goes by anything else than the wheel's angle.
 pub(super) fn ripple_order<const N: usize>(
     rows: &[RowBeside<N>],
     wheel: usize,
