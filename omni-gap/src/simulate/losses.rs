@@ -31,8 +31,14 @@ const LAST_ROW: f64 = 0.5;
 const MODEL_ERROR: f64 = 0.15;
 /// ε, how likely an answer is that fits neither, over one that fits [1]
 const NEITHER: f64 = 1e-4;
-/// A change below this tells nothing [σ].
-const TELLS: f64 = 3.0;
+/// No telegram was heard more surely than by these odds [1].
+const LEAST_ODDS: f64 = 1e-30;
+/// Odds from which on a telegram was lost rather than heard, if one of some thirty is [1].
+const LIKELY_LOST: f32 = 30.0;
+/// More telegrams that follow each other are not lost: something else keeps the current from following.
+const MOST_IN_A_ROW: u32 = 5;
+/// A change below this tells nothing [σ]: of smaller ones, what else the model has wrong moves as much from row to row.
+const TELLS: f64 = 7.0;
 /// Steps towards the most likely share.
 const STEPS: usize = 30;
 /// Twice the logarithm of the likelihood that losses have to gain [1]: noise alone gains as much once in ten million.
@@ -192,10 +198,17 @@ impl<'a, const N: usize> Answers<'a, N> {
         Some(run.measured[row][self.channel + wheel] + self.per_speed * turning)
     }
 
+    /// Variance of that answer's noise.
+    fn variance(&self, row: usize, wheel: usize) -> f64 {
+        let (run, speed) = (self.run, AlignedRun::<N>::channels().wheel_speed(wheel));
+        let of_speed = if run.saw(row, speed) { self.per_speed * run.sigma[speed] } else { 0.0 };
+        run.sigma[self.channel + wheel].powi(2) + of_speed * of_speed
+    }
+
     /// Follows what these wheels hear: ρ of every row.
     fn odds(&self, wheels: Range<usize>) -> Vec<f32> {
-        let Self { run, channel, per_command, .. } = *self;
-        let (mut heard, mut left_over) = ([0.0; N], [None::<f64>; N]);
+        let Self { run, per_command, .. } = *self;
+        let (mut heard, mut left_over, mut in_a_row) = ([0.0; N], [None::<f64>; N], 0);
         let mut odds = vec![0.0; run.rows()];
         for row in (0..run.rows()).filter(|row| run.driven[*row]) {
             let sent = run.input[row];
@@ -204,14 +217,15 @@ impl<'a, const N: usize> Answers<'a, N> {
             for j in wheels.clone() {
                 let Some((answer, before)) = self.answer(row, j).zip(left_over[j]) else { continue };
                 let change = per_command * (sent[j] - heard[j]);
-                let variance = run.sigma[channel + j] * run.sigma[channel + j];
+                let variance = self.variance(row, j);
                 size += change * change / variance;
                 followed += change * (answer - per_command * heard[j] - before) / variance;
             }
             if size >= TELLS * TELLS {
                 odds[row] = odds_of_loss(followed / size, size).max(LEAST_ODDS) as f32;
             }
-            if odds[row] <= LIKELY_LOST {
+            in_a_row = if odds[row] > LIKELY_LOST { in_a_row + 1 } else { 0 };
+            if in_a_row == 0 || in_a_row > MOST_IN_A_ROW {
                 heard = sent;
             }
             for j in wheels.clone() {
@@ -225,11 +239,6 @@ impl<'a, const N: usize> Answers<'a, N> {
         odds
     }
 }
-
-/// No telegram was heard more surely than this.
-const LEAST_ODDS: f64 = 1e-30;
-/// Odds from which on a telegram was lost rather than heard, if one of some thirty is.
-const LIKELY_LOST: f32 = 30.0;
 
 /// ρ, of a change of this size [σ²] that was followed to the share f.
 fn odds_of_loss(f: f64, size: f64) -> f64 {
