@@ -99,14 +99,14 @@ fn counts(all: &[Verified]) -> String {
 
 /// The causes whose sizes do not agree, with what recordings show at the size found.
 fn apart(all: &[Verified]) -> String {
-    let mut text = format!(
+    let mut text = String::from(
         "\n## Where they do not agree\n\n\
          Measured at the size that is found: `left`, the share of the plain model's error that the model with the cause leaves,\n\
          since the diagnosis takes one step where the simulator takes ten; `stated`, the part of its gain that is what was stated\n\
          of the robot's numbers and not what was measured; `held out`, the error of a run that is held out over that of a run to\n\
          fit on, where the self-test takes all runs for alike; `taken`, the share that the cause takes off one channel, of which\n\
          the engine asks 1 % of an effect.\n\n\
-         | robot | cause | found/foretold | left | stated | held out | taken | reason |\n|---|---|---|---|---|---|---|---|\n"
+         | robot | cause | found/foretold | left | stated | held out | taken | reason |\n|---|---|---|---|---|---|---|---|\n",
     );
     for (layout, said) in all {
         for cause in said.causes.iter().filter(|cause| !agree(cause)) {

@@ -129,24 +129,23 @@ mod tests {
     use super::*;
 
     /// What arrives of these commands.
-    fn arrived(share: f64, sent: &[(f64, Option<Delivery>)]) -> Vec<f64> {
+    fn arrived<const K: usize>(share: f64, sent: [(f64, Option<Delivery>); K]) -> [f64; K] {
         let mut s = Kept::start();
-        let one = |(sent, delivery): &(f64, Option<Delivery>)| {
-            let mut x = Command { sent: *sent, arrived: *sent };
-            CommandLoss { share }.command(&mut s, *delivery, &mut x);
-            assert_eq!(x.sent, *sent);
+        sent.map(|(sent, delivery)| {
+            let mut x = Command { sent, arrived: sent };
+            CommandLoss { share }.command(&mut s, delivery, &mut x);
+            assert_eq!(x.sent, sent);
             x.arrived
-        };
-        sent.iter().map(one).collect()
+        })
     }
 
     #[test]
     fn a_lost_telegram_leaves_the_last_one_standing_and_the_next_is_heard() {
         let drawn = |chance| Some(Delivery::Drawn(chance));
         let sent = [(3.0, drawn(0.5)), (5.0, drawn(0.01)), (7.0, drawn(0.02)), (7.0, drawn(0.9)), (-1.0, drawn(0.03))];
-        assert_eq!(arrived(0.03, &sent), [3.0, 3.0, 3.0, 7.0, -1.0]);
+        assert_eq!(arrived(0.03, sent), [3.0, 3.0, 3.0, 7.0, -1.0]);
         // before the first one the command is zero
-        assert_eq!(arrived(0.03, &sent[1..3]), [0.0, 0.0]);
+        assert_eq!(arrived(0.03, [sent[1], sent[2]]), [0.0, 0.0]);
     }
 
     #[test]
@@ -154,7 +153,7 @@ mod tests {
         for command in [3.7, -0.0, 0.0, -8.1] {
             for delivery in [Delivery::Drawn(0.0), Delivery::Shown(0.0), Delivery::Shown(30.0)] {
                 let sent = [(2.0, Some(Delivery::Drawn(1.0))), (command, Some(delivery))];
-                assert_eq!(arrived(0.0, &sent)[1].to_bits(), f64::to_bits(command));
+                assert_eq!(arrived(0.0, sent)[1].to_bits(), f64::to_bits(command));
             }
         }
     }
@@ -162,15 +161,15 @@ mod tests {
     #[test]
     fn between_telegrams_stands_what_arrived_last() {
         let sent = [(3.0, Some(Delivery::Drawn(0.9))), (5.0, Some(Delivery::Drawn(0.0))), (5.0, None), (5.0, None)];
-        assert_eq!(arrived(0.03, &sent), [3.0; 4]);
+        assert_eq!(arrived(0.03, sent), [3.0; 4]);
     }
 
     #[test]
     fn the_share_that_a_record_shows_takes_off_just_what_was_lost_and_half_of_it_half() {
         let shown = |evidence| Some(Delivery::Shown(evidence));
         let sent = [(2.0, shown(0.0)), (6.0, shown(25.0)), (6.0, shown(0.0))];
-        assert_eq!(arrived(0.04, &sent), [2.0, 2.0, 6.0]);
-        assert_eq!(arrived(0.02, &sent), [2.0, 4.0, 6.0]);
+        assert_eq!(arrived(0.04, sent), [2.0, 2.0, 6.0]);
+        assert_eq!(arrived(0.02, sent), [2.0, 4.0, 6.0]);
     }
 
     #[test]
