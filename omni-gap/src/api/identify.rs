@@ -9,7 +9,7 @@ use crate::identify::{
     Fit, FitSettings, Free, Prior, Shots, WINDOW_S, Windows, effect_free, fit_with_dispersion, nominal_free, told,
 };
 use crate::log::{RobotFile, Session, corrected};
-use crate::simulate::{AlignedRun, EffectInstance, Model, NOMINAL_KEYS, NominalKey, Slot, pool_losses, supply_seen};
+use crate::simulate::{AlignedRun, EffectInstance, Model, NOMINAL_KEYS, NominalKey, Slot, find_losses, supply_seen};
 
 /// A fit with a larger error per sample leaves something unexplained [σ]
 const MORE_THAN_NOISE: f64 = 1.2;
@@ -118,7 +118,7 @@ pub(super) fn refuse_faulty(session: &Session) -> Result<()> {
 
 fn identified<const N: usize>(session: &Session) -> Result<Identification> {
     let mut runs: Vec<AlignedRun<N>> = session.runs.iter().filter_map(|r| AlignedRun::new(r, &session.robot)).collect();
-    pool_losses(&mut runs);
+    find_losses(&mut runs, &session.robot);
     if runs.is_empty() {
         let problem =
             "no run has a voltage, a signed current, a wheel speed or a commanded speed to drive the model with";

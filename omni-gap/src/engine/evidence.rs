@@ -6,7 +6,7 @@
 use crate::engine::knobs::LayoutKnobs;
 use crate::identify::Prior;
 use crate::log::{RobotFile, Run, Session};
-use crate::simulate::{AlignedRun, Chain, pool_losses};
+use crate::simulate::{AlignedRun, Chain, find_losses};
 
 /// What an engine has to go by.
 #[derive(Clone, Debug)]
@@ -80,7 +80,7 @@ impl Evidence {
 impl<const N: usize> Runs<N> {
     fn of(session: &Session, knobs: &LayoutKnobs, notices: &mut Vec<String>) -> Result<Self, Unfit> {
         let Self { mut fit, mut held } = laid_out(session, knobs, notices);
-        pool_losses(fit.iter_mut().chain(&mut held));
+        find_losses(fit.iter_mut().chain(&mut held), &session.robot);
         if fit.is_empty() || held.is_empty() {
             return Err(NOTHING_DRIVES);
         }

@@ -189,7 +189,7 @@ impl<const N: usize> AlignedRun<N> {
             .chain(run.vbat.iter().flat_map(|c| c.present()))
             .fold(0.0, |most: f64, (_, u)| most.max(u.abs()));
         let turned = turned(signals_of(&run.w), span.clone(), &dt);
-        let mut laid = Self {
+        Some(Self {
             name: run.name.clone(),
             steps: steps_of_rows(&robot_of::<N, f64>(robot, 1.0), &rims, &t, &dt),
             t,
@@ -206,9 +206,7 @@ impl<const N: usize> AlignedRun<N> {
             correlation_time: [0.0; MAX_CHANNELS],
             unsigned_current: run.i.as_ref().is_some_and(|g| g.unsigned),
             largest_voltage,
-        };
-        laid.losses = Losses::shown(&laid, robot);
-        Some(laid)
+        })
     }
 
     /// The run cut into `parts` of equal length, each beginning on a row of the driving signal.

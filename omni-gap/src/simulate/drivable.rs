@@ -1,6 +1,7 @@
 //! A run that must be able to drive a model, or one message that says why it cannot.
 
 use super::aligned_run::AlignedRun;
+use super::lost_commands::find_losses;
 use crate::error::{Error, InputKind, Result};
 use crate::log::{RobotFile, Run};
 
@@ -9,7 +10,11 @@ use crate::log::{RobotFile, Run};
 /// # Errors
 /// Where nothing in the run can drive a model.
 pub fn drivable<const N: usize>(run: &Run, robot: &RobotFile) -> Result<AlignedRun<N>> {
-    AlignedRun::new(run, robot).ok_or_else(|| {
+    let laid = AlignedRun::new(run, robot).map(|mut laid| {
+        find_losses([&mut laid], robot);
+        laid
+    });
+    laid.ok_or_else(|| {
         let problem = "nothing in it can drive a model: no voltage, signed current, wheel speed or commanded speed";
         Error::input(run.place(), problem, "Log at least one of u, i, w or wset for every wheel")
             .of_kind(InputKind::Missing)

@@ -32,7 +32,7 @@ use crate::engine::knobs::SelftestKnobs;
 use crate::engine::stepwise::{Cause, Data, Scored};
 use crate::identify::Prior;
 use crate::log::{RobotFile, SensorsFile};
-use crate::simulate::{AlignedRun, MAX_CHANNELS, Model, Row, RunPlan, SignalGroup, pool_losses, supply_seen};
+use crate::simulate::{AlignedRun, MAX_CHANNELS, Model, Row, RunPlan, SignalGroup, find_losses, supply_seen};
 use crate::vocabulary::Progress;
 
 /// Finds for every cause of a self-test from what size on recordings as planned, by the channels that are `logged`, show it.
@@ -191,7 +191,7 @@ impl<'a, const N: usize> Simulated<'a, N> {
             Some(run)
         };
         let mut runs: Vec<_> = self.plans.iter().zip(&self.sigma).filter_map(run).collect();
-        pool_losses(&mut runs);
+        find_losses(&mut runs, self.file);
         Runs::with_some_held_out(runs, &self.knobs.engine.layout)
     }
 }
