@@ -152,7 +152,7 @@ fn reason(cause: &SeenCause) -> &'static str {
     if times <= LEAST_TIMES {
         "seen at the least size that is looked at: a law with a step where it is absent"
     } else if there.left > LEAVES {
-        "a law for which the diagnosis's own time steps are too coarse"
+        "even the true law leaves much: for the diagnosis's own time steps, or since a record tells only a part of it"
     } else if stated_part(&there) > STATES {
         "numbers imitate it along a curve, nearly whole: no straight line leads there"
     } else if evenly.is_some_and(agrees) {
