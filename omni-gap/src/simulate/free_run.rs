@@ -75,15 +75,6 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
         self.restart(row, state);
     }
 
-    /// What arrives of the input that is sent on a row.
-    #[inline]
-    fn arrived(&mut self, row: usize, sent: &Input<N, T>) -> Input<N, T> {
-        if self.plant.effects().none_at(Seam::Command) {
-            return *sent;
-        }
-        self.plant.receive(&mut self.memory, sent, self.run.telegram(row).as_ref())
-    }
-
     /// Takes the plant through a row with the input held.
     #[inline]
     pub fn pass(&mut self, row: usize, input: &Input<N, T>) -> RowPassed<N, T> {
@@ -91,7 +82,13 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
         let steps = self.run.steps(row).max((self.run.dt[row] / self.longest_s - ROUNDED).ceil() as usize);
         self.steps_taken += steps as u64;
         let dt = T::lit(self.run.dt[row] / steps as f64);
-        let input = &self.arrived(row, input);
+        let arrived;
+        let input = if self.plant.effects().none_at(Seam::Command) {
+            input
+        } else {
+            arrived = self.plant.receive(&mut self.memory, input, self.run.telegram(row).as_ref());
+            &arrived
+        };
         let unloaded = self.plant.open_circuit_voltage(&self.state, &self.memory);
         let reading = self.plant.step(&mut self.state, &mut self.memory, input, dt);
         let bus = self.state.bus;
