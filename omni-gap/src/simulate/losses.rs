@@ -59,6 +59,15 @@ pub(super) struct Odds {
 }
 
 impl Odds {
+    /// Takes a share; of one that loses nothing, no row is kept.
+    pub fn settle(&mut self, share: f64) {
+        if share > 0.0 {
+            self.share = share;
+        } else {
+            *self = Self::default();
+        }
+    }
+
     /// One over the share of lost telegrams, where this one was lost; zero where it was heard.
     fn evidence(&self, row: usize) -> f64 {
         match self.of_row.get(row) {

@@ -43,8 +43,8 @@ pub fn find_losses<'a, const N: usize>(runs: impl IntoIterator<Item = &'a mut Al
     let all = most_likely_share(shown.iter().map(|run| &run.all));
     let each: [f64; N] = std::array::from_fn(|j| most_likely_share(shown.iter().map(|run| &run.each[j])));
     for run in &mut shown {
-        run.all.share = all;
-        run.each.iter_mut().zip(each).for_each(|(odds, share)| odds.share = share);
+        run.all.settle(all);
+        run.each.iter_mut().zip(each).for_each(|(odds, share)| odds.settle(share));
     }
     runs.iter_mut().zip(shown).for_each(|(run, shown)| run.losses = Losses::Shown(shown));
 }
@@ -115,11 +115,12 @@ impl<'a, const N: usize> Answers<'a, N> {
         let (mut heard, mut left_over, mut in_a_row) = ([0.0; N], [None::<f64>; N], Vec::new());
         let mut odds = vec![0.0; run.rows()];
         for row in (0..run.rows()).filter(|row| run.driven[*row]) {
-            let sent = run.input[row];
+            let (sent, mut answers) = (run.input[row], [None; N]);
+            wheels.clone().for_each(|j| answers[j] = self.answer(row, j));
             // Σ d²/σ² and Σ d·(…)/σ²
             let (mut size, mut followed) = (0.0, 0.0);
             for j in wheels.clone() {
-                let Some((answer, before)) = self.answer(row, j).zip(left_over[j]) else { continue };
+                let Some((answer, before)) = answers[j].zip(left_over[j]) else { continue };
                 let change = per_command * (sent[j] - heard[j]);
                 let variance = self.variance(row, j);
                 size += change * change / variance;
@@ -140,7 +141,7 @@ impl<'a, const N: usize> Answers<'a, N> {
                 heard = sent;
             }
             for j in wheels.clone() {
-                let now = self.answer(row, j).map(|answer| answer - per_command * heard[j]);
+                let now = answers[j].map(|answer| answer - per_command * heard[j]);
                 left_over[j] = match (left_over[j], now) {
                     (Some(before), Some(now)) => Some(before + LAST_ROW * (now - before)),
                     (before, now) => now.or(before),
