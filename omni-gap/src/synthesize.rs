@@ -15,7 +15,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::error::Result;
 use crate::log::{Catalogue, RobotFile, Run, Session, corrected};
-use crate::simulate::{EffectInstance, Excitation, Model, NominalKey, SensorSetup, excite, record};
+use crate::simulate::{EffectInstance, Excitation, Model, NominalKey, SensorSetup, commanded, excite, record};
 
 /// What is staged.
 #[derive(Clone, Debug)]
@@ -102,11 +102,7 @@ fn perform<const N: usize>(file: &RobotFile, plan: &Scenario) -> Vec<Run> {
             let wish = Excitation { duration: plan.duration, rate: plan.rate, voltage: plan.voltage };
             let script = excite(&model.robot().wheels, &wish, seed);
             let t: Vec<f64> = (0..script.len()).map(|row| row as f64 / plan.rate).collect();
-            let command = |u: [f64; N]| match plan.by_set_speed {
-                true => Input::SetSpeed(u.map(|u| u / file.volts_per_wheel_speed())),
-                false => Input::Voltage(u),
-            };
-            let input: Vec<Input<N, f64>> = script.into_iter().map(command).collect();
+            let input: Vec<Input<N, f64>> = script.into_iter().map(|u| commanded(file, plan.by_set_speed, u)).collect();
             let mut run = record(&plant, &format!("run{k:02}"), &t, &input, &how, seed ^ 0x5eed);
             run.path = PathBuf::from(format!("runs/run{k:02}.csv"));
             run

@@ -8,6 +8,7 @@ use model_core::effects::card::{Card, Scope};
 use model_core::plant::Input;
 
 use super::channels::{Channels, SignalGroup};
+use super::commanded::commanded;
 use super::excite::voltages;
 use super::limits::usual_voltage;
 use super::model::{EffectInstance, Model};
@@ -115,11 +116,14 @@ pub fn effect_shown(file: &RobotFile, card: &'static Card) -> EffectShown {
     }
 }
 
-/// The robot of a file without an effect and with it, on the wheel that one such effect sits on.
+/// An effect at its typical size, where it sits on a robot that is to show it.
+fn typical(card: &'static Card) -> EffectInstance {
+    EffectInstance::typical(card, (card.scope == Scope::OneWheel).then_some(ONE_WHEEL))
+}
+
+/// The robot of a file without an effect and with it.
 pub(super) fn pair<const N: usize>(file: &RobotFile, card: &'static Card) -> [Model<N>; 2] {
     let voltage = usual_voltage(file);
-    let typical =
-        |card: &'static Card| EffectInstance::typical(card, (card.scope == Scope::OneWheel).then_some(ONE_WHEEL));
     let effect = typical(card);
     // what both drives have: what the file names, and the effect beside which alone this one shows
     let mut without = Model::<N>::nominal(file, voltage);
@@ -136,14 +140,9 @@ pub(super) fn pair<const N: usize>(file: &RobotFile, card: &'static Card) -> [Mo
 fn shown<const N: usize>(file: &RobotFile, card: &'static Card) -> EffectShown {
     let voltage = usual_voltage(file);
     let [without, with] = pair::<N>(file, card);
-    let effect = EffectInstance::typical(card, (card.scope == Scope::OneWheel).then_some(ONE_WHEEL));
 
     let volts = played(&DRIVE, |axes| voltages(&without.robot().wheels, axes, voltage));
-    let command = |u: [f64; N]| match card.of_speed_drive() {
-        true => Input::SetSpeed(u.map(|u| u / file.volts_per_wheel_speed())),
-        false => Input::Voltage(u),
-    };
-    let input: Vec<Input<N, f64>> = volts.into_iter().map(command).collect();
+    let input: Vec<Input<N, f64>> = volts.into_iter().map(|u| commanded(file, card.of_speed_drive(), u)).collect();
     let t_s: Vec<f64> = (0..input.len()).map(|row| row as f64 / RATE).collect();
     let how = SensorSetup {
         steps_a_row: STEPS_A_ROW,
@@ -162,7 +161,7 @@ fn shown<const N: usize>(file: &RobotFile, card: &'static Card) -> EffectShown {
         Some(ShownSignal { channel, noise, without: without?, with: with? })
     };
     let signals = (0..channels.count()).filter_map(signal).collect();
-    EffectShown { robot: file.name.clone(), wheels: N, effect, parts: parts(), t_s, signals }
+    EffectShown { robot: file.name.clone(), wheels: N, effect: typical(card), parts: parts(), t_s, signals }
 }
 
 /// The drive row by row, of what `of` makes of its three axes.

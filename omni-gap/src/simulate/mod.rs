@@ -9,6 +9,7 @@
 
 mod aligned_run;
 mod channels;
+mod commanded;
 mod drivable;
 mod effect_shown;
 mod effort;
@@ -44,6 +45,7 @@ mod white_noise;
 pub use crate::log::Chain;
 pub use aligned_run::{AlignedRun, supply_seen};
 pub use channels::{Channels, MAX_CHANNELS, PerGroup, Row, SignalGroup};
+pub use commanded::commanded;
 pub use drivable::drivable;
 pub use effect_shown::{EffectShown, ShownSignal, effect_shown};
 pub use effort::steps_taken;

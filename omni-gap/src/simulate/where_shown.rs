@@ -10,6 +10,7 @@ use model_core::effects::{EffectKind, drivetrain};
 use model_core::plant::Input;
 
 use super::channels::{Channels, SignalGroup};
+use super::commanded::commanded;
 use super::effect_shown::{ONE_WHEEL, Part, noise_of, pair, played};
 use super::excite::voltages;
 use super::limits::usual_voltage;
@@ -147,11 +148,7 @@ impl<'a, const N: usize> Compared<'a, N> {
 
     /// What the robot gets for voltages [V]; a drive that controls speed, the speeds that they would come to.
     fn input(&self, volts: &[[f64; N]], sign: f64) -> Vec<Input<N, f64>> {
-        let speed = self.file.volts_per_wheel_speed();
-        let of = |u: &[f64; N]| match self.card.of_speed_drive() {
-            true => Input::SetSpeed(u.map(|u| sign * u / speed)),
-            false => Input::Voltage(u.map(|u| sign * u)),
-        };
+        let of = |u: &[f64; N]| commanded(self.file, self.card.of_speed_drive(), u.map(|u| sign * u));
         volts.iter().map(of).collect()
     }
 
