@@ -26,6 +26,18 @@ fn robot(text: &str) -> RobotFile {
     RobotFile::parse(text, Path::new("robot.toml"), &known_effects()).unwrap_or_else(|why| panic!("{why}"))
 }
 
+/// The same robot with so many times the noise.
+fn with_noise(file: &RobotFile, times: f64) -> RobotFile {
+    let mut file = file.clone();
+    let s = &mut file.sensors;
+    for noise in
+        [&mut s.current_noise_a, &mut s.wheel_speed_noise_rad_s, &mut s.position_noise_m, &mut s.heading_noise_rad]
+    {
+        *noise *= times;
+    }
+    file
+}
+
 fn planned() -> PlannedRuns {
     let driven = Driven::Random { runs: RUNS, duration: DURATION, rate: RATE, voltage: VOLTAGE };
     PlannedRuns {
@@ -68,13 +80,7 @@ fn motion_along_one_axis_does_not_show_coriolis_and_motion_along_all_does() {
 #[test]
 fn half_the_noise_shows_twice_as_much_where_nothing_is_stated_to_hide_behind() {
     let coarse = robot(&text("feup-4w"));
-    let mut fine = coarse.clone();
-    let s = &mut fine.sensors;
-    for noise in
-        [&mut s.current_noise_a, &mut s.wheel_speed_noise_rad_s, &mut s.position_noise_m, &mut s.heading_noise_rad]
-    {
-        *noise *= 0.5;
-    }
+    let fine = with_noise(&coarse, 0.5);
     let (coarse, fine) = (said(&coarse, &planned()), said(&fine, &planned()));
     for id in ["dead_time", "floor_tilt", "encoder_scale", "marker_offset"] {
         let ratio = of(&fine, id).sigma / of(&coarse, id).sigma;
@@ -189,13 +195,7 @@ fn simulated_recordings_show_an_offset_from_the_size_on_that_its_closed_form_say
 #[test]
 fn twice_the_noise_needs_twice_the_size_in_simulated_recordings() {
     let fine = robot(&text("feup-3w"));
-    let mut coarse = fine.clone();
-    let s = &mut coarse.sensors;
-    for noise in
-        [&mut s.current_noise_a, &mut s.wheel_speed_noise_rad_s, &mut s.position_noise_m, &mut s.heading_noise_rad]
-    {
-        *noise *= 2.0;
-    }
+    let coarse = with_noise(&fine, 2.0);
     let ids = ["cog_offset", "floor_tilt"];
     let (fine, coarse) = (verified(&fine, &ids), verified(&coarse, &ids));
     for id in ids {

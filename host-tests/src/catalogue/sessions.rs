@@ -75,6 +75,13 @@ pub const FURTHER_WRONG_PARAMETERS: [WrongParameter; 6] = [
     WrongParameter { key: "distance_m", with: None, cause: "center_distance", ratio: 1.06, stated: 0.01 },
 ];
 
+impl WrongParameter {
+    /// Every key that is wrong by it.
+    fn keys(&self) -> impl Iterator<Item = &'static str> {
+        [Some(self.key), self.with].into_iter().flatten()
+    }
+}
+
 impl fmt::Display for WrongParameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let with = self.with.map_or(String::new(), |key| format!(" and `{key}`"));
@@ -242,9 +249,7 @@ impl BenchmarkCase {
                 plan.hidden.push(effect.clone());
             }
             HiddenCause::Nothing => {}
-            HiddenCause::Parameter(wrong) => {
-                plan.wrong.extend([Some(wrong.key), wrong.with].into_iter().flatten().map(|key| (key, wrong.ratio)));
-            }
+            HiddenCause::Parameter(wrong) => plan.wrong.extend(wrong.keys().map(|key| (key, wrong.ratio))),
         }
         plan
     }
@@ -313,7 +318,7 @@ mod tests {
             let file = RobotFile::parse(truth(wheels), Path::new("robot.toml"), &known_effects()).unwrap();
             assert_eq!(file.wheel.len(), wheels);
             for wrong in WRONG_PARAMETERS.into_iter().chain(FURTHER_WRONG_PARAMETERS) {
-                for key in [Some(wrong.key), wrong.with].into_iter().flatten() {
+                for key in wrong.keys() {
                     assert_eq!(file.relative_uncertainty(key), Some(wrong.stated), "{key}");
                 }
                 assert!(wrong.ratio.ln() > 4.0 * wrong.stated, "{}", wrong.key);

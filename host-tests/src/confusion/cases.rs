@@ -18,7 +18,7 @@ pub const CAMERA: f64 = 60.0;
 const TURNED_DEG: f64 = 45.0;
 
 /// What is logged.
-pub const LOGGED: [SignalGroup; 3] = [SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose];
+const LOGGED: [SignalGroup; 3] = [SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose];
 
 /// A robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +58,18 @@ pub struct Amount {
     pub duration: f64,
 }
 
+impl Amount {
+    /// As much of random motion on all axes at once, up to a voltage [V].
+    pub fn at_random(self, voltage: f64) -> Driven {
+        Driven::Random { runs: self.pieces, duration: self.duration, rate: RATE, voltage }
+    }
+}
+
+/// Recordings that are driven so, with what is logged.
+pub fn logged(driven: Driven) -> PlannedRuns {
+    PlannedRuns { driven, logged: LOGGED.to_vec(), camera_rate: CAMERA }
+}
+
 /// What the page is made of.
 pub const WHOLE: Amount = Amount { pieces: 6, duration: 10.0 };
 
@@ -75,6 +87,14 @@ impl Layout {
             Layout::Plus => truth(4).to_owned(),
             Layout::X => truth(4).lines().map(|line| turned(line) + "\n").collect(),
         }
+    }
+
+    /// Its robot file.
+    ///
+    /// # Errors
+    /// Where that is not sound.
+    pub fn robot(self) -> Result<RobotFile> {
+        RobotFile::parse(&self.text(), Path::new("robot.toml"), &known_effects())
     }
 
     /// Its name for people.
@@ -122,17 +142,14 @@ impl ConfusionCase {
     /// # Errors
     /// Where the robot file is not sound.
     pub fn confusion(self, amount: Amount) -> Result<Confusion> {
-        let file = RobotFile::parse(&self.layout.text(), Path::new("robot.toml"), &known_effects())?;
+        let file = self.layout.robot()?;
         let voltage = usual_voltage(&file);
         let driven = match (self.motion, self.layout) {
-            (Motion::AllAxes, _) => {
-                Driven::Random { runs: amount.pieces, duration: amount.duration, rate: RATE, voltage }
-            }
+            (Motion::AllAxes, _) => amount.at_random(voltage),
             (Motion::OneAxis, Layout::Three) => one_axis::<3>(&file, amount, voltage),
             (Motion::OneAxis, Layout::Plus | Layout::X) => one_axis::<4>(&file, amount, voltage),
         };
-        let plan = PlannedRuns { driven, logged: LOGGED.to_vec(), camera_rate: CAMERA };
-        confusion(&file, &plan, &SelftestKnobs::default())
+        confusion(&file, &logged(driven), &SelftestKnobs::default())
     }
 }
 
@@ -162,14 +179,14 @@ mod tests {
 
     #[test]
     fn the_wheels_of_the_x_layout_stand_between_the_axes() {
-        let file = RobotFile::parse(&Layout::X.text(), Path::new("robot.toml"), &known_effects()).unwrap();
+        let file = Layout::X.robot().unwrap();
         let angles: Vec<f64> = file.wheel.iter().map(|wheel| wheel.drive_angle_deg).collect();
         assert_eq!(angles, [135.0, 225.0, 315.0, 45.0]);
     }
 
     #[test]
     fn a_piece_of_one_axis_drives_the_others_not_at_all() {
-        let file = RobotFile::parse(&Layout::Three.text(), Path::new("robot.toml"), &known_effects()).unwrap();
+        let file = Layout::Three.robot().unwrap();
         let Driven::Scripts(runs) = one_axis::<3>(&file, Amount { pieces: 3, duration: 2.0 }, 8.0) else {
             panic!("a script");
         };
