@@ -39,7 +39,12 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    shows: Shows { channels: &[Channel::YawRate, Channel::WheelSpeed], regime: Regime::Speed, parity: Parity::Odd, order: None },
+    shows: Shows {
+        channels: &[Channel::YawRate, Channel::WheelSpeed],
+        regime: Regime::Speed,
+        parity: Parity::Odd,
+        order: None,
+    },
     signature: "torque short in step with the wheels' speed; current itself right",
     look_alikes: &[],
     code: 0,
