@@ -18,6 +18,10 @@ const FAR_BEYOND: f64 = 3.0;
 /// A number that the recordings know no better than this share of what was stated was not told by them
 const NO_SURER: f64 = 0.9;
 
+/// How many times as many steps as a diagnosis takes: one fit has the time, and what swings within milliseconds, as a play in
+/// the gears, is otherwise some per cent off where the noise would allow one.
+const FINER: u16 = 2;
+
 /// What became of a number in a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -119,6 +123,7 @@ pub(super) fn refuse_faulty(session: &Session) -> Result<()> {
 fn identified<const N: usize>(session: &Session) -> Result<Identification> {
     let mut runs: Vec<AlignedRun<N>> = session.runs.iter().filter_map(|r| AlignedRun::new(r, &session.robot)).collect();
     find_losses(&mut runs, &session.robot);
+    runs.iter_mut().for_each(|run| run.finer = FINER);
     if runs.is_empty() {
         let problem =
             "no run has a voltage, a signed current, a wheel speed or a commanded speed to drive the model with";

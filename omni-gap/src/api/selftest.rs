@@ -163,7 +163,7 @@ fn run_plans<const N: usize>(
             let model = Model::<N>::nominal(robot, supply_seen(&aligned));
             let one = |(k, run): (usize, &AlignedRun<N>)| {
                 let rows = run.rows();
-                let mean: usize = (0..rows).map(|row| run.steps(row)).sum::<usize>().div_ceil(rows);
+                let mean: usize = (0..rows).map(|row| usize::from(run.steps[row])).sum::<usize>().div_ceil(rows);
                 let how = SensorSetup { steps_a_row: mean * how.steps_a_row, ..how };
                 let input = (0..rows).map(|row| run.input(row)).collect();
                 RunPlan { name: run.name.clone(), t: run.t.clone(), input, how, seed: SEED + k as u64 }

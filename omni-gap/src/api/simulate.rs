@@ -29,7 +29,7 @@ fn simulated<const N: usize>(robot: &RobotFile, input: &Run, noise_seed: Option<
     let input = &*driven(input);
     let plant = Model::<N>::nominal(robot, supply_seen([&recorded])).plant();
     let rows = recorded.rows();
-    let mean: usize = (0..rows).map(|row| recorded.steps(row)).sum::<usize>().div_ceil(rows);
+    let mean: usize = (0..rows).map(|row| usize::from(recorded.steps[row])).sum::<usize>().div_ceil(rows);
     let how = SensorSetup {
         steps_a_row: FINER * mean,
         camera_rate: EVERY_ROW,

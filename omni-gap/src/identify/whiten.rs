@@ -76,6 +76,7 @@ mod tests {
             name: String::new(),
             t: Vec::new(),
             dt: Vec::new(),
+            finer: 1,
             steps: Vec::new(),
             chain: Chain::Voltage,
             input: Vec::new(),

@@ -22,6 +22,9 @@ use crate::log::{Chain, Channel, Group, RobotFile, Run, Sampled};
 const LEAST_GYRO_RAD_S: f64 = 1e-3;
 const LEAST_BATTERY_V: f64 = 5e-3;
 
+/// Parts of a step that are rounding [1]
+const ROUNDED: f64 = 1e-6;
+
 /// A recording of a robot with `N` wheels, ready to be compared with a model.
 #[derive(Clone, Debug)]
 pub struct AlignedRun<const N: usize> {
@@ -33,6 +36,8 @@ pub struct AlignedRun<const N: usize> {
     pub dt: Vec<f64>,
     /// In how many equal steps the plant takes each row
     pub steps: Vec<u16>,
+    /// How many times as many it takes: more than one where a law's own number is to be known as well as the noise allows
+    pub finer: u16,
     /// What drives the model.
     pub chain: Chain,
     /// The driving signal, row by row [V], [A] or [rad/s]; holes hold the last value
@@ -192,6 +197,7 @@ impl<const N: usize> AlignedRun<N> {
         Some(Self {
             name: run.name.clone(),
             steps: steps_of_rows(&robot_of::<N, f64>(robot, 1.0), &rims, &t, &dt),
+            finer: 1,
             t,
             dt,
             chain,
@@ -307,10 +313,12 @@ impl<const N: usize> AlignedRun<N> {
         }
     }
 
-    /// In how many equal steps the plant takes a row.
+    /// In how many equal steps a plant takes a row that asks for none longer than this [s].
     #[inline]
-    pub fn steps(&self, row: usize) -> usize {
-        self.steps[row].into()
+    pub fn steps_within(&self, row: usize, longest_s: f64) -> usize {
+        // a row that lasts as long as so many longest steps is not taken in one more
+        let asked = (self.dt[row] / longest_s - ROUNDED).ceil() as usize;
+        usize::from(self.finer) * asked.max(self.steps[row].into())
     }
 
     /// What a plant says on a row as a row of channels, currents as magnitudes where the log keeps only those.

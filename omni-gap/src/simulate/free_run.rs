@@ -15,9 +15,6 @@ use super::effort;
 use super::row_passed::RowPassed;
 use super::start::start_at;
 
-/// Parts of a step that are rounding [1].
-const ROUNDED: f64 = 1e-6;
-
 /// A plant on its way along a recording.
 #[derive(Debug)]
 pub struct FreeRun<'a, const N: usize, T: Real> {
@@ -78,8 +75,7 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
     /// Takes the plant through a row with the input held.
     #[inline]
     pub fn pass(&mut self, row: usize, input: &Input<N, T>) -> RowPassed<N, T> {
-        // a row that lasts as long as so many longest steps is not taken in one more
-        let steps = self.run.steps(row).max((self.run.dt[row] / self.longest_s - ROUNDED).ceil() as usize);
+        let steps = self.run.steps_within(row, self.longest_s);
         self.steps_taken += steps as u64;
         let dt = T::lit(self.run.dt[row] / steps as f64);
         let arrived;
@@ -172,6 +168,22 @@ mod tests {
         for kind in [EffectKind::ShaftElasticity, EffectKind::Backlash, EffectKind::CurrentLag] {
             let asked = u64::from(model(Some(kind), None).plant().needs().steps_per_s);
             assert_eq!(steps_a_row(&model(Some(kind), None)), asked / 100);
+        }
+    }
+
+    #[test]
+    fn a_finer_run_is_taken_in_so_many_times_as_many_steps() {
+        for kind in [None, Some(EffectKind::Backlash)] {
+            let model = model(kind, None);
+            let run = AlignedRun::<4>::new(&recorded(&model), &robot()).unwrap();
+            let steps = |finer: u16| {
+                let plant = model.plant();
+                let finer = AlignedRun { finer, ..run.clone() };
+                let mut on_the_way = FreeRun::new(&plant, &finer);
+                on_the_way.pass(50, &run.input(50));
+                on_the_way.steps_taken
+            };
+            assert_eq!(steps(3), 3 * steps(1));
         }
     }
 
