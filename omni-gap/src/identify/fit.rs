@@ -8,7 +8,9 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::chance;
 use super::linear::{Linearised, Reduced, linearise};
+use super::misfit::Misfit;
 use super::prior::{Prior, PriorRow};
 use super::shoot::{Piece, Shots, Starts, run_some_windows};
 use super::starts::{better_starts, starts_of};
@@ -39,13 +41,15 @@ pub struct Fit<const N: usize> {
     pub cost: f64,
     /// How many numbers were compared.
     pub samples: usize,
+    /// How far each window is missed, run by run
+    pub windows: Vec<Misfit>,
     /// Σ violation² of what was stated
     pub prior_cost: f64,
     /// What the data were weighted down by.
     pub dispersion: f64,
     /// What they should be weighted down by, as this fit sees it; one for a model that is right.
     pub spread: f64,
-    /// Covariance of the free numbers, robust against errors that go on through a window.
+    /// Covariance of the free numbers, robust against errors that go on through a window; with what chance adds.
     pub covariance: DMatrix<f64>,
     /// The reduced equations of what was measured, at this fit and for errors as they are.
     pub equations: Reduced,
@@ -156,9 +160,13 @@ pub(super) fn fit_on<const N: usize>(
     let misfit = linear.misfit();
     let (cost, samples) = (misfit.cost(), misfit.numbers);
     let spread = spread(&reduced, &equations).max(cost / samples.max(1) as f64).max(1.0);
+    let mut covariance = covariance(&reduced, data, free.len());
+    for (k, slot) in slots.iter().enumerate() {
+        covariance[(k, k)] += chance::variance(&model, shots, *slot);
+    }
     let fitted = Fit {
         spread,
-        covariance: covariance(&reduced, data, free.len()),
+        covariance,
         equations,
         dispersion,
         prior_cost: prior.cost(&model),
@@ -167,6 +175,7 @@ pub(super) fn fit_on<const N: usize>(
         starts,
         cost,
         samples,
+        windows: linear.misfits().into_iter().flatten().collect(),
     };
     (fitted, linear)
 }

@@ -7,6 +7,7 @@
 
 mod answer;
 mod block;
+mod chance;
 mod disagree;
 mod dispersion;
 mod driven;

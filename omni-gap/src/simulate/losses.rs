@@ -77,6 +77,11 @@ impl Odds {
         }
     }
 
+    /// Telegrams whose loss would have shown.
+    fn told(&self) -> usize {
+        self.of_row.iter().filter(|odds| **odds > 0.0).count()
+    }
+
     fn part(&self, rows: Range<usize>) -> Self {
         Self { of_row: self.of_row.get(rows).unwrap_or_default().to_vec(), share: self.share }
     }
@@ -86,7 +91,7 @@ impl Odds {
 pub(super) fn most_likely_share<'a>(runs: impl Iterator<Item = &'a Odds> + Clone) -> f64 {
     let [card] = EffectKind::CommandLoss.card().params else { unreachable!("the share alone sizes it") };
     let odds = || runs.clone().flat_map(|run| &run.of_row).map(|odds| f64::from(*odds)).filter(|odds| *odds > 0.0);
-    let telling = odds().count().max(1) as f64;
+    let telling = runs.clone().map(Odds::told).sum::<usize>().max(1) as f64;
     // p ← mean of P(lost)
     let step = |p: f64, _| odds().map(|odds| p * odds / (p * odds + 1.0 - p)).sum::<f64>() / telling;
     let share = (0..STEPS).fold(card.typical, step);
@@ -103,6 +108,14 @@ impl<const N: usize> Losses<N> {
                 all: Delivery::Shown(all.evidence(row)),
                 each: std::array::from_fn(|j| Delivery::Shown(each[j].evidence(row))),
             },
+        }
+    }
+
+    /// In how many telegrams a loss would have shown, for all wheels or for one alone.
+    pub fn told(&self, wheel: Option<usize>) -> usize {
+        match self {
+            Self::Drawn(chances) => chances.len(),
+            Self::Shown(ShownLosses { all, each }) => wheel.map_or(all, |j| &each[j]).told(),
         }
     }
 
