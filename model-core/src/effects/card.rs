@@ -273,6 +273,11 @@ impl Card {
         self.seams == [Seam::SpeedDrive]
     }
 
+    /// True if a record shows each time that it happens, so that it is counted: a command that the current does not answer.
+    pub fn shows_event_by_event(&self) -> bool {
+        self.seams[0] == Seam::Command
+    }
+
     /// The index of a parameter by its key.
     pub fn param(&self, key: &str) -> Option<usize> {
         self.params.iter().position(|p| p.key == key)

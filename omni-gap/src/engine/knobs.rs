@@ -119,11 +119,12 @@ pub struct SearchKnobs {
     /// nothing is there.
     pub convincing_each: f64,
     /// An effect has to take this share off Σ error² of one channel [1]: a significant but tiny improvement explains nothing.
-    /// Of one channel, since what shows in the poses alone, or on one wheel, is not made smaller by what else was logged.
+    /// Of one channel, since what shows in the poses alone, or on one wheel, is not made smaller by what else was logged. What a
+    /// record shows event by event need not: it was counted.
     pub relevant: f64,
     /// A further effect has to take this share off what the first causes left of one channel [1]. By trial.
     pub relevant_further: f64,
-    /// Score within which two causes are not told apart [1]: a likelihood ratio of e⁴ at the most.
+    /// Score within which two causes are not told apart [1]: a likelihood ratio of e⁴ at the most. No window counts for more.
     pub tie: f64,
     /// Standard errors of a difference of scores that count as none [1]: 95 %.
     pub tie_errors: f64,

@@ -39,6 +39,7 @@ impl Standing {
         let size = left.size_of(suspect.typical);
         let relevant = match suspect.cause {
             // by the channel where it shows most
+            Cause::Effect(card, _) if card.shows_event_by_event() => 0.0,
             Cause::Effect(..) => search.relevant * size / left.most_in_a_channel(suspect.typical),
             Cause::Parameter(_) => 0.0,
         };

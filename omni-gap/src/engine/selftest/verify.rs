@@ -137,8 +137,8 @@ impl<'a, const N: usize> Simulated<'a, N> {
         let each = search.convincing_each + search.price_of_freedom;
         let gain = shown.gain / (search.convincing + each * cause.freedom(&self.prior) as f64);
         let quotient = match cause {
-            Cause::Effect(..) => gain.min(shown.taken / search.relevant),
-            Cause::Parameter(_) => gain,
+            Cause::Effect(card, _) if !card.shows_event_by_event() => gain.min(shown.taken / search.relevant),
+            Cause::Effect(..) | Cause::Parameter(_) => gain,
         };
         0.5 * quotient.max(self.knobs.least_size).ln()
     }

@@ -26,10 +26,10 @@ pub(super) fn convincing<const N: usize>(
     match best.cause {
         // what was stated is data too: a parameter need not predict better, only be more believable
         Cause::Parameter(_) => !further || taken > knobs.relevant,
-        Cause::Effect(..) => {
+        Cause::Effect(card, _) => {
             let least = if further { knobs.relevant_further } else { knobs.relevant };
-            taken > least
-                && best.scored.surely_better_than(base, scale, knobs.tie_errors)
+            (taken > least || card.shows_event_by_event())
+                && best.scored.surely_better_than(base, scale, knobs)
                 && has_size(best, prior, knobs.size_errors)
         }
     }

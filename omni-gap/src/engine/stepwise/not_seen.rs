@@ -26,8 +26,8 @@ pub(super) fn not_seen<const N: usize>(search: &Search<N>, data: &Data<'_, N>) -
     }
     let screened = &search.rounds[0].screened;
     let mut named: Vec<&str> = Vec::new();
-    for effect in &EffectKind::ALL {
-        let card = effect.card();
+    // what a record shows event by event, it shows where there is none too
+    for card in EffectKind::ALL.iter().map(|effect| effect.card()).filter(|card| !card.shows_event_by_event()) {
         let best = screened.iter().filter(|s| s.candidate.card.id == card.id).map(|s| s.visible).fold(0.0, f64::max);
         let tried = screened.iter().any(|s| s.candidate.card.id == card.id);
         if tried && best < data.knobs.screen.visible && !named.contains(&card.id) {

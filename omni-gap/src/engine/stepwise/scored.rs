@@ -1,7 +1,7 @@
 //! A model judged: fitted on some runs, and scored by how well it predicts those that no fit has seen.
 
 use crate::engine::evidence::Runs;
-use crate::engine::knobs::Knobs;
+use crate::engine::knobs::{Knobs, SearchKnobs};
 use crate::identify::{
     Fit, Free, Misfit, Prior, Shots, Starts, Windows, effect_free, fit_with_dispersion, nominal_free, profile,
 };
@@ -31,8 +31,8 @@ pub struct Scored<const N: usize> {
     pub fit: Fit<N>,
     /// From where each held-out window starts.
     pub starts: Vec<Starts>,
-    /// Σ error² [σ²] of each held-out window, its start free.
-    pub windows: Vec<f64>,
+    /// How far each held-out window is missed, its start free.
+    pub windows: Vec<Misfit>,
     /// How far all of them are missed.
     pub misfit: Misfit,
     /// Numbers compared on held-out runs, less those that the starts take up.
@@ -66,27 +66,28 @@ impl<const N: usize> Scored<N> {
 
     /// How much better (positive) this is than another, and the standard error of that, over windows.
     pub fn better_than(&self, other: &Self, scale: f64) -> (f64, f64) {
-        (other.score(scale) - self.score(scale), standard_error(&self.gains(other, scale)))
+        let gains: Vec<f64> = gains(&other.windows, &self.windows, scale).collect();
+        (other.score(scale) - self.score(scale), standard_error(&gains))
     }
 
-    /// True if this is better than another by more than so many standard errors over windows. A window whose difference is
-    /// the largest by far (a start that no model finds its way from) makes the error as large as the whole gain: where all
-    /// windows are not sure, those without it may be.
-    pub fn surely_better_than(&self, other: &Self, scale: f64, errors: f64) -> bool {
-        sure(other.score(scale) - self.score(scale), self.gains(other, scale), errors)
-    }
-
-    /// What each window gains over another model.
-    fn gains(&self, other: &Self, scale: f64) -> Vec<f64> {
-        other.windows.iter().zip(&self.windows).map(|(o, s)| (o - s) / scale).collect()
+    /// True if this is better than another by more than chance, over all windows, those of the fit among them: what happens
+    /// now and then happens in few. No window says more than that it is sure, so that one that went wrong (a start that no
+    /// model finds its way from) neither hides what all others say nor says it alone.
+    pub fn surely_better_than(&self, other: &Self, scale: f64, knobs: &SearchKnobs) -> bool {
+        let fitted = gains(&other.fit.windows, &self.fit.windows, scale);
+        sure(fitted.chain(gains(&other.windows, &self.windows, scale)), knobs)
     }
 }
 
-/// True if a gain is more than so many standard errors over its windows, or over them without the largest.
-fn sure(gain: f64, mut windows: Vec<f64>, errors: f64) -> bool {
-    windows.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let beyond = |gain: f64, windows: &[f64]| gain > errors * standard_error(windows);
-    beyond(gain, &windows) || windows.split_last().is_some_and(|(largest, others)| beyond(gain - largest, others))
+/// What each window gains from one model to another.
+fn gains(before: &[Misfit], after: &[Misfit], scale: f64) -> impl Iterator<Item = f64> {
+    before.iter().zip(after).map(move |(before, after)| (before.cost() - after.cost()) / scale)
+}
+
+/// True if windows gain more together than chance, none of them more than makes it sure.
+fn sure(gains: impl Iterator<Item = f64>, knobs: &SearchKnobs) -> bool {
+    let votes: Vec<f64> = gains.map(|gain| gain.clamp(-knobs.tie, knobs.tie)).collect();
+    votes.iter().sum::<f64>() > knobs.tie_errors * standard_error(&votes)
 }
 
 /// The standard error of a sum.
@@ -134,7 +135,7 @@ impl<'a, const N: usize> Data<'a, N> {
         Scored {
             freedom: (misfit.numbers as f64 - 6.0 * windows.len() as f64).max(1.0),
             starts,
-            windows: windows.iter().map(Misfit::cost).collect(),
+            windows,
             misfit,
             stated: fitted.prior_cost,
             fit: fitted,
@@ -148,17 +149,26 @@ impl<'a, const N: usize> Data<'a, N> {
 mod tests {
     use super::*;
 
-    fn sure_of(windows: &[f64]) -> bool {
-        sure(windows.iter().sum(), windows.to_vec(), 2.0)
+    fn votes(gains: &[f64]) -> bool {
+        sure(gains.iter().copied(), &SearchKnobs::default())
     }
 
     #[test]
     fn one_window_that_went_wrong_neither_hides_a_gain_that_all_others_show_nor_makes_one() {
         let others = [40.0, 55.0, 38.0, 61.0, 47.0, 52.0, 44.0];
-        assert!(sure_of(&others));
-        assert!(sure_of(&[&others[..], &[6e5]].concat()), "the others are sure");
+        assert!(votes(&others));
+        assert!(votes(&[&others[..], &[6e5]].concat()), "the others are sure");
+        assert!(votes(&[&others[..], &[-6e5]].concat()), "seven to one");
         let nothing = [1.0, -2.0, 0.5, -0.3, 1.4, -1.1, 0.6];
-        assert!(!sure_of(&nothing));
-        assert!(!sure_of(&[&nothing[..], &[6e5]].concat()), "one window alone is no proof");
+        assert!(!votes(&nothing));
+        assert!(!votes(&[&nothing[..], &[6e5]].concat()), "one window alone is no proof");
+    }
+
+    #[test]
+    fn what_happens_now_and_then_is_judged_by_how_often_it_does() {
+        let quiet = [0.1, -0.2, 0.0, 0.3, -0.1, 0.05, -0.3, 0.2, -0.05, 0.1, -0.15, 0.0, 0.2, -0.1, 0.1, 0.0];
+        assert!(votes(&[&quiet[..], &[210.0, 14.0, 4e4, 90.0, 300.0]].concat()), "five commands were lost");
+        assert!(!votes(&[&quiet[..], &[210.0, 4e4]].concat()), "two may be chance");
+        assert!(!votes(&[&quiet[..], &[210.0, -14.0, 4e4, -90.0, 300.0]].concat()), "two of five say the opposite");
     }
 }
