@@ -13,6 +13,7 @@
 //! - [`catalogue`]: the benchmark of the diagnosis, on recordings whose truth is known;
 //! - [`confusion`]: which cause would be taken for which, on three robots and with two kinds of motion;
 //! - [`verified`]: the sizes that the self-test foretells, found in simulated recordings of three robots;
+//! - [`carried`]: effects that a robot file carries with a wrong size, and what `identify` makes of it;
 //! - [`frozen`]: whole reports that stay as they are while walls move;
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
 //! - [`real`]: what the diagnosis says of recordings of real robots;
@@ -32,6 +33,7 @@
 // A unit in brackets, [V], is not a link.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+pub mod carried;
 pub mod catalogue;
 pub mod confusion;
 pub mod costs;

@@ -50,6 +50,12 @@ pub const ERRANDS: &[Errand] = &[
         run: selftest,
     },
     Errand {
+        name: "carried",
+        takes: "",
+        does: "identify robots whose files carry each effect with a wrong size (BLESS=1: rewrite)",
+        run: carried,
+    },
+    Errand {
         name: "identification",
         takes: "",
         does: "identify robots whose truth is known by the thousand and rewrite the golden page (most of an hour)",
@@ -172,6 +178,10 @@ fn confusion(_: Option<OsString>) -> Result<(), String> {
 
 fn selftest(_: Option<OsString>) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin selftest"))
+}
+
+fn carried(_: Option<OsString>) -> Result<(), String> {
+    announced(Line::of("cargo run --release -p host-tests --bin carried"))
 }
 
 fn identification(_: Option<OsString>) -> Result<(), String> {

@@ -35,7 +35,7 @@ pub fn promises(outcomes: &[BenchmarkOutcome]) -> Vec<Promise> {
     let wrong = |h: &HiddenCause| matches!(h, HiddenCause::Parameter(_));
     let promise = |what: &str, kept: usize, of: usize, least: usize| Promise { what: what.to_owned(), kept, of, least };
     vec![
-        promise("the hidden effect first, or named in the set of the first", right().count(), of(effect).count(), 90),
+        promise("the hidden effect first, or named in the set of the first", right().count(), of(effect).count(), 93),
         promise(
             "of these, closed at least 80 % of what the true model closes",
             closing().filter(|share| *share >= ENOUGH_CLOSED).count(),

@@ -170,6 +170,11 @@ pub fn plain_cases() -> Vec<BenchmarkCase> {
     (FIRST_PLAIN_SEED..).zip(hidden).map(case).collect()
 }
 
+/// Every effect at its typical size on both robots, in the order in which the catalogue grew.
+pub fn effects_on_both(first_seed: u64, staging: Staging) -> Vec<BenchmarkCase> {
+    on_both(first_seed, effects(&cards_by_code()).into_iter(), staging)
+}
+
 /// What is recorded of a robot whose numbers are just those of its file.
 pub fn plain() -> Scenario {
     Scenario { uncertain: false, runs: 6, duration: 10.0, rate: 200.0, ..Scenario::default() }
