@@ -70,12 +70,13 @@ impl<const N: usize> Scored<N> {
         (other.score(scale) - self.score(scale), standard_error(&gains))
     }
 
-    /// True if this is better than another by more than chance, over all windows, those of the fit among them: what happens
-    /// now and then happens in few. No window says more than that it is sure, so that one that went wrong (a start that no
-    /// model finds its way from) neither hides what all others say nor says it alone.
+    /// True if this is better than another by more than chance: by how much the held-out windows gain, or by how many of all
+    /// windows do, those of the fit among them, since what happens now and then happens in few.
     pub fn surely_better_than(&self, other: &Self, scale: f64, knobs: &SearchKnobs) -> bool {
+        let held: Vec<f64> = gains(&other.windows, &self.windows, scale).collect();
         let fitted = gains(&other.fit.windows, &self.fit.windows, scale);
-        sure(fitted.chain(gains(&other.windows, &self.windows, scale)), knobs)
+        by_much(other.score(scale) - self.score(scale), &held, knobs.tie_errors)
+            || by_many(fitted.chain(held.iter().copied()), knobs)
     }
 }
 
@@ -84,8 +85,17 @@ fn gains(before: &[Misfit], after: &[Misfit], scale: f64) -> impl Iterator<Item 
     before.iter().zip(after).map(move |(before, after)| (before.cost() - after.cost()) / scale)
 }
 
-/// True if windows gain more together than chance, none of them more than makes it sure.
-fn sure(gains: impl Iterator<Item = f64>, knobs: &SearchKnobs) -> bool {
+/// True if a gain is more than so many standard errors over its windows. A window whose difference is the largest by far (a
+/// start that no model finds its way from) makes the error as large as the whole gain: then it may be without that one.
+fn by_much(gain: f64, windows: &[f64], errors: f64) -> bool {
+    let mut windows = windows.to_vec();
+    windows.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let beyond = |gain: f64, windows: &[f64]| gain > errors * standard_error(windows);
+    beyond(gain, &windows) || windows.split_last().is_some_and(|(largest, others)| beyond(gain - largest, others))
+}
+
+/// True if windows gain more together than chance, none of them counting for more than that it is sure.
+fn by_many(gains: impl Iterator<Item = f64>, knobs: &SearchKnobs) -> bool {
     let votes: Vec<f64> = gains.map(|gain| gain.clamp(-knobs.tie, knobs.tie)).collect();
     votes.iter().sum::<f64>() > knobs.tie_errors * standard_error(&votes)
 }
@@ -150,7 +160,7 @@ mod tests {
     use super::*;
 
     fn votes(gains: &[f64]) -> bool {
-        sure(gains.iter().copied(), &SearchKnobs::default())
+        by_many(gains.iter().copied(), &SearchKnobs::default())
     }
 
     #[test]
@@ -162,6 +172,14 @@ mod tests {
         let nothing = [1.0, -2.0, 0.5, -0.3, 1.4, -1.1, 0.6];
         assert!(!votes(&nothing));
         assert!(!votes(&[&nothing[..], &[6e5]].concat()), "one window alone is no proof");
+    }
+
+    #[test]
+    fn a_gain_may_be_sure_by_its_size_without_its_largest_window() {
+        let much = |windows: &[f64]| by_much(windows.iter().sum(), windows, SearchKnobs::default().tie_errors);
+        let others = [40.0, 55.0, 38.0, 61.0, 47.0, 52.0, 44.0];
+        assert!(much(&others) && much(&[&others[..], &[6e5]].concat()));
+        assert!(!much(&[1.0, -2.0, 0.5, -0.3, 1.4, -1.1, 0.6, 6e5]), "one window alone is no proof");
     }
 
     #[test]
