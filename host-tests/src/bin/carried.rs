@@ -15,7 +15,7 @@ fn main() -> ExitCode {
 fn made() -> Result<bool, Error> {
     let mut numbers = Vec::new();
     for case in cases() {
-        let own = CarriedNumber::of(&case)?;
+        let own = CarriedNumber::of(&case, case.identified()?)?;
         let off = own.iter().map(|number| number.off_sigmas().map_or("–".to_owned(), |off| format!("{off:.1} σ")));
         println!("{} wheels, {}: {}", case.wheels(), case.effect.id, off.collect::<Vec<_>>().join(", "));
         numbers.extend(own);

@@ -53,14 +53,6 @@ impl CarriedCase {
         self.staged.wheels
     }
 
-    /// The text of its robot's file without the effect, but with the one beside which it shows.
-    ///
-    /// # Errors
-    /// Where the example is not sound.
-    pub fn beside(&self) -> Result<String> {
-        self.staged.truth()
-    }
-
     /// What is recorded: the effect stands in the files, none is hidden.
     fn plan(&self) -> Scenario {
         Scenario { hidden: Vec::new(), ..self.staged.plan() }
@@ -71,7 +63,7 @@ impl CarriedCase {
     /// # Errors
     /// Where the example is not sound.
     pub fn session(&self) -> Result<Session> {
-        let truth = with_effect(&self.beside()?, &self.effect, 1.0)?;
+        let truth = with_effect(&self.staged.truth()?, &self.effect, 1.0)?;
         let mut session = synthesize(&truth, &self.plan(), &known_effects())?;
         session.robot_text = with_effect(&session.robot_text, &self.effect, OFF)?;
         session.robot = RobotFile::parse(&session.robot_text, Path::new("robot.toml"), &known_effects())?;

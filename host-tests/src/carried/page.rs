@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use omni_gap::api::{FitRemark, FittedEffectNumber};
+use omni_gap::api::{FitRemark, FittedEffectNumber, Identification};
 use omni_gap::error::Result;
 use omni_gap::report::num;
 
@@ -33,12 +33,11 @@ pub struct CarriedNumber {
 }
 
 impl CarriedNumber {
-    /// The numbers of a case's own effect.
+    /// The numbers of a case's own effect among those that were found.
     ///
     /// # Errors
-    /// Where the example is not sound.
-    pub fn of(case: &CarriedCase) -> Result<Vec<Self>> {
-        let found = case.identified()?;
+    /// Where the robot file that was found is not sound.
+    pub fn of(case: &CarriedCase, found: Identification) -> Result<Vec<Self>> {
         let phase_lost = case.phase_lost(&case.written(&found)?);
         let own = found.effects.into_iter().filter(|number| number.effect == case.effect.id);
         let beside_truth = |found: FittedEffectNumber| {
@@ -60,7 +59,7 @@ impl CarriedNumber {
     }
 
     /// The true departure from absent over its own sigma [1]; none where it was not fitted.
-    pub fn signal(&self) -> Option<f64> {
+    fn signal(&self) -> Option<f64> {
         Some((self.truth - self.absent).abs() / self.found.std?)
     }
 

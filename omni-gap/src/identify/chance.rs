@@ -4,8 +4,6 @@
 //! Var p = p·(1 − p)/n        n telegrams in which a loss would have shown
 //! ```
 
-use model_core::effects::EffectKind;
-
 use super::shoot::Shots;
 use crate::simulate::{Model, Slot};
 
@@ -13,7 +11,7 @@ use crate::simulate::{Model, Slot};
 pub(super) fn variance<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, slot: Slot) -> f64 {
     let Slot::Param(at, _) = slot else { return 0.0 };
     let effect = &model.effects[at];
-    if effect.id != EffectKind::CommandLoss.id() {
+    if !effect.card().shows_event_by_event() {
         return 0.0;
     }
     let telegrams: usize = shots.runs.iter().map(|run| run.losses.told(effect.wheel)).sum();
