@@ -1,0 +1,39 @@
+//! The battery: one for all motors, with a resistance that gives way at once and one that gives way later.
+//!
+//! ```text
+//! U = U₀ − R₀·I − U₁        τ₁·dU₁/dt = R₁·I − U₁
+//! I = Σ d_j·i_j             d_j = u_j/U_nominal: what a bridge passes on of a current
+//! ```
+
+use crate::robot::Battery;
+
+impl Battery {
+    /// What the motors are fed with [V] at a current [A] and a polarisation [V].
+    pub fn voltage(&self, current: f64, polarisation: f64) -> f64 {
+        self.open_circuit - self.resistance * current - polarisation
+    }
+
+    /// The polarisation after a step [s] with a current in it [A], from the one before [V], by the midpoint rule.
+    pub fn polarised(&self, polarisation: f64, current: f64, step: f64) -> f64 {
+        let half = 0.5 * step / self.polarisation_time;
+        (polarisation * (1.0 - half) + 2.0 * half * self.polarisation_resistance * current) / (1.0 + half)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_load_sags_at_once_and_then_slowly() {
+        let battery =
+            Battery { resistance: 0.1, polarisation_resistance: 0.2, polarisation_time: 0.5, ..Battery::stiff(12.0) };
+        let mut polarisation = 0.0;
+        assert_eq!(battery.voltage(5.0, polarisation), 11.5);
+        for _ in 0..5_000 {
+            polarisation = battery.polarised(polarisation, 5.0, 1e-4);
+        }
+        // one time constant: 5 A · 0.2 Ω · (1 − 1/e)
+        assert!((polarisation - (1.0 - libm::exp(-1.0))).abs() < 1e-8, "{polarisation}");
+    }
+}

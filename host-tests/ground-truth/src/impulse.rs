@@ -1,0 +1,165 @@
+//! Impulses: what constraints and set-valued friction do within one step.
+//!
+//! Every force that has a limit, or that is whatever it takes, is an impulse λ along a row h of the velocities V:
+//!
+//! ```text
+//! A·V⁺ = b + Σ h·λ        s = h·V⁺ + γ·λ + β
+//! λ = −λ_max where s > 0,   λ = λ_max where s < 0,   s = 0 in between
+//! ```
+//!
+//! γ = β = 0 is Coulomb's law (and, without limit, a rigid joint); γ is what yields under the force, β what has yielded
+//! before. Solved row by row, each impulse cut to its limit at once: projected Gauss–Seidel, which begins with the impulses
+//! of the step before.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// Rows are gone through until no speed changes by more than this [m/s, rad/s].
+const SETTLED: f64 = 1e-11;
+/// Or this often: a robot that is braced against itself has more than one answer.
+const MOST_SWEEPS: usize = 200;
+
+/// How fast two surfaces move past each other, as a row over all velocities.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Row {
+    /// Over the body's twist.
+    pub body: Vector3<f64>,
+    /// Over the speed of one shaft: which, and by how much.
+    pub shaft: Option<(usize, f64)>,
+    /// Over that of a second one.
+    pub other_shaft: Option<(usize, f64)>,
+}
+
+/// A force with a limit, or a rigid joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constraint {
+    /// Where it acts.
+    pub row: Row,
+    /// γ, by how much it yields to an impulse [m/s per N·s, rad/s per N·m·s]
+    pub yields: f64,
+    /// β, with what speed it would give way without an impulse, from what it has yielded before [m/s, rad/s]
+    pub relaxes: f64,
+    /// λ_max, the most that it can hold [N·s, N·m·s]; infinite for a rigid joint
+    pub limit: f64,
+}
+
+impl Constraint {
+    /// Dry friction, or a rigid joint where the limit is infinite.
+    pub fn dry(row: Row, limit: f64) -> Self {
+        Self { row, yields: 0.0, relaxes: 0.0, limit }
+    }
+}
+
+/// What the velocities are and how they answer to impulses.
+#[derive(Clone, Debug, Default)]
+pub struct Velocities {
+    /// The body's twist [m/s, m/s, rad/s]
+    pub body: Vector3<f64>,
+    /// Speeds of the shafts [rad/s]
+    pub shafts: Vec<f64>,
+    /// A⁻¹ over the body
+    pub body_mobility: Matrix3<f64>,
+    /// A⁻¹ over each shaft
+    pub shaft_mobility: Vec<f64>,
+}
+
+impl Velocities {
+    /// h·V
+    pub fn along(&self, row: &Row) -> f64 {
+        let shaft = |at: Option<(usize, f64)>| at.map_or(0.0, |(shaft, by)| by * self.shafts[shaft]);
+        row.body.dot(&self.body) + shaft(row.shaft) + shaft(row.other_shaft)
+    }
+
+    /// V ← V + A⁻¹·h·λ
+    fn push(&mut self, row: &Row, impulse: f64) {
+        self.body += self.body_mobility * row.body * impulse;
+        for (shaft, by) in [row.shaft, row.other_shaft].into_iter().flatten() {
+            self.shafts[shaft] += self.shaft_mobility[shaft] * by * impulse;
+        }
+    }
+
+    /// h·A⁻¹·hᵀ
+    fn mobility(&self, row: &Row) -> f64 {
+        let shaft = |at: Option<(usize, f64)>| at.map_or(0.0, |(shaft, by)| by * by * self.shaft_mobility[shaft]);
+        row.body.dot(&(self.body_mobility * row.body)) + shaft(row.shaft) + shaft(row.other_shaft)
+    }
+
+    /// Finds the impulses of all constraints and moves the velocities by them; `impulses` begins as a guess.
+    pub fn solve(&mut self, constraints: &[Constraint], impulses: &mut [f64]) {
+        for (constraint, impulse) in constraints.iter().zip(impulses.iter_mut()) {
+            *impulse = impulse.clamp(-constraint.limit, constraint.limit);
+            self.push(&constraint.row, *impulse);
+        }
+        for _ in 0..MOST_SWEEPS {
+            let mut most = 0.0_f64;
+            for (constraint, impulse) in constraints.iter().zip(impulses.iter_mut()) {
+                let Constraint { row, yields, relaxes, limit } = constraint;
+                let gives = self.mobility(row) + yields;
+                let slides = self.along(row) + yields * *impulse + relaxes;
+                let new = (*impulse - slides / gives).clamp(-limit, *limit);
+                self.push(row, new - *impulse);
+                most = most.max(((new - *impulse) * gives).abs());
+                *impulse = new;
+            }
+            if most < SETTLED {
+                break;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A block of 2 kg and a shaft of 0.5 kg·m² whose rim, at 1 m, rubs on it.
+    fn block_and_shaft(block: f64, shaft: f64) -> Velocities {
+        Velocities {
+            body: Vector3::new(block, 0.0, 0.0),
+            shafts: vec![shaft],
+            body_mobility: Matrix3::from_diagonal(&Vector3::new(0.5, 0.5, 10.0)),
+            shaft_mobility: vec![2.0],
+        }
+    }
+
+    const RIM: Row = Row { body: Vector3::new(1.0, 0.0, 0.0), shaft: Some((0, -1.0)), other_shaft: None };
+
+    #[test]
+    fn a_rigid_joint_leaves_one_speed_and_all_momentum() {
+        let (mut v, mut impulses) = (block_and_shaft(3.0, 1.0), [0.0]);
+        v.solve(&[Constraint::dry(RIM, f64::INFINITY)], &mut impulses);
+        // 2·3 + 0.5·1 over 2.5
+        assert!((v.body.x - 2.6).abs() < 1e-12 && (v.shafts[0] - 2.6).abs() < 1e-12, "{v:?}");
+        assert!((impulses[0] + 0.8).abs() < 1e-12);
+    }
+
+    #[test]
+    fn friction_slides_at_its_limit_and_holds_below() {
+        for (limit, slides) in [(0.3, true), (5.0, false)] {
+            let (mut v, mut impulses) = (block_and_shaft(3.0, 1.0), [0.0]);
+            v.solve(&[Constraint::dry(RIM, limit)], &mut impulses);
+            assert_eq!(impulses[0] == -limit, slides);
+            assert_eq!(v.along(&RIM) > 1e-9, slides);
+        }
+    }
+
+    #[test]
+    fn a_joint_that_yields_moves_as_far_as_its_force_says() {
+        let (mut v, mut impulses) = (block_and_shaft(3.0, 1.0), [0.0]);
+        v.solve(&[Constraint { yields: 0.25, ..Constraint::dry(RIM, f64::INFINITY) }], &mut impulses);
+        // s = 2 + (2.5 + γ)·λ = 0
+        assert!((impulses[0] + 2.0 / 2.75).abs() < 1e-12);
+        assert!((v.along(&RIM) + 0.25 * impulses[0]).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_good_guess_and_a_bad_one_come_to_the_same() {
+        let brake = Constraint::dry(Row { shaft: Some((0, 1.0)), ..Row::default() }, 0.2);
+        let rows = [Constraint::dry(RIM, 0.9), brake];
+        let found = [[0.0, 0.0], [-0.9, 0.2], [40.0, -40.0]].map(|mut impulses| {
+            let mut v = block_and_shaft(3.0, -1.0);
+            v.solve(&rows, &mut impulses);
+            impulses
+        });
+        assert!(found.iter().flatten().zip(found[0].iter().cycle()).all(|(a, b)| (a - b).abs() < 1e-11), "{found:?}");
+    }
+}
