@@ -17,6 +17,8 @@ mod geometry;
 mod paper_core;
 #[path = "proof/paper_robots.rs"]
 mod paper_robots;
+#[path = "proof/second_simulator.rs"]
+mod second_simulator;
 
 #[path = "proof/bounds.rs"]
 mod bounds;

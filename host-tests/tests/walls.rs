@@ -74,6 +74,21 @@ fn the_core_depends_on_libm_and_crc_alone() {
 }
 
 #[test]
+fn the_second_simulator_shares_no_line_with_the_first() {
+    let path = "host-tests/ground-truth/Cargo.toml";
+    let found = sources(&["toml"]);
+    let manifest = found.iter().find(|source| source.path == path).expect("the second simulator has a manifest");
+    assert!(!manifest::dependencies(&manifest.text).is_empty(), "{path}: not even nalgebra is found");
+    none(manifest::others_than(&["libm", "nalgebra"], manifest));
+    none(in_all(&rust_below("host-tests/ground-truth/"), |source| needles::in_code(source, needles::SECOND_SIMULATOR)));
+}
+
+#[test]
+fn the_second_simulator_moves_by_the_same_bits_everywhere() {
+    none(in_all(&rust_below("host-tests/ground-truth/src/"), |source| needles::in_code(source, needles::SAME_BITS)));
+}
+
+#[test]
 fn doors_between_the_rooms_open_one_way() {
     none(in_all(&rust_below(rooms::HOUSE), rooms::backward_doors));
 }
