@@ -65,6 +65,20 @@ fn script(u: impl Fn(f64) -> [f64; 4]) -> PlannedRuns {
 }
 
 #[test]
+fn lost_commands_are_seen_where_four_that_change_anything_are_lost() {
+    let file = robot(&text("feup-4w"));
+    // a change every quarter of a second, the first of which changes nothing that was heard before
+    let turns = |changes: f64| script(move |t| [if ((t * changes / 10.0) as usize).is_multiple_of(2) { 5.0 } else { 2.0 }; 4]);
+    for changes in [40.0, 80.0] {
+        let loss = of(&said(&file, &turns(changes)), "command_loss").seen_from;
+        let expected = 4.0 / (changes - 1.0);
+        assert!(loss.is_some_and(|share| (share - expected).abs() < 1e-9), "{loss:?} against {expected}");
+    }
+    // with fifteen, more would have to be lost than may be
+    assert_eq!(of(&said(&file, &turns(15.0)), "command_loss").seen_from, None);
+}
+
+#[test]
 fn motion_along_one_axis_does_not_show_coriolis_and_motion_along_all_does() {
     let file = robot(&text("feup-4w"));
     // wheels at 90°, 180°, 270°, 0°: forwards, wheels 1 and 3 turn against each other

@@ -23,8 +23,17 @@ const CERTAIN: f64 = 30.0;
 pub enum Losses<const N: usize> {
     /// As the record shows.
     Shown(ShownLosses<N>),
-    /// Nobody knows: drawn evenly between 0 and 1, a number a row.
-    Drawn(Vec<f64>),
+    /// Nobody knows, since nothing was recorded yet.
+    Drawn(DrawnLosses<N>),
+}
+
+/// The fate of telegrams that were not sent yet.
+#[derive(Clone, Debug)]
+pub struct DrawnLosses<const N: usize> {
+    /// Drawn evenly between 0 and 1, a number a row
+    pub(super) chances: Vec<f64>,
+    /// What a record would show
+    pub(super) would_show: ShownLosses<N>,
 }
 
 /// Which telegrams a record shows as lost.
@@ -39,6 +48,12 @@ pub struct ShownLosses<const N: usize> {
 impl<const N: usize> Default for ShownLosses<N> {
     fn default() -> Self {
         Self { all: Odds::default(), each: std::array::from_fn(|_| Odds::default()) }
+    }
+}
+
+impl<const N: usize> ShownLosses<N> {
+    fn part(&self, rows: Range<usize>) -> Self {
+        Self { all: self.all.part(rows.clone()), each: self.each.each_ref().map(|odds| odds.part(rows.clone())) }
     }
 }
 
@@ -103,7 +118,7 @@ impl<const N: usize> Losses<N> {
     /// How the telegram of a row fared.
     pub fn telegram(&self, row: usize) -> Telegram<N> {
         match self {
-            Self::Drawn(chances) => Telegram::drawn(chances[row]),
+            Self::Drawn(drawn) => Telegram::drawn(drawn.chances[row]),
             Self::Shown(ShownLosses { all, each }) => Telegram {
                 all: Delivery::Shown(all.evidence(row)),
                 each: std::array::from_fn(|j| Delivery::Shown(each[j].evidence(row))),
@@ -113,20 +128,17 @@ impl<const N: usize> Losses<N> {
 
     /// In how many telegrams a loss would have shown, for all wheels or for one alone.
     pub fn told(&self, wheel: Option<usize>) -> usize {
-        match self {
-            Self::Drawn(chances) => chances.len(),
-            Self::Shown(ShownLosses { all, each }) => wheel.map_or(all, |j| &each[j]).told(),
-        }
+        let (Self::Shown(shown) | Self::Drawn(DrawnLosses { would_show: shown, .. })) = self;
+        wheel.map_or(&shown.all, |j| &shown.each[j]).told()
     }
 
     /// Those of some rows.
     pub fn part(&self, rows: Range<usize>) -> Self {
         match self {
-            Self::Drawn(chances) => Self::Drawn(chances[rows].to_vec()),
-            Self::Shown(ShownLosses { all, each }) => Self::Shown(ShownLosses {
-                all: all.part(rows.clone()),
-                each: each.each_ref().map(|odds| odds.part(rows.clone())),
-            }),
+            Self::Drawn(DrawnLosses { chances, would_show }) => {
+                Self::Drawn(DrawnLosses { chances: chances[rows.clone()].to_vec(), would_show: would_show.part(rows) })
+            }
+            Self::Shown(shown) => Self::Shown(shown.part(rows)),
         }
     }
 }

@@ -18,7 +18,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::aligned_run::AlignedRun;
-use super::losses::{Losses, Odds, ShownLosses, most_likely_share};
+use super::losses::{DrawnLosses, Losses, Odds, ShownLosses, most_likely_share};
 use crate::log::{Chain, RobotFile};
 
 /// α, what the last row counts for in what is left over [1]: half, since a model's error wanders.
@@ -57,12 +57,13 @@ fn shown<const N: usize>(run: &AlignedRun<N>, robot: &RobotFile) -> ShownLosses<
 }
 
 impl<const N: usize> AlignedRun<N> {
-    /// The same, with the telegrams' fate drawn: what recordings that are yet to be made could show.
+    /// The same, with the telegrams' fate drawn: what recordings of this robot that are yet to be made could show.
     #[must_use]
-    pub fn with_drawn_losses(self, seed: u64) -> Self {
+    pub fn with_drawn_losses(self, robot: &RobotFile, seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let chances = (0..self.rows()).map(|_| random.random()).collect();
-        Self { losses: Losses::Drawn(chances), ..self }
+        let would_show = shown(&self, robot);
+        Self { losses: Losses::Drawn(DrawnLosses { chances, would_show }), ..self }
     }
 }
 

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::laid::Laid;
 use super::left::Left;
 use super::sensors::Sensors;
-use super::sizes::size_needed;
+use super::sizes::{size_needed, times_of_events};
 use super::standing::Standing;
 use super::suspects::{Column, Suspect, suspects};
 use super::view::View;
@@ -51,6 +51,7 @@ fn of_wheels<const N: usize>(file: &RobotFile, runs: &[Run], sensors: &Sensors, 
         let seen_times = match &columns[suspects[*k].typical] {
             // an effect without a size is there or not
             Column::Effect(effect) if !has_size(effect.card()) => now[*k].is_seen().then_some(1.0),
+            Column::Effect(effect) if effect.card().shows_event_by_event() => times_of_events(laid, effect, knobs),
             Column::Effect(effect) => size_needed(laid, effect, &views[0], (now[*k].size, now[*k].needed), knobs),
             Column::Factors(_) => Some(now[*k].seen()).filter(|times| times.is_finite()),
         };
@@ -100,7 +101,7 @@ fn confused<const N: usize>(
 fn aligned<const N: usize>(file: &RobotFile, runs: &[Run], logged: &[SignalGroup]) -> Vec<AlignedRun<N>> {
     let drawn = |(seed, run): (u64, AlignedRun<N>)| {
         let answers = if run.chain == Chain::SetSpeed { SignalGroup::WheelSpeed } else { SignalGroup::Current };
-        if logged.contains(&answers) { run.with_drawn_losses(seed) } else { run }
+        if logged.contains(&answers) { run.with_drawn_losses(file, seed) } else { run }
     };
     (0..).zip(runs.iter().filter_map(|run| AlignedRun::new(run, file))).map(drawn).collect()
 }

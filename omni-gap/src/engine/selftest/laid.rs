@@ -61,6 +61,11 @@ impl<'a, const N: usize> Laid<'a, N> {
         }
     }
 
+    /// In how many telegrams a loss would show, for all wheels or for one alone.
+    pub fn telegrams_told(&self, wheel: Option<usize>) -> usize {
+        self.runs.iter().map(|run| run.run[0].losses.told(wheel)).sum()
+    }
+
     /// The recordings by the channels of a bit mask.
     pub fn view(&self, mask: u16) -> View {
         let windows = self.runs.iter().map(|run| run.linear.windows[0].as_slice());
