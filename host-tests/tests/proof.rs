@@ -19,6 +19,8 @@ mod paper_core;
 mod paper_robots;
 #[path = "proof/second_simulator.rs"]
 mod second_simulator;
+#[path = "proof/second_simulator_effects.rs"]
+mod second_simulator_effects;
 
 #[path = "proof/bounds.rs"]
 mod bounds;

@@ -68,7 +68,8 @@ fn script(u: impl Fn(f64) -> [f64; 4]) -> PlannedRuns {
 fn lost_commands_are_seen_where_four_that_change_anything_are_lost() {
     let file = robot(&text("feup-4w"));
     // a change every quarter of a second, the first of which changes nothing that was heard before
-    let turns = |changes: f64| script(move |t| [if ((t * changes / 10.0) as usize).is_multiple_of(2) { 5.0 } else { 2.0 }; 4]);
+    let turns =
+        |changes: f64| script(move |t| [if ((t * changes / 10.0) as usize).is_multiple_of(2) { 5.0 } else { 2.0 }; 4]);
     for changes in [40.0, 80.0] {
         let loss = of(&said(&file, &turns(changes)), "command_loss").seen_from;
         let expected = 4.0 / (changes - 1.0);

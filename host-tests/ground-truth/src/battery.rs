@@ -5,9 +5,33 @@
 //! I = Σ d_j·i_j             d_j = u_j/U_nominal: what a bridge passes on of a current
 //! ```
 
-use crate::robot::Battery;
+/// What all motors are fed from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Battery {
+    /// U_nominal, the voltage that commands refer to [V]
+    pub nominal: f64,
+    /// U₀, its voltage without load [V]
+    pub open_circuit: f64,
+    /// R₀, what gives way at once [Ω]
+    pub resistance: f64,
+    /// R₁, what gives way later [Ω]
+    pub polarisation_resistance: f64,
+    /// τ₁, how much later [s]
+    pub polarisation_time: f64,
+}
 
 impl Battery {
+    /// A supply that does not give way [V].
+    pub fn stiff(voltage: f64) -> Self {
+        Self {
+            nominal: voltage,
+            open_circuit: voltage,
+            resistance: 0.0,
+            polarisation_resistance: 0.0,
+            polarisation_time: 1.0,
+        }
+    }
+
     /// What the motors are fed with [V] at a current [A] and a polarisation [V].
     pub fn voltage(&self, current: f64, polarisation: f64) -> f64 {
         self.open_circuit - self.resistance * current - polarisation

@@ -11,22 +11,31 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-use crate::robot::Chassis;
+use crate::body_friction::BodyFriction;
+use crate::twist_at::twist_at;
 
-/// The three rows that make the twist of a point, `at` from the one that is followed, of the body's twist.
-///
-/// ```text
-/// v_a = v − ω·a₂,  vn_a = vn + ω·a₁,  ω_a = ω
-/// ```
-pub fn twist_at(at: Vector2<f64>) -> Matrix3<f64> {
-    Matrix3::new(1.0, 0.0, -at.y, 0.0, 1.0, at.x, 0.0, 0.0, 1.0)
+/// Mass, and the friction that the paper gives to the body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chassis {
+    /// M [kg]
+    pub mass: f64,
+    /// J about the vertical through the centre of mass [kg·m²]
+    pub inertia: f64,
+    /// The centre of mass, from the robot's centre, along (v, vn) [m]
+    pub centre_of_mass: Vector2<f64>,
+    /// Its height over the floor [m]
+    pub height: f64,
+    /// How much of ω × velocity there is: 1 in nature, 0 in the paper's equations 10 and 11 [1]
+    pub transport: f64,
+    /// Friction along v, vn and about the centre.
+    pub friction: BodyFriction,
 }
 
 /// A chassis, seen from the point that is followed.
 #[derive(Clone, Copy, Debug)]
 pub struct SeenFrom {
     /// The centre of mass, from there [m]
-    com: Vector2<f64>,
+    pub com: Vector2<f64>,
     /// M [kg]
     mass: f64,
     /// How much of ω × velocity there is [1]
@@ -46,7 +55,7 @@ impl SeenFrom {
         let (m, j) = (chassis.mass, chassis.inertia + chassis.mass * com.norm_squared());
         let inertia = Matrix3::new(m, 0.0, -m * com.y, 0.0, m, m * com.x, -m * com.y, m * com.x, j);
         let centre = twist_at(-point);
-        let viscous = centre.transpose() * Matrix3::from_diagonal(&chassis.viscous) * centre;
+        let viscous = centre.transpose() * Matrix3::from_diagonal(&chassis.friction.viscous) * centre;
         Self { com, mass: m, transport: chassis.transport, inertia, viscous, centre }
     }
 
@@ -54,6 +63,6 @@ impl SeenFrom {
     pub fn apparent(&self, twist: Vector3<f64>) -> Vector3<f64> {
         let [v, vn, w] = twist.into();
         let (c, k) = (self.com, self.transport);
-        self.mass * Vector3::new(k * w * vn + w * w * c.x, -k * w * v + w * w * c.y, -k * w * (c.x * v + c.y * vn))
+        self.mass * Vector3::new(k * w * vn + w * w * c.x, -k * w * v + w * w * c.y, -w * (c.x * v + c.y * vn))
     }
 }

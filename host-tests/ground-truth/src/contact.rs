@@ -8,8 +8,33 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use crate::chassis::twist_at;
-use crate::robot::Slip;
+use crate::twist_at::twist_at;
+
+/// The floor under a wheel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Grip {
+    /// It rolls, whatever the force.
+    Rolls,
+    /// It gives way at a force, but has no limit: slip speed per force [m/s per N]
+    Creeps(f64),
+    /// It holds up to a limit, and gives way below it.
+    Slips(Slip),
+}
+
+/// Rubber on a floor: a spring and a damper in a row, up to a limit that falls once it slides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slip {
+    /// μ_s of a wheel that holds [1]
+    pub static_friction: f64,
+    /// μ_k of a wheel that spins [1]
+    pub kinetic_friction: f64,
+    /// s₀, the slip speed at which e⁻¹ of their difference is left [m/s]
+    pub stribeck_speed: f64,
+    /// c, slip speed per force [m/s per N]
+    pub creep: f64,
+    /// k, stiffness of the contact patch along the floor [N/m]
+    pub stiffness: f64,
+}
 
 /// Standard gravity [m/s²]
 pub const GRAVITY: f64 = 9.80665;

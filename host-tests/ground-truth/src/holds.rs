@@ -5,15 +5,15 @@ use nalgebra::Vector2;
 use crate::chassis::SeenFrom;
 use crate::contact::floor_row;
 use crate::impulse::{Constraint, Row};
-use crate::robot::{Robot, Shaft, Wheel};
+use crate::robot::{Robot, Wheel};
 
 /// Constraints of the body: friction along v, vn and about the centre.
 const OF_BODY: usize = 3;
 
-/// Constraints of each wheel: floor, rollers, bearing, shaft.
-const OF_WHEEL: usize = 4;
+/// Constraints of each wheel: floor, rollers, bearing.
+const OF_WHEEL: usize = 3;
 
-/// Where the constraints of wheel j stand: floor, rollers, bearing, shaft.
+/// Where the constraints of wheel j stand: floor, rollers, bearing.
 pub fn of_wheel(j: usize) -> [usize; OF_WHEEL] {
     std::array::from_fn(|k| OF_BODY + OF_WHEEL * j + k)
 }
@@ -24,24 +24,16 @@ pub fn constraints_of(robot: &Robot, point: Vector2<f64>) -> Vec<Constraint> {
     let mut all: Vec<Constraint> = (0..OF_BODY)
         .map(|axis| Constraint::dry(Row { body: centre.row(axis).transpose(), ..Row::default() }, 0.0))
         .collect();
-    let wheels = robot.wheels.len();
     for (j, wheel) in robot.wheels.iter().enumerate() {
-        all.extend(constraints_of_wheel(wheel, j, wheels, point));
+        all.extend(constraints_of_wheel(wheel, j, point));
     }
     all
 }
 
-fn constraints_of_wheel(wheel: &Wheel, j: usize, wheels: usize, point: Vector2<f64>) -> [Constraint; OF_WHEEL] {
+fn constraints_of_wheel(wheel: &Wheel, j: usize, point: Vector2<f64>) -> [Constraint; OF_WHEEL] {
     let across = wheel.heading + core::f64::consts::FRAC_PI_2;
     let along = |direction| Row { body: floor_row(wheel.contact - point, direction), ..Row::default() };
-    let floor = Row { shaft: Some((j, -wheel.radius)), ..along(wheel.heading) };
-    let bearing = Row { shaft: Some((j, 1.0)), ..Row::default() };
-    let shaft = Row { other_shaft: Some((wheels + j, -1.0)), ..bearing };
-    let holds = if wheel.shaft == Shaft::Rigid { 0.0 } else { f64::INFINITY };
-    [
-        Constraint::dry(floor, f64::INFINITY),
-        Constraint::dry(along(across), 0.0),
-        Constraint::dry(bearing, 0.0),
-        Constraint::dry(shaft, holds),
-    ]
+    let floor = Row { wheel: Some((j, -wheel.radius)), ..along(wheel.heading) };
+    let bearing = Row { wheel: Some((j, 1.0)), ..Row::default() };
+    [Constraint::dry(floor, f64::INFINITY), Constraint::dry(along(across), 0.0), Constraint::dry(bearing, 0.0)]
 }

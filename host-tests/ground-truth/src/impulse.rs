@@ -4,14 +4,14 @@
 //!
 //! ```text
 //! A·V⁺ = b + Σ h·λ        s = h·V⁺ + γ·λ + β
-//! λ = −λ_max where s > 0,   λ = λ_max where s < 0,   s = 0 in between
+//! λ = λ_min where s > 0,   λ = λ_max where s < 0,   s = 0 in between
 //! ```
 //!
-//! γ = β = 0 is Coulomb's law (and, without limit, a rigid joint); γ is what yields under the force, β what has yielded
+//! γ = β = 0 is Coulomb's law (and, without limits, a rigid joint); γ is what yields under the force, β what has yielded
 //! before. Solved row by row, each impulse cut to its limit at once: projected Gauss–Seidel, which begins with the impulses
 //! of the step before.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 /// Rows are gone through until no speed changes by more than this [m/s, rad/s].
 const SETTLED: f64 = 1e-11;
@@ -23,10 +23,8 @@ const MOST_SWEEPS: usize = 200;
 pub struct Row {
     /// Over the body's twist.
     pub body: Vector3<f64>,
-    /// Over the speed of one shaft: which, and by how much.
-    pub shaft: Option<(usize, f64)>,
-    /// Over that of a second one.
-    pub other_shaft: Option<(usize, f64)>,
+    /// Over the speed of one wheel: which, and by how much.
+    pub wheel: Option<(usize, f64)>,
 }
 
 /// A force with a limit, or a rigid joint.
@@ -38,14 +36,24 @@ pub struct Constraint {
     pub yields: f64,
     /// β, with what speed it would give way without an impulse, from what it has yielded before [m/s, rad/s]
     pub relaxes: f64,
-    /// λ_max, the most that it can hold [N·s, N·m·s]; infinite for a rigid joint
-    pub limit: f64,
+    /// Between which impulses it can hold [N·s, N·m·s]; any, for a rigid joint
+    pub between: (f64, f64),
 }
 
 impl Constraint {
     /// Dry friction, or a rigid joint where the limit is infinite.
     pub fn dry(row: Row, limit: f64) -> Self {
-        Self { row, yields: 0.0, relaxes: 0.0, limit }
+        Self { row, yields: 0.0, relaxes: 0.0, between: (-limit, limit) }
+    }
+
+    /// Which way it slides under an impulse [N·s, N·m·s]: −1, 1, or 0 where it holds.
+    pub fn slides(&self, impulse: f64) -> i8 {
+        i8::from(impulse <= self.between.0) - i8::from(impulse >= self.between.1)
+    }
+
+    /// Holds up to a limit either way [N·s, N·m·s].
+    pub fn hold(&mut self, limit: f64) {
+        self.between = (-limit, limit);
     }
 }
 
@@ -54,48 +62,47 @@ impl Constraint {
 pub struct Velocities {
     /// The body's twist [m/s, m/s, rad/s]
     pub body: Vector3<f64>,
-    /// Speeds of the shafts [rad/s]
-    pub shafts: Vec<f64>,
+    /// Speeds of each wheel and of its rotor, as the wheel would see that behind a rigid gear [rad/s]
+    pub shafts: Vec<Vector2<f64>>,
     /// A⁻¹ over the body
     pub body_mobility: Matrix3<f64>,
-    /// A⁻¹ over each shaft
-    pub shaft_mobility: Vec<f64>,
+    /// A⁻¹ over each wheel and its rotor
+    pub shaft_mobility: Vec<Matrix2<f64>>,
 }
 
 impl Velocities {
     /// h·V
     pub fn along(&self, row: &Row) -> f64 {
-        let shaft = |at: Option<(usize, f64)>| at.map_or(0.0, |(shaft, by)| by * self.shafts[shaft]);
-        row.body.dot(&self.body) + shaft(row.shaft) + shaft(row.other_shaft)
+        row.body.dot(&self.body) + row.wheel.map_or(0.0, |(wheel, by)| by * self.shafts[wheel].x)
     }
 
     /// V ← V + A⁻¹·h·λ
     fn push(&mut self, row: &Row, impulse: f64) {
         self.body += self.body_mobility * row.body * impulse;
-        for (shaft, by) in [row.shaft, row.other_shaft].into_iter().flatten() {
-            self.shafts[shaft] += self.shaft_mobility[shaft] * by * impulse;
+        if let Some((wheel, by)) = row.wheel {
+            self.shafts[wheel] += self.shaft_mobility[wheel].column(0) * (by * impulse);
         }
     }
 
     /// h·A⁻¹·hᵀ
     fn mobility(&self, row: &Row) -> f64 {
-        let shaft = |at: Option<(usize, f64)>| at.map_or(0.0, |(shaft, by)| by * by * self.shaft_mobility[shaft]);
-        row.body.dot(&(self.body_mobility * row.body)) + shaft(row.shaft) + shaft(row.other_shaft)
+        let of_wheel = row.wheel.map_or(0.0, |(wheel, by)| by * by * self.shaft_mobility[wheel].m11);
+        row.body.dot(&(self.body_mobility * row.body)) + of_wheel
     }
 
     /// Finds the impulses of all constraints and moves the velocities by them; `impulses` begins as a guess.
     pub fn solve(&mut self, constraints: &[Constraint], impulses: &mut [f64]) {
         for (constraint, impulse) in constraints.iter().zip(impulses.iter_mut()) {
-            *impulse = impulse.clamp(-constraint.limit, constraint.limit);
+            *impulse = impulse.clamp(constraint.between.0, constraint.between.1);
             self.push(&constraint.row, *impulse);
         }
         for _ in 0..MOST_SWEEPS {
             let mut most = 0.0_f64;
             for (constraint, impulse) in constraints.iter().zip(impulses.iter_mut()) {
-                let Constraint { row, yields, relaxes, limit } = constraint;
+                let Constraint { row, yields, relaxes, between: (least, most_held) } = constraint;
                 let gives = self.mobility(row) + yields;
                 let slides = self.along(row) + yields * *impulse + relaxes;
-                let new = (*impulse - slides / gives).clamp(-limit, *limit);
+                let new = (*impulse - slides / gives).clamp(*least, *most_held);
                 self.push(row, new - *impulse);
                 most = most.max(((new - *impulse) * gives).abs());
                 *impulse = new;
@@ -115,20 +122,20 @@ mod tests {
     fn block_and_shaft(block: f64, shaft: f64) -> Velocities {
         Velocities {
             body: Vector3::new(block, 0.0, 0.0),
-            shafts: vec![shaft],
+            shafts: vec![Vector2::new(shaft, 0.0)],
             body_mobility: Matrix3::from_diagonal(&Vector3::new(0.5, 0.5, 10.0)),
-            shaft_mobility: vec![2.0],
+            shaft_mobility: vec![Matrix2::new(2.0, 0.0, 0.0, 1.0)],
         }
     }
 
-    const RIM: Row = Row { body: Vector3::new(1.0, 0.0, 0.0), shaft: Some((0, -1.0)), other_shaft: None };
+    const RIM: Row = Row { body: Vector3::new(1.0, 0.0, 0.0), wheel: Some((0, -1.0)) };
 
     #[test]
     fn a_rigid_joint_leaves_one_speed_and_all_momentum() {
         let (mut v, mut impulses) = (block_and_shaft(3.0, 1.0), [0.0]);
         v.solve(&[Constraint::dry(RIM, f64::INFINITY)], &mut impulses);
         // 2·3 + 0.5·1 over 2.5
-        assert!((v.body.x - 2.6).abs() < 1e-12 && (v.shafts[0] - 2.6).abs() < 1e-12, "{v:?}");
+        assert!((v.body.x - 2.6).abs() < 1e-12 && (v.shafts[0].x - 2.6).abs() < 1e-12, "{v:?}");
         assert!((impulses[0] + 0.8).abs() < 1e-12);
     }
 
@@ -153,7 +160,7 @@ mod tests {
 
     #[test]
     fn a_good_guess_and_a_bad_one_come_to_the_same() {
-        let brake = Constraint::dry(Row { shaft: Some((0, 1.0)), ..Row::default() }, 0.2);
+        let brake = Constraint::dry(Row { wheel: Some((0, 1.0)), ..Row::default() }, 0.2);
         let rows = [Constraint::dry(RIM, 0.9), brake];
         let found = [[0.0, 0.0], [-0.9, 0.2], [40.0, -40.0]].map(|mut impulses| {
             let mut v = block_and_shaft(3.0, -1.0);

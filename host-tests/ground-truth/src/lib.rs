@@ -22,21 +22,30 @@
 // Units in brackets look like links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-// What a robot is
-pub mod paper;
-pub mod robot;
-
-// Its laws
+// What a robot is, and its laws
 pub mod battery;
 pub mod bearing;
+pub mod body_friction;
+pub mod bridge;
+pub mod causes;
 pub mod chassis;
+pub mod commands;
 pub mod contact;
+pub mod harmonics;
 pub mod motor;
+pub mod paper;
+pub mod reading;
+pub mod robot;
+mod rotated;
+pub mod sensors;
+pub mod shaft;
+pub mod surroundings;
+pub mod track;
+mod twist_at;
 
 // Its motion
 mod holds;
 pub mod impulse;
-mod rotated;
 pub mod simulation;
 pub mod state;
 mod step;

@@ -1,6 +1,16 @@
 //! What a robot is made of.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
+
+use crate::battery::Battery;
+use crate::bearing::Bearing;
+use crate::bridge::Bridge;
+use crate::chassis::Chassis;
+use crate::contact::Grip;
+use crate::harmonics::Harmonic;
+use crate::motor::Motor;
+use crate::shaft::Shaft;
+use crate::surroundings::Surroundings;
 
 /// Everything that a robot's motion depends on.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,25 +21,10 @@ pub struct Robot {
     pub wheels: Vec<Wheel>,
     /// What all motors are fed from.
     pub battery: Battery,
-}
-
-/// Mass and the friction that the paper gives to the body.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Chassis {
-    /// M [kg]
-    pub mass: f64,
-    /// J about the vertical through the centre of mass [kg·m²]
-    pub inertia: f64,
-    /// The centre of mass, from the robot's centre, along (v, vn) [m]
-    pub centre_of_mass: Vector2<f64>,
-    /// Its height over the floor [m]
-    pub height: f64,
-    /// How much of ω × velocity there is: 1 in nature, 0 in the paper's equations 10 and 11 [1]
-    pub transport: f64,
-    /// Viscous friction along v, vn and about the centre [N·s/m, N·s/m, N·m·s]
-    pub viscous: Vector3<f64>,
-    /// Coulomb friction along v, vn and about the centre [N, N, N·m]
-    pub coulomb: Vector3<f64>,
+    /// How long a command is on its way to the bridges [s]
+    pub command_delay: f64,
+    /// Where it drives.
+    pub surroundings: Surroundings,
 }
 
 /// One wheel, its gear and its motor.
@@ -39,118 +34,32 @@ pub struct Wheel {
     pub contact: Vector2<f64>,
     /// The direction in which it rolls, from v towards vn [rad]
     pub heading: f64,
-    /// r [m]
+    /// r, its mean [m]
     pub radius: f64,
+    /// What the radius is more, over the wheel's angle, relatively [1]
+    pub profile: Vec<Harmonic>,
     /// Inertia of what turns with the wheel, without the rotor [kg·m²]
     pub inertia: f64,
+    /// What it carries over what it would carry among equal springs [1]
+    pub load_factor: f64,
     /// Friction of its bearings.
     pub bearing: Bearing,
     /// What its rollers resist with where the wheel moves along its own axle [N]
     pub roller_friction: f64,
+    /// The same for each speed along the axle [N·s/m]
+    pub roller_damping: f64,
     /// How it holds on to the floor.
     pub grip: Grip,
     /// l, motor turns per wheel turn [1]
     pub gear_ratio: f64,
+    /// η, what the gear passes on of a torque [1]
+    pub gear_efficiency: f64,
     /// What connects gear and wheel.
     pub shaft: Shaft,
     /// What turns it.
     pub motor: Motor,
-}
-
-/// Friction of a turning wheel, at the wheel's shaft.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bearing {
-    /// b [N·m·s]
-    pub viscous: f64,
-    /// Dry friction of a turning wheel [N·m]
-    pub coulomb: f64,
-    /// What it holds at rest beyond that [N·m]
-    pub static_excess: f64,
-    /// The speed at which e⁻¹ of that is left [rad/s]
-    pub stribeck_speed: f64,
-}
-
-/// The floor under a wheel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Grip {
-    /// It rolls, whatever the force.
-    Rolls,
-    /// It holds up to a limit, and gives way below it.
-    Slips(Slip),
-}
-
-/// Rubber on a floor: a spring and a damper in a row, up to a limit that falls once it slides.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slip {
-    /// μ of a wheel that holds [1]
-    pub static_friction: f64,
-    /// μ of a wheel that spins [1]
-    pub kinetic_friction: f64,
-    /// The slip speed at which e⁻¹ of their difference is left [m/s]
-    pub stribeck_speed: f64,
-    /// Slip speed per force [m/s per N]
-    pub creep: f64,
-    /// Stiffness of the contact patch along the floor [N/m]
-    pub stiffness: f64,
-}
-
-/// Between gear and wheel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shaft {
-    /// The rotor turns as the wheel does.
-    Rigid,
-    /// A spring with a damper beside it, at the wheel's shaft.
-    Elastic {
-        /// [N·m/rad]
-        stiffness: f64,
-        /// [N·m·s]
-        damping: f64,
-    },
-}
-
-/// A brushless motor as its two wires see it, at the motor's shaft.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motor {
-    /// R [Ω]
-    pub resistance: f64,
-    /// L at small current [H]; zero where current follows at once
-    pub inductance: f64,
-    /// The current at which half of the inductance is left [A]; infinite where it stays
-    pub saturation_current: f64,
-    /// Kv [V·s]
-    pub emf_constant: f64,
-    /// Kt [N·m/A]
-    pub torque_constant: f64,
-    /// Inertia of the rotor [kg·m²]
-    pub rotor_inertia: f64,
-}
-
-/// What all motors are fed from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Battery {
-    /// The voltage that commands refer to [V]
-    pub nominal: f64,
-    /// Its voltage without load [V]
-    pub open_circuit: f64,
-    /// What gives way at once [Ω]
-    pub resistance: f64,
-    /// What gives way later [Ω]
-    pub polarisation_resistance: f64,
-    /// How much later [s]
-    pub polarisation_time: f64,
-}
-
-impl Battery {
-    /// A supply that does not give way [V].
-    pub fn stiff(voltage: f64) -> Self {
-        Self {
-            nominal: voltage,
-            open_circuit: voltage,
-            resistance: 0.0,
-            polarisation_resistance: 0.0,
-            polarisation_time: 1.0,
-        }
-    }
+    /// What feeds that.
+    pub bridge: Bridge,
 }
 
 impl Wheel {
@@ -163,13 +72,18 @@ impl Wheel {
             contact,
             heading,
             radius,
+            profile: Vec::new(),
             inertia: 0.0,
+            load_factor: 1.0,
             bearing: Bearing::default(),
             roller_friction: 0.0,
+            roller_damping: 0.0,
             grip: Grip::Rolls,
             gear_ratio,
+            gear_efficiency: 1.0,
             shaft: Shaft::Rigid,
             motor,
+            bridge: Bridge::default(),
         }
     }
 
@@ -177,5 +91,21 @@ impl Wheel {
     pub fn reflected_inertia(&self) -> f64 {
         // l²·J_r
         self.gear_ratio * self.gear_ratio * self.motor.rotor_inertia
+    }
+
+    /// What the gear takes of a torque [N·m] at the wheel, driving or driven by it: friction that grows with what it passes
+    /// on.
+    pub fn gear_loss(&self, torque: f64, speed: f64) -> f64 {
+        let part = if torque * speed < 0.0 { 1.0 / self.gear_efficiency - 1.0 } else { 1.0 - self.gear_efficiency };
+        part * torque.abs()
+    }
+
+    /// r at an angle of the wheel [m]
+    pub fn radius_at(&self, angle: f64) -> f64 {
+        if self.profile.is_empty() {
+            self.radius
+        } else {
+            self.radius * (1.0 + crate::harmonics::at(&self.profile, angle))
+        }
     }
 }

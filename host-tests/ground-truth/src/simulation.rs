@@ -1,14 +1,18 @@
-//! A robot that is driven: one small step after another, all forces of a step found together.
+//! A robot that is driven: where it is, and what is read of it.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Matrix2, Vector2, Vector3};
 
-use crate::chassis::{SeenFrom, twist_at};
-use crate::contact::floor_row;
+use crate::chassis::SeenFrom;
+use crate::commands::Commands;
+use crate::contact::{Grip, floor_row};
 use crate::holds::constraints_of;
 use crate::impulse::{Constraint, Velocities};
-use crate::robot::{Grip, Robot, Shaft, Wheel};
+use crate::motor::{Fed, Winding};
+use crate::robot::{Robot, Wheel};
 use crate::rotated::rotated;
+use crate::shaft::Shaft;
 use crate::state::State;
+use crate::twist_at::twist_at;
 
 /// Times that bus voltage and currents are found of each other when they are read.
 const READINGS: usize = 12;
@@ -24,21 +28,37 @@ pub struct Simulation {
     pub(crate) chassis: SeenFrom,
     /// Contacts, from the centre of mass [m]
     pub(crate) feet: Vec<Vector2<f64>>,
+    /// How far from the robot's centre the wheels stand, in the mean [m]
+    pub(crate) arm: f64,
     pub(crate) state: State,
+    pub(crate) commands: Commands,
     pub(crate) velocities: Velocities,
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) impulses: Vec<f64>,
-    /// Of the middle of the step that is taken.
     pub(crate) middle: Middle,
+    /// Which way each constraint slid in the last step.
+    pub(crate) slides: Vec<i8>,
+    pub(crate) before: Before,
+}
+
+/// Where a step began.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Before {
+    pub(crate) state: State,
+    pub(crate) impulses: Vec<f64>,
 }
 
 /// What was last thought of the middle of a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Middle {
     pub(crate) twist: Vector3<f64>,
-    pub(crate) shafts: Vec<f64>,
+    pub(crate) shafts: Vec<Vector2<f64>>,
     pub(crate) currents: Vec<f64>,
+    /// Of the motors, at the wheels [N·m]
+    pub(crate) torques: Vec<f64>,
     pub(crate) loads: Vec<f64>,
+    /// What the bridges hear [V]
+    pub(crate) heard: Vec<f64>,
 }
 
 impl Simulation {
@@ -52,28 +72,34 @@ impl Simulation {
     pub fn following(robot: Robot, step: f64, point: Vector2<f64>) -> Self {
         let wheels = robot.wheels.len();
         let contacts = robot.wheels.iter().map(|wheel| wheel.contact);
-        let feet: Vec<Vector2<f64>> = contacts.map(|contact| contact - robot.chassis.centre_of_mass).collect();
-        let mut state = State::at_rest(wheels);
-        state.position = point;
+        let arm = contacts.clone().map(|contact| contact.norm()).sum::<f64>() / wheels as f64;
+        let state = State { position: point, ..State::at_rest(wheels) };
         let constraints = constraints_of(&robot, point);
+        let none = || vec![0.0; wheels];
         Self {
             point,
             step,
+            arm,
             chassis: SeenFrom::new(&robot.chassis, point),
+            feet: contacts.map(|contact| contact - robot.chassis.centre_of_mass).collect(),
             middle: Middle {
                 twist: Vector3::zeros(),
                 shafts: state.shafts.clone(),
-                currents: state.currents.clone(),
-                loads: vec![0.0; wheels],
+                currents: none(),
+                torques: none(),
+                loads: none(),
+                heard: none(),
             },
             velocities: Velocities {
-                shafts: vec![0.0; 2 * wheels],
-                shaft_mobility: vec![0.0; 2 * wheels],
+                shafts: state.shafts.clone(),
+                shaft_mobility: vec![Matrix2::zeros(); wheels],
                 ..Velocities::default()
             },
             impulses: vec![0.0; constraints.len()],
+            slides: vec![0; constraints.len()],
+            before: Before::default(),
+            commands: Commands::default(),
             constraints,
-            feet,
             state,
             robot,
         }
@@ -86,24 +112,23 @@ impl Simulation {
 
     /// Sets the robot's centre in motion with a twist (v, vn, ω) [m/s, m/s, rad/s], its wheels rolling.
     pub fn set_moving(&mut self, twist: Vector3<f64>) {
-        // the twist of the point that is followed
         self.state.twist = twist_at(self.point) * twist;
-        let wheels = self.robot.wheels.len();
         for (j, wheel) in self.robot.wheels.iter().enumerate() {
-            let speed = floor_row(wheel.contact, wheel.heading).dot(&twist) / wheel.radius;
-            (self.state.shafts[j], self.state.shafts[wheels + j]) = (speed, speed);
+            let speed = floor_row(wheel.contact, wheel.heading).dot(&twist) / wheel.radius_at(self.state.turned[j].x);
+            self.state.shafts[j] = Vector2::repeat(speed);
         }
     }
 
     /// Sets a wheel alone turning [rad/s], whatever it stands on.
     pub fn set_wheel_turning(&mut self, wheel: usize, speed: f64) {
-        self.state.shafts[wheel] = speed;
+        self.state.shafts[wheel].x = speed;
     }
 
     /// Goes on for `steps` steps with the voltages u held [V].
     pub fn hold(&mut self, u: &[f64], steps: usize) {
+        self.commands.send(self.state.time, u, self.robot.command_delay);
         for _ in 0..steps {
-            self.advance(u);
+            self.advance();
         }
     }
 
@@ -119,25 +144,39 @@ impl Simulation {
     }
 
     /// Speeds of the wheels [rad/s]
-    pub fn wheel_speeds(&self) -> &[f64] {
-        &self.state.shafts[..self.robot.wheels.len()]
+    pub fn wheel_speeds(&self) -> Vec<f64> {
+        self.state.shafts.iter().map(|shafts| shafts.x).collect()
     }
 
-    /// Currents [A] just after the voltages u [V] have been applied.
+    /// Speed of one wheel [rad/s]
+    pub fn wheel_speed(&self, wheel: usize) -> f64 {
+        self.state.shafts[wheel].x
+    }
+
+    /// Currents [A] just after the voltages u [V] have been sent.
     pub fn currents(&self, u: &[f64]) -> Vec<f64> {
+        let heard = self.hearing(u);
         let mut currents = self.state.currents.clone();
         for _ in 0..READINGS {
-            let bus = self.bus(u, &currents);
+            let bus = self.bus(&heard, &currents);
             for (j, wheel) in self.robot.wheels.iter().enumerate() {
-                let motor = &wheel.motor;
-                if motor.inductance == 0.0 {
-                    let induced = motor.emf_constant * wheel.gear_ratio * self.state.shafts[self.rotor(j)];
-                    // i = (u − Kv·l·ω)/R
-                    currents[j] = (self.fed(u[j], bus) - induced) / motor.resistance;
+                if wheel.motor.inductance == 0.0 {
+                    let speed = wheel.gear_ratio * self.state.shafts[j][self.rotor(j)];
+                    currents[j] = self.winding(j, heard[j], (bus, currents[j], speed)).current(speed);
                 }
             }
         }
         currents
+    }
+
+    /// Currents over the last step [A]
+    pub fn driving_currents(&self) -> &[f64] {
+        &self.middle.currents
+    }
+
+    /// The battery's voltage [V] just after the voltages u [V] have been sent.
+    pub fn bus_voltage(&self, u: &[f64]) -> f64 {
+        self.bus(&self.hearing(u), &self.currents(u))
     }
 
     /// What the wheels press on the floor with [N], over the last step
@@ -154,35 +193,52 @@ impl Simulation {
         let state = &self.state;
         let body = 0.5 * state.twist.dot(&(self.chassis.inertia * state.twist));
         let of_wheel = |(j, wheel): (usize, &Wheel)| {
-            let rotor = state.shafts[self.rotor(j)];
-            let turning = wheel.inertia * state.shafts[j].powi(2) + wheel.reflected_inertia() * rotor.powi(2);
-            let twisted = match wheel.shaft {
-                Shaft::Rigid => 0.0,
-                Shaft::Elastic { stiffness, .. } => stiffness * state.windup[j].powi(2),
-            };
+            let rotor = state.shafts[j][self.rotor(j)];
+            let turning = wheel.inertia * state.shafts[j].x.powi(2) + wheel.reflected_inertia() * rotor.powi(2);
             let patch = match wheel.grip {
-                Grip::Rolls => 0.0,
+                Grip::Rolls | Grip::Creeps(_) => 0.0,
                 Grip::Slips(slip) => state.strained[j].powi(2) / slip.stiffness,
             };
-            0.5 * (turning + twisted + patch + wheel.motor.inductance * state.currents[j].powi(2))
+            let twisted = wheel.shaft.energy(state.turned[j].x - state.turned[j].y);
+            0.5 * (turning + patch + wheel.motor.inductance * state.currents[j].powi(2)) + twisted
         };
         body + self.robot.wheels.iter().enumerate().map(of_wheel).sum::<f64>()
     }
 
-    /// The shaft that the motor of wheel j turns.
+    /// What the bridges hear [V] just after the voltages u [V] have been sent.
+    fn hearing(&self, u: &[f64]) -> Vec<f64> {
+        let (mut commands, delay) = (self.commands.clone(), self.robot.command_delay);
+        commands.send(self.state.time, u, delay);
+        let mut heard = vec![0.0; u.len()];
+        commands.at(self.state.time - delay, &mut heard);
+        heard
+    }
+
+    /// The shaft that the motor of wheel j turns: 0, the wheel's own, or 1.
     pub(crate) fn rotor(&self, j: usize) -> usize {
-        if self.robot.wheels[j].shaft == Shaft::Rigid { j } else { self.robot.wheels.len() + j }
+        usize::from(self.robot.wheels[j].shaft != Shaft::Rigid)
     }
 
-    /// The voltage of the battery under these commands [V] and currents [A].
-    pub(crate) fn bus(&self, u: &[f64], currents: &[f64]) -> f64 {
-        let battery = &self.robot.battery;
-        let drawn: f64 = u.iter().zip(currents).map(|(u, i)| u / battery.nominal * i).sum();
-        battery.voltage(drawn, self.state.polarisation)
+    /// The voltage of the battery under what the bridges hear [V] and currents [A].
+    pub(crate) fn bus(&self, heard: &[f64], currents: &[f64]) -> f64 {
+        self.robot.battery.voltage(self.drawn(heard, currents), self.state.polarisation)
     }
 
-    /// What a bridge makes of a command [V].
-    pub(crate) fn fed(&self, u: f64, bus: f64) -> f64 {
-        u * (bus / self.robot.battery.nominal)
+    /// What the bridges draw from the battery [A]: a current times the part of the time for which it is passed on.
+    pub(crate) fn drawn(&self, heard: &[f64], currents: &[f64]) -> f64 {
+        heard.iter().zip(currents).map(|(u, i)| u / self.robot.battery.nominal * i).sum()
+    }
+
+    /// The winding of motor j for a step under what its bridge hears [V], at about a bus voltage [V], a current [A] and a
+    /// speed of the motor [rad/s] in its middle.
+    pub(crate) fn winding(&self, j: usize, heard: f64, (bus, near, speed): (f64, f64, f64)) -> Winding {
+        let wheel = &self.robot.wheels[j];
+        let fed = Fed {
+            voltage: wheel.bridge.applied(heard * (bus / self.robot.battery.nominal)),
+            loss: wheel.bridge.loss(near, wheel.motor.emf_constant * speed),
+            temperatures: self.state.temperatures[j],
+        };
+        let winding = wheel.motor.winding(&fed, self.state.currents[j], near, self.step);
+        winding.limited(speed, wheel.bridge.current_limit)
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 
 /// The state of a simulated robot; of the body, it is that of the point that is followed.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct State {
     /// [s]
     pub time: f64,
@@ -15,16 +15,18 @@ pub struct State {
     pub twist: Vector3<f64>,
     /// By how much that changed over the last step, per time
     pub twist_rate: Vector3<f64>,
-    /// Speeds of the wheels, then of the rotors as the wheels would see them behind a rigid gear [rad/s]
-    pub shafts: Vec<f64>,
-    /// By how much the wheels have turned [rad]
-    pub turned: Vec<f64>,
+    /// Speeds of each wheel and of its rotor, as the wheel would see that behind a rigid gear [rad/s]
+    pub shafts: Vec<Vector2<f64>>,
+    /// By how much these have turned [rad]
+    pub turned: Vec<Vector2<f64>>,
     /// Currents [A]; of a winding without inductance that of the middle of the last step
     pub currents: Vec<f64>,
+    /// Of each motor's winding and housing, above the air's [K]
+    pub temperatures: Vec<[f64; 2]>,
     /// Force with which each contact patch is strained [N]
     pub strained: Vec<f64>,
-    /// By how much each elastic shaft is twisted, at the wheel [rad]
-    pub windup: Vec<f64>,
+    /// The same of what gives between body and floor, along v, vn and about the centre [N, N, N·m]
+    pub given: Vector3<f64>,
     /// What the battery has lost by polarisation [V]
     pub polarisation: f64,
 }
@@ -32,14 +34,34 @@ pub struct State {
 impl State {
     /// At rest in the origin, with so many wheels.
     pub fn at_rest(wheels: usize) -> Self {
-        let still = vec![0.0; wheels];
         Self {
-            shafts: vec![0.0; 2 * wheels],
-            turned: still.clone(),
-            currents: still.clone(),
-            strained: still.clone(),
-            windup: still,
+            shafts: vec![Vector2::zeros(); wheels],
+            turned: vec![Vector2::zeros(); wheels],
+            currents: vec![0.0; wheels],
+            temperatures: vec![[0.0; 2]; wheels],
+            strained: vec![0.0; wheels],
             ..Self::default()
         }
+    }
+}
+
+impl Clone for State {
+    fn clone(&self) -> Self {
+        let mut new = Self::default();
+        new.clone_from(self);
+        new
+    }
+
+    /// Without asking for memory, where there is enough: it is done every step.
+    fn clone_from(&mut self, from: &Self) {
+        let Self { time, position, heading, twist, twist_rate, shafts, turned, currents, temperatures, .. } = self;
+        (*time, *position, *heading, *twist, *twist_rate) =
+            (from.time, from.position, from.heading, from.twist, from.twist_rate);
+        shafts.clone_from(&from.shafts);
+        turned.clone_from(&from.turned);
+        currents.clone_from(&from.currents);
+        temperatures.clone_from(&from.temperatures);
+        self.strained.clone_from(&from.strained);
+        (self.given, self.polarisation) = (from.given, from.polarisation);
     }
 }

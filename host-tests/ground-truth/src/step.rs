@@ -1,153 +1,244 @@
 //! One step: all velocities at its end, found together by what is known of its middle; then everything else.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Matrix2, Vector2, Vector3};
 
-use crate::contact::loads;
+use crate::contact::{Grip, loads};
 use crate::holds::of_wheel;
 use crate::impulse::Velocities;
-use crate::robot::{Grip, Shaft};
 use crate::rotated::rotated;
+use crate::shaft::{Shaft, Twisted};
 use crate::simulation::Simulation;
+use crate::surroundings::Place;
 
 /// Times that a step is looked at; in the later ones what depends on its middle is known.
 const PASSES: usize = 2;
+
+/// Parts of a step in which friction turns round.
+const PARTS: f64 = 8.0;
 
 /// What a shaft has at least [kg·m²]: a wheel without inertia, whose bridge is open, would move by any speed.
 const LEAST_INERTIA: f64 = 1e-10;
 
 impl Simulation {
-    pub(crate) fn advance(&mut self, u: &[f64]) {
+    /// One step; where friction turns round in it or lets go, in parts.
+    pub(crate) fn advance(&mut self) {
+        let Self { before, state, impulses, .. } = self;
+        before.state.clone_from(state);
+        before.impulses.clone_from(impulses);
+        self.find();
+        if !self.turns_round() {
+            return self.take();
+        }
+        self.state.clone_from(&self.before.state);
+        self.impulses.clone_from(&self.before.impulses);
+        let whole = self.step;
+        self.step = whole / PARTS;
+        self.impulses.iter_mut().for_each(|impulse| *impulse /= PARTS);
+        for _ in 0..PARTS as usize {
+            self.find();
+            self.take();
+        }
+        self.step = whole;
+        self.impulses.iter_mut().for_each(|impulse| *impulse *= PARTS);
+    }
+
+    /// Finds the velocities at the end of a step.
+    fn find(&mut self) {
+        let (from, delay) = (self.state.time, self.robot.command_delay);
+        self.commands.mean((from - delay, from + self.step - delay), &mut self.middle.heard);
         self.middle.twist = self.state.twist + 0.5 * self.step * self.state.twist_rate;
         self.middle.shafts.clone_from(&self.state.shafts);
         self.middle.currents.clone_from(&self.state.currents);
         for _ in 0..PASSES {
-            self.look(u);
+            self.push_body();
+            self.turn_shafts();
+            self.limit();
+            self.velocities.solve(&self.constraints, &mut self.impulses);
+            self.find_middle();
         }
-        self.take(u);
     }
 
-    /// One pass: all velocities at the end of the step, with what is known of its middle.
-    fn look(&mut self, u: &[f64]) {
-        let (step, state, half) = (self.step, &self.state, 0.5 * self.step);
-        let bus = self.bus(u, &self.middle.currents);
+    /// True if a constraint does not do what it did in the step before: slide one way, the other, or hold.
+    fn turns_round(&mut self) -> bool {
+        let mut any = false;
+        for (slides, (constraint, impulse)) in self.slides.iter_mut().zip(self.constraints.iter().zip(&self.impulses)) {
+            let now = constraint.slides(*impulse);
+            any |= *slides != now;
+            *slides = now;
+        }
+        any
+    }
 
-        // (M + Δt/2·B)·V⁺ = (M − Δt/2·B)·V + Δt·F
+    /// What moves the body without any constraint: (M + Δt/2·B)·V⁺ = (M − Δt/2·B)·V + Δt·F.
+    fn push_body(&mut self) {
+        let (step, half) = (self.step, 0.5 * self.step);
         let damped = self.chassis.inertia + half * self.chassis.viscous;
         let kept = self.chassis.inertia - half * self.chassis.viscous;
+        let pull = self.robot.surroundings.pull(&self.place());
+        let force = pull + self.chassis.apparent(self.middle.twist);
         let v = &mut self.velocities;
         v.body_mobility = damped.try_inverse().expect("a body with mass and inertia");
-        v.body = v.body_mobility * (kept * state.twist + step * self.chassis.apparent(self.middle.twist));
+        v.body = v.body_mobility * (kept * self.state.twist + step * force);
 
-        let rate = (self.middle.twist - state.twist) / half;
-        let acceleration = self.acceleration_of_mass(rate);
-        let (mass, height) = (self.robot.chassis.mass, self.robot.chassis.height);
-        loads(&self.feet, mass, height, acceleration, &mut self.middle.loads);
-
-        let wheels = self.robot.wheels.len();
-        for (j, wheel) in self.robot.wheels.iter().enumerate() {
-            let voltage = u[j] * (bus / self.robot.battery.nominal);
-            let winding = wheel.motor.winding(voltage, state.currents[j], self.middle.currents[j], step);
-            let (l, kt) = (wheel.gear_ratio, wheel.motor.torque_constant);
-            let (driven, brake) = (l * kt * winding.stalled, l * l * kt * winding.per_speed);
-            let mut turn = |shaft: usize, inertia: f64, damping: f64, torque: f64| {
-                let inertia = inertia.max(LEAST_INERTIA);
-                let mobility = 1.0 / (inertia + half * damping);
-                let v = &mut self.velocities;
-                v.shaft_mobility[shaft] = mobility;
-                v.shafts[shaft] = mobility * ((inertia - half * damping) * state.shafts[shaft] + step * torque);
-            };
-            match wheel.shaft {
-                Shaft::Rigid => {
-                    turn(j, wheel.inertia + wheel.reflected_inertia(), wheel.bearing.viscous + brake, driven);
-                    turn(wheels + j, 1.0, 0.0, 0.0);
-                }
-                Shaft::Elastic { .. } => {
-                    turn(j, wheel.inertia, wheel.bearing.viscous, 0.0);
-                    turn(wheels + j, wheel.reflected_inertia(), brake, driven);
-                }
-            }
-        }
-        self.limit();
-        self.velocities.solve(&self.constraints, &mut self.impulses);
-
-        // the middle, for the next pass
-        self.middle.twist = 0.5 * (self.state.twist + self.velocities.body);
-        for (middle, (before, after)) in
-            self.middle.shafts.iter_mut().zip(self.state.shafts.iter().zip(&self.velocities.shafts))
-        {
-            *middle = 0.5 * (before + after);
-        }
-        for (j, u) in u.iter().enumerate() {
-            let wheel = &self.robot.wheels[j];
-            let voltage = self.fed(*u, bus);
-            let winding = wheel.motor.winding(voltage, self.state.currents[j], self.middle.currents[j], step);
-            self.middle.currents[j] = winding.current(wheel.gear_ratio * self.middle.shafts[self.rotor(j)]);
+        let rate = (self.middle.twist - self.state.twist) / half;
+        // M·a = M·V̇ − what is apparent
+        let by_floor = self.chassis.inertia * rate - self.chassis.apparent(self.middle.twist);
+        let chassis = &self.robot.chassis;
+        loads(&self.feet, chassis.mass, chassis.height, by_floor.xy() / chassis.mass, &mut self.middle.loads);
+        for (load, wheel) in self.middle.loads.iter_mut().zip(&self.robot.wheels) {
+            *load *= wheel.load_factor;
         }
     }
 
-    /// Acceleration of the centre of mass along the body's axes [m/s²], from how fast the twist changes.
-    fn acceleration_of_mass(&self, rate: Vector3<f64>) -> Vector2<f64> {
-        // M·a = M·V̇ − what is apparent
-        let force = self.chassis.inertia * rate - self.chassis.apparent(self.middle.twist);
-        force.xy() / self.robot.chassis.mass
+    /// Where the body is in the middle of the step.
+    fn place(&self) -> Place {
+        let (half, twist) = (0.5 * self.step, self.middle.twist);
+        let heading = self.state.heading + half * twist.z;
+        Place {
+            position: self.state.position + half * rotated(heading, twist.xy()),
+            heading,
+            twist,
+            centre: -self.point,
+            centre_of_mass: self.chassis.com,
+            mass: self.robot.chassis.mass,
+        }
+    }
+
+    /// What turns the shafts without any constraint: their motors.
+    fn turn_shafts(&mut self) {
+        let (step, half) = (self.step, 0.5 * self.step);
+        let bus = self.bus(&self.middle.heard, &self.middle.currents);
+        for (j, wheel) in self.robot.wheels.iter().enumerate() {
+            let (l, near, rotor) = (wheel.gear_ratio, self.middle.currents[j], self.rotor(j));
+            let winding = self.winding(j, self.middle.heard[j], (bus, near, l * self.middle.shafts[j][rotor]));
+            let angle = l * (self.state.turned[j][rotor] + half * self.middle.shafts[j][rotor]);
+            let per_current = l * wheel.motor.torque_per_current(near, angle, self.state.temperatures[j]);
+            let cogging = l * crate::harmonics::at(&wheel.motor.cogging, angle);
+            let (driven, brake) = (per_current * winding.stalled + cogging, l * per_current * winding.per_speed);
+            let (own, reflected) = (wheel.inertia, wheel.reflected_inertia());
+            let bearing = wheel.bearing.viscous;
+            let (inertia, damping, torque) = match wheel.shaft {
+                // the rotor that is apart is nobody's
+                Shaft::Rigid => (
+                    Vector2::new((own + reflected).max(LEAST_INERTIA), 1.0),
+                    Matrix2::new(bearing + brake, 0.0, 0.0, 0.0),
+                    Vector2::new(wheel.bearing.bias() + driven, 0.0),
+                ),
+                Shaft::Elastic { .. } => {
+                    let [wheel_angle, rotor_angle] = self.state.turned[j].into();
+                    let speed = self.middle.shafts[j].x - self.middle.shafts[j].y;
+                    let Twisted { still, per_speed: k } = wheel.shaft.twisted(wheel_angle - rotor_angle, speed, step);
+                    (
+                        Vector2::new(own.max(LEAST_INERTIA), reflected.max(LEAST_INERTIA)),
+                        Matrix2::new(bearing + k, -k, -k, brake + k),
+                        Vector2::new(wheel.bearing.bias() - still, driven + still),
+                    )
+                }
+            };
+            // (J + Δt/2·D)·ω⁺ = (J − Δt/2·D)·ω + Δt·τ
+            let inertia = Matrix2::from_diagonal(&inertia);
+            let mobility = (inertia + half * damping).try_inverse().expect("shafts with inertia");
+            self.velocities.shaft_mobility[j] = mobility;
+            self.velocities.shafts[j] = mobility * ((inertia - half * damping) * self.state.shafts[j] + step * torque);
+        }
     }
 
     /// What each constraint can hold in this step, from what is known of its middle.
     fn limit(&mut self) {
+        self.limit_body();
         let step = self.step;
-        for (constraint, coulomb) in self.constraints.iter_mut().zip(self.robot.chassis.coulomb.iter()) {
-            constraint.limit = coulomb * step;
-        }
+        let time = self.state.time + 0.5 * step;
         let middle = Velocities {
             body: self.middle.twist,
             shafts: std::mem::take(&mut self.middle.shafts),
             ..Velocities::default()
         };
         for (j, wheel) in self.robot.wheels.iter().enumerate() {
-            let [floor, rollers, bearing, shaft] = of_wheel(j);
-            if let Grip::Slips(slip) = wheel.grip {
-                let friction = slip.friction(middle.along(&self.constraints[floor].row));
-                // rollers spend a part of what the floor can hold
-                let holds = (friction * self.middle.loads[j]).powi(2) - wheel.roller_friction.powi(2);
-                self.constraints[floor].limit = holds.max(0.0).sqrt() * step;
-                (self.constraints[floor].yields, self.constraints[floor].relaxes) =
-                    slip.softness(self.state.strained[j], step);
+            let [floor, rollers, bearing] = of_wheel(j);
+            let constraints = &mut self.constraints;
+            let angle = self.state.turned[j].x + 0.5 * step * middle.shafts[j].x;
+            constraints[floor].row.wheel = Some((j, -wheel.radius_at(angle)));
+            match wheel.grip {
+                Grip::Rolls => {}
+                // s⁺ = c·f⁺, λ = −Δt·f⁺
+                Grip::Creeps(creep) => constraints[floor].yields = creep / step,
+                Grip::Slips(slip) => {
+                    let friction = slip.friction(middle.along(&constraints[floor].row));
+                    // rollers spend a part of what the floor can hold
+                    let holds = (friction * self.middle.loads[j]).powi(2) - wheel.roller_friction.powi(2);
+                    constraints[floor].hold(holds.max(0.0).sqrt() * step);
+                    (constraints[floor].yields, constraints[floor].relaxes) =
+                        slip.softness(self.state.strained[j], step);
+                }
             }
-            self.constraints[rollers].limit = wheel.roller_friction * step;
-            self.constraints[bearing].limit = wheel.bearing.dry(middle.shafts[j]) * step;
-            if let Shaft::Elastic { stiffness, damping } = wheel.shaft {
-                // τ½ = k·(z + Δt/2·s½) + c·s½, λ = −Δt·τ½, s½ = (s + s⁺)/2
-                let stiff = stiffness * 0.5 * step + damping;
-                let before = self.state.shafts[j] - self.state.shafts[self.robot.wheels.len() + j];
-                self.constraints[shaft].yields = 2.0 / (step * stiff);
-                self.constraints[shaft].relaxes = before + 2.0 * stiffness * self.state.windup[j] / stiff;
-            }
+            let along_axle = middle.along(&constraints[rollers].row).abs();
+            constraints[rollers].hold((wheel.roller_friction + wheel.roller_damping * along_axle) * step);
+            let gear = wheel.gear_loss(self.middle.torques[j], middle.shafts[j].x);
+            constraints[bearing].hold((wheel.bearing.dry(middle.shafts[j].x, time) + gear) * step);
         }
         self.middle.shafts = middle.shafts;
     }
 
+    fn limit_body(&mut self) {
+        let (friction, step) = (&self.robot.chassis.friction, self.step);
+        let place = self.place();
+        let centre = place.position + rotated(place.heading, place.centre);
+        let factor = self.robot.surroundings.friction_at(centre);
+        let holds = factor * friction.holds(self.chassis.centre * self.middle.twist);
+        for (axis, constraint) in self.constraints.iter_mut().take(3).enumerate() {
+            constraint.hold(holds[axis] * step);
+            if friction.give > 0.0 && friction.coulomb[axis] > 0.0 {
+                // a spring that is full at what the axis holds: s⁺ = (f⁺ − f)/(k·Δt), λ = −Δt·f⁺
+                let give = friction.give * if axis == 2 { 1.0 / self.arm } else { 1.0 };
+                let soft = give / (friction.coulomb[axis] * step);
+                (constraint.yields, constraint.relaxes) = (soft / step, self.state.given[axis] * soft);
+            }
+        }
+    }
+
+    /// The middle as it now seems, for the next pass.
+    fn find_middle(&mut self) {
+        self.middle.twist = 0.5 * (self.state.twist + self.velocities.body);
+        let ends = self.state.shafts.iter().zip(&self.velocities.shafts);
+        for (middle, (before, after)) in self.middle.shafts.iter_mut().zip(ends) {
+            *middle = 0.5 * (before + after);
+        }
+        let bus = self.bus(&self.middle.heard, &self.middle.currents);
+        for j in 0..self.robot.wheels.len() {
+            let (l, rotor) = (self.robot.wheels[j].gear_ratio, self.rotor(j));
+            let speed = l * self.middle.shafts[j][rotor];
+            let current = self.winding(j, self.middle.heard[j], (bus, self.middle.currents[j], speed)).current(speed);
+            let angle = l * (self.state.turned[j][rotor] + 0.5 * self.step * self.middle.shafts[j][rotor]);
+            let motor = &self.robot.wheels[j].motor;
+            let per_current = l * motor.torque_per_current(current, angle, self.state.temperatures[j]);
+            (self.middle.currents[j], self.middle.torques[j]) = (current, per_current * current);
+        }
+    }
+
     /// Takes the step that was looked at.
-    fn take(&mut self, u: &[f64]) {
+    fn take(&mut self) {
         let step = self.step;
-        let bus_current: f64 =
-            u.iter().zip(&self.middle.currents).map(|(u, i)| u / self.robot.battery.nominal * i).sum();
+        let drawn = self.drawn(&self.middle.heard, &self.middle.currents);
+        let place = self.place();
         let state = &mut self.state;
-        state.polarisation = self.robot.battery.polarised(state.polarisation, bus_current, step);
+        state.polarisation = self.robot.battery.polarised(state.polarisation, drawn, step);
         state.twist_rate = (self.velocities.body - state.twist) / step;
         // ẋ = R(θ)·(v, vn), at the middle of the step
-        let heading = state.heading + 0.5 * step * self.middle.twist.z;
-        state.position += step * rotated(heading, self.middle.twist.xy());
-        state.heading += step * self.middle.twist.z;
+        state.position += step * rotated(place.heading, place.twist.xy());
+        state.heading += step * place.twist.z;
         state.twist = self.velocities.body;
-        let wheels = self.robot.wheels.len();
+        state.given = Vector3::from_fn(|axis, _| -self.impulses[axis] / step);
         for (j, wheel) in self.robot.wheels.iter().enumerate() {
             let [floor, ..] = of_wheel(j);
-            state.turned[j] += step * self.middle.shafts[j];
             state.strained[j] = -self.impulses[floor] / step;
-            state.windup[j] += step * (self.middle.shafts[j] - self.middle.shafts[wheels + j]);
             let middle = self.middle.currents[j];
+            let heat = wheel.motor.warm_resistance(state.temperatures[j]) * middle * middle;
+            state.temperatures[j] = wheel.motor.heating.warmed(state.temperatures[j], heat, step);
             // i⁺ = 2·i½ − i
             state.currents[j] = if wheel.motor.inductance > 0.0 { 2.0 * middle - state.currents[j] } else { middle };
+        }
+        for (turned, speed) in state.turned.iter_mut().zip(&self.middle.shafts) {
+            *turned += step * speed;
         }
         state.shafts.clone_from(&self.velocities.shafts);
         state.time += step;

@@ -1,8 +1,10 @@
 //! Motions whose answer can be written down.
 
-use ground_truth::contact::GRAVITY;
+use ground_truth::contact::{GRAVITY, Grip, Slip};
+use ground_truth::motor::Motor;
 use ground_truth::paper::four_wheels;
-use ground_truth::robot::{Grip, Motor, Robot, Shaft, Slip};
+use ground_truth::robot::Robot;
+use ground_truth::shaft::Shaft;
 use ground_truth::simulation::Simulation;
 use nalgebra::{Vector2, Vector3};
 
@@ -21,7 +23,7 @@ fn it_coasts_down_in_the_time_of_the_closed_form() {
     let chassis = &robot.chassis;
     for (axis, v0) in [(0, 1.2_f64), (1, -0.9), (2, 8.0)] {
         let mass = [chassis.mass, chassis.mass, chassis.inertia][axis];
-        let (b, c) = (chassis.viscous[axis], chassis.coulomb[axis]);
+        let (b, c) = (chassis.friction.viscous[axis], chassis.friction.coulomb[axis]);
         // t = (M/B)·ln(1 + B·|v₀|/C),  way = (M/B)·(|v₀| − C·t/M)
         let stop = mass / b * (b * v0.abs() / c).ln_1p();
         let way = v0.signum() * mass / b * (v0.abs() - c * stop / mass);
@@ -41,7 +43,7 @@ fn it_rests_below_break_away_and_moves_above() {
     let (wheel, chassis) = (&robot.wheels[0], &robot.chassis);
     let force = wheel.gear_ratio * wheel.motor.torque_constant / (wheel.radius * wheel.motor.resistance);
     // all four turn it about its centre: u = C/(4·d·f)
-    let threshold = chassis.coulomb.z / (4.0 * wheel.contact.norm() * force);
+    let threshold = chassis.friction.coulomb.z / (4.0 * wheel.contact.norm() * force);
     for sign in [1.0, -1.0] {
         let [below, above] = [0.999, 1.001].map(|part| {
             let mut robot = Simulation::new(four_wheels(), STEP);
@@ -101,7 +103,7 @@ fn an_elastic_shaft_rings_at_the_frequency_of_two_masses() {
     let (stiffness, wheel_inertia, rotor_inertia) = (20.0, 2e-4, 6e-6);
     for wheel in &mut robot.wheels {
         (wheel.grip, wheel.inertia, wheel.motor.rotor_inertia) = (Grip::Slips(ICE), wheel_inertia, rotor_inertia);
-        wheel.shaft = Shaft::Elastic { stiffness, damping: 0.0 };
+        wheel.shaft = Shaft::Elastic { stiffness, damping: 0.0, play: 0.0 };
     }
     let mut ringing = Simulation::new(robot, STEP);
     ringing.set_wheel_turning(0, 10.0);
@@ -124,10 +126,10 @@ fn an_elastic_shaft_rings_at_the_frequency_of_two_masses() {
 #[test]
 fn current_rises_with_the_time_constant_of_its_winding() {
     let mut robot = four_wheels();
-    let motor = Motor { inductance: 2e-3, ..robot.wheels[0].motor };
-    robot.wheels.iter_mut().for_each(|wheel| wheel.motor = motor);
+    let motor = Motor { inductance: 2e-3, ..robot.wheels[0].motor.clone() };
+    robot.wheels.iter_mut().for_each(|wheel| wheel.motor = motor.clone());
     // held by friction
-    robot.chassis.coulomb = Vector3::repeat(1e3);
+    robot.chassis.friction.coulomb = Vector3::repeat(1e3);
     let mut held = Simulation::new(robot, 1e-5);
     let steps = 93;
     held.hold(&[6.0; 4], steps);

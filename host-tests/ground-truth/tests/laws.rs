@@ -84,10 +84,10 @@ fn a_robot_turned_by_a_quarter_moves_the_same_way() {
         wheel.heading += std::f64::consts::FRAC_PI_2;
         wheel.contact = Vector2::new(-wheel.contact.y, wheel.contact.x);
     }
-    let friction = turned.chassis.coulomb;
-    turned.chassis.coulomb = Vector3::new(friction.y, friction.x, friction.z);
-    let friction = turned.chassis.viscous;
-    turned.chassis.viscous = Vector3::new(friction.y, friction.x, friction.z);
+    let friction = turned.chassis.friction.coulomb;
+    turned.chassis.friction.coulomb = Vector3::new(friction.y, friction.x, friction.z);
+    let friction = turned.chassis.friction.viscous;
+    turned.chassis.friction.viscous = Vector3::new(friction.y, friction.x, friction.z);
     let [mut a, mut b] = [robot, turned].map(|robot| Simulation::new(robot, 1e-4));
     drive(&mut a, 1e-4);
     drive(&mut b, 1e-4);

@@ -1,7 +1,12 @@
 //! The second simulator and the first one, where both describe the same physics: the paper's robots and others like them.
 
-use ground_truth::robot::{Battery, Chassis, Motor, Robot, Wheel};
+use ground_truth::battery::Battery;
+use ground_truth::body_friction::BodyFriction;
+use ground_truth::chassis::Chassis;
+use ground_truth::motor::Motor;
+use ground_truth::robot::{Robot, Wheel};
 use ground_truth::simulation::Simulation;
+use ground_truth::surroundings::Surroundings;
 use host_tests::excitation::{SeededRng, VoltageHold, random_robot, voltages};
 use host_tests::generic_robot::{Drivetrain, GenericRobot};
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
@@ -27,14 +32,7 @@ const HORIZON_MS: usize = 500;
 fn of_rig<const N: usize>(rig: &GenericRobot<N>) -> Robot {
     let wheel = |wheel: host_tests::generic_robot::Wheel| {
         let drive = wheel.drivetrain;
-        let motor = Motor {
-            resistance: drive.resistance,
-            inductance: 0.0,
-            saturation_current: f64::INFINITY,
-            emf_constant: drive.kv,
-            torque_constant: drive.kt,
-            rotor_inertia: 0.0,
-        };
+        let motor = Motor { torque_constant: drive.kt, ..Motor::plain(drive.resistance, drive.kv) };
         Wheel::paper(wheel.heading, wheel.distance, drive.radius, drive.gear, motor)
     };
     Robot {
@@ -44,11 +42,12 @@ fn of_rig<const N: usize>(rig: &GenericRobot<N>) -> Robot {
             centre_of_mass: Vector2::zeros(),
             height: 0.0,
             transport: 0.0,
-            viscous: rig.viscous.into(),
-            coulomb: rig.coulomb.into(),
+            friction: BodyFriction::paper(rig.viscous.into(), rig.coulomb.into()),
         },
         wheels: rig.wheels.map(wheel).to_vec(),
         battery: Battery::stiff(12.0),
+        command_delay: 0.0,
+        surroundings: Surroundings::default(),
     }
 }
 

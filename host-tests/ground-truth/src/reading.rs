@@ -1,0 +1,78 @@
+//! A drive, and what a log of it would hold without noise.
+
+use crate::causes::Setup;
+use crate::sensors::follows;
+use crate::simulation::Simulation;
+use crate::track::Track;
+
+/// How a robot is driven and read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// Between two rows [s]
+    pub row: f64,
+    /// Steps of the simulator in a row.
+    pub steps: usize,
+}
+
+/// What is read on one row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Since the beginning [s]
+    pub time: f64,
+    /// What is commanded from this row on [V]
+    pub command: Vec<f64>,
+    /// Just after that [A]
+    pub currents: Vec<f64>,
+    /// [rad/s]
+    pub wheel_speeds: Vec<f64>,
+    /// x, y, θ [m, m, rad], θ not wrapped
+    pub pose: [f64; 3],
+    /// [rad/s]
+    pub gyro: f64,
+    /// [V]
+    pub bus: f64,
+}
+
+/// Drives a robot from rest by what `command` says of each row and time [s] and where the robot truly is, and reads it.
+pub fn drive(
+    setup: &Setup,
+    pace: Pace,
+    rows: usize,
+    mut command: impl FnMut(usize, &Simulation) -> Vec<f64>,
+) -> Vec<Reading> {
+    let (sensors, step) = (&setup.sensors, pace.row / pace.steps as f64);
+    let mut moving = Simulation::new(setup.robot.clone(), step);
+    let mut followed_currents = vec![0.0; sensors.currents.len()];
+    let mut followed_speeds = vec![0.0; sensors.encoders.len()];
+    let mut track = Track { step, poses: vec![moving.pose()] };
+    let mut readings = Vec::with_capacity(rows);
+    for row in 0..rows {
+        let u = command(row, &moving);
+        let currents = moving.currents(&u);
+        let current = |(j, now): (usize, f64)| sensors.currents[j].read(now, followed_currents[j]);
+        let speed = |(j, followed): (usize, &f64)| sensors.encoders[j].read(*followed);
+        readings.push(Reading {
+            time: row as f64 * pace.row,
+            currents: currents.into_iter().enumerate().map(current).collect(),
+            wheel_speeds: followed_speeds.iter().enumerate().map(speed).collect(),
+            gyro: moving.twist()[2] + sensors.gyro_bias,
+            bus: moving.bus_voltage(&u),
+            command: u.clone(),
+            pose: [0.0; 3],
+        });
+        for _ in 0..pace.steps {
+            moving.hold(&u, 1);
+            track.poses.push(moving.pose());
+            for (j, followed) in followed_currents.iter_mut().enumerate() {
+                *followed = follows(*followed, moving.driving_currents()[j], sensors.currents[j].lag, step);
+            }
+            for (j, followed) in followed_speeds.iter_mut().enumerate() {
+                *followed = follows(*followed, moving.wheel_speed(j), sensors.encoders[j].lag, step);
+            }
+        }
+    }
+    for reading in &mut readings {
+        reading.pose = sensors.camera.read(&track, reading.time);
+    }
+    readings
+}
