@@ -282,7 +282,7 @@ impl Default for ScreenKnobs {
         Self {
             runs: 4,
             least_s: 12.0,
-            rows: 20_000,
+            rows: 8_000,
             promising: 9.0,
             worth_a_fit: 0.25,
             closer_look: 0.1,
