@@ -14,6 +14,7 @@
 //! - [`confusion`]: which cause would be taken for which, on three robots and with two kinds of motion;
 //! - [`verified`]: the sizes that the self-test foretells, found in simulated recordings of three robots;
 //! - [`carried`]: effects that a robot file carries with a wrong size, and what `identify` makes of it;
+//! - [`laboratory`]: every cause, recorded by a simulator that shares no line with the one that judges;
 //! - [`frozen`]: whole reports that stay as they are while walls move;
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
 //! - [`real`]: what the diagnosis says of recordings of real robots;
@@ -47,6 +48,7 @@ pub mod golden;
 pub mod identification;
 pub mod image;
 pub mod in_loop;
+pub mod laboratory;
 pub mod matrices;
 pub mod mujoco;
 pub mod paper;

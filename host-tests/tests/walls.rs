@@ -64,22 +64,23 @@ fn no_library_chooses_its_arithmetic_by_the_processor() {
     );
 }
 
+/// What a manifest depends on beside what it may.
+fn dependencies_beside(allowed: &[&str], path: &str) -> Vec<Finding> {
+    let found = sources(&["toml"]);
+    let manifest = found.iter().find(|source| source.path == path).unwrap_or_else(|| panic!("no manifest {path}"));
+    assert!(!manifest::dependencies(&manifest.text).is_empty(), "{path}: not even libm is found");
+    manifest::others_than(allowed, manifest)
+}
+
 #[test]
 fn the_core_depends_on_libm_and_crc_alone() {
-    let path = "model-core/Cargo.toml";
-    let found = sources(&["toml"]);
-    let manifest = found.iter().find(|source| source.path == path).expect("model-core has a manifest");
-    assert!(!manifest::dependencies(&manifest.text).is_empty(), "{path}: not even libm is found");
-    none(manifest::others_than(&["libm", "crc"], manifest));
+    none(dependencies_beside(&["libm", "crc"], "model-core/Cargo.toml"));
 }
 
 #[test]
 fn the_second_simulator_shares_no_line_with_the_first() {
-    let path = "host-tests/ground-truth/Cargo.toml";
-    let found = sources(&["toml"]);
-    let manifest = found.iter().find(|source| source.path == path).expect("the second simulator has a manifest");
-    assert!(!manifest::dependencies(&manifest.text).is_empty(), "{path}: not even nalgebra is found");
-    none(manifest::others_than(&["libm", "nalgebra"], manifest));
+    let allowed = ["libm", "nalgebra", "rand", "rand_chacha"];
+    none(dependencies_beside(&allowed, "host-tests/ground-truth/Cargo.toml"));
     none(in_all(&rust_below("host-tests/ground-truth/"), |source| needles::in_code(source, needles::SECOND_SIMULATOR)));
 }
 

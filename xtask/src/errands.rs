@@ -50,6 +50,12 @@ pub const ERRANDS: &[Errand] = &[
         run: selftest,
     },
     Errand {
+        name: "laboratory",
+        takes: "",
+        does: "diagnose what a second simulator records of every cause and rewrite the golden table",
+        run: laboratory,
+    },
+    Errand {
         name: "carried",
         takes: "",
         does: "identify robots whose files carry each effect with a wrong size (BLESS=1: rewrite)",
@@ -178,6 +184,10 @@ fn confusion(_: Option<OsString>) -> Result<(), String> {
 
 fn selftest(_: Option<OsString>) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin selftest"))
+}
+
+fn laboratory(_: Option<OsString>) -> Result<(), String> {
+    announced(Line::of("cargo run --release -p host-tests --bin laboratory"))
 }
 
 fn carried(_: Option<OsString>) -> Result<(), String> {

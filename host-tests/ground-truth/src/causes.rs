@@ -217,10 +217,10 @@ pub const CAUSES: &[Cause] = &[
     }),
     on_all("encoder_lag", |at, _, x| at.sensors.encoders.iter_mut().for_each(|encoder| encoder.lag = 0.008 * x)),
     on_all("gyro_bias", |at, _, x| at.sensors.gyro_bias = 0.02 * x),
-    // Numbers
+    // Numbers, off by three times what a robot file is uncertain by, or more
     on_all("mass", |at, _, x| at.robot.chassis.mass *= 1.0 + 0.1 * x),
-    on_all("inertia", |at, _, x| at.robot.chassis.inertia *= 1.0 + 0.1 * x),
-    on_all("resistance", |at, on, x| wheels(at, on).for_each(|(_, wheel)| wheel.motor.resistance *= 1.0 + 0.1 * x)),
+    on_all("inertia", |at, _, x| at.robot.chassis.inertia *= 1.0 + 0.3 * x),
+    on_all("resistance", |at, on, x| wheels(at, on).for_each(|(_, wheel)| wheel.motor.resistance *= 1.0 + 0.3 * x)),
     on_all("torque_constant", |at, on, x| {
         wheels(at, on).for_each(|(_, wheel)| {
             wheel.motor.torque_constant *= 1.0 + 0.1 * x;
@@ -230,8 +230,8 @@ pub const CAUSES: &[Cause] = &[
     on_all("kt_over_kv", |at, on, x| {
         wheels(at, on).for_each(|(_, wheel)| wheel.motor.torque_constant *= 1.0 + 0.1 * x)
     }),
-    on_all("viscous_friction", |at, _, x| at.robot.chassis.friction.viscous *= 1.0 + 0.1 * x),
-    on_all("coulomb_friction", |at, _, x| at.robot.chassis.friction.coulomb *= 1.0 + 0.1 * x),
+    on_all("viscous_friction", |at, _, x| at.robot.chassis.friction.viscous *= 1.0 + 0.6 * x),
+    on_all("coulomb_friction", |at, _, x| at.robot.chassis.friction.coulomb *= 1.0 + 0.6 * x),
     on_all("wheel_radius", |at, on, x| wheels(at, on).for_each(|(_, wheel)| wheel.radius *= 1.0 + 0.1 * x)),
     on_all("center_distance", |at, on, x| wheels(at, on).for_each(|(_, wheel)| wheel.contact *= 1.0 + 0.1 * x)),
 ];

@@ -49,3 +49,9 @@ pub mod impulse;
 pub mod simulation;
 pub mod state;
 mod step;
+
+// Its recordings
+pub mod drawn;
+pub mod driving;
+pub mod recording;
+pub mod robot_file;

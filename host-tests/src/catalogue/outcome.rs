@@ -176,7 +176,12 @@ fn alike(report: &Report) -> &[String] {
 
 /// How good an answer is, where the truth is known.
 pub fn judge(hidden: &HiddenCause, report: &Report) -> Judgement {
-    let Some((cause, wheel)) = hidden.cause() else {
+    judge_cause(hidden.cause(), report)
+}
+
+/// How good an answer is, where a cause was hidden, on a wheel if it sits on one; or nothing.
+pub fn judge_cause(hidden: Option<(&str, Option<usize>)>, report: &Report) -> Judgement {
+    let Some((cause, wheel)) = hidden else {
         return if report.verdict == Verdict::NoGap { Judgement::First } else { Judgement::Wrong };
     };
     let in_place = report.cause(cause).is_some_and(|which| which.wheel == wheel);

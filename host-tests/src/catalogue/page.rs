@@ -262,7 +262,7 @@ pub fn word(verdict: Verdict) -> &'static str {
 }
 
 /// Names in a cell; a dash where there are none.
-pub(super) fn listed(names: &[String]) -> String {
+pub fn listed(names: &[String]) -> String {
     if names.is_empty() { "–".to_owned() } else { names.join(", ") }
 }
 

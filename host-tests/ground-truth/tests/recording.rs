@@ -1,0 +1,48 @@
+//! Recordings as the data contract has them.
+
+use ground_truth::recording::{Plan, Session};
+use ground_truth::robot_file::RobotFile;
+
+const PLAN: Plan = Plan { runs: 2, duration: 1.0, rate: 100.0, camera_rate: 25.0, voltage: 8.0, gyro: true };
+
+fn session(seed: u64) -> Session {
+    let file = RobotFile::paper(0.0);
+    Session::of(&file, &file.setup(), &PLAN, seed)
+}
+
+#[test]
+fn the_same_seed_makes_the_same_files_and_another_others() {
+    assert_eq!(session(3), session(3));
+    assert_ne!(session(3).runs, session(4).runs);
+    assert_ne!(session(3).runs[0].1, session(3).runs[1].1);
+}
+
+#[test]
+fn a_run_has_a_row_a_hundredth_of_a_second_and_a_pose_on_every_fourth() {
+    for (_, text) in session(5).runs {
+        let mut lines = text.lines();
+        let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+        assert_eq!(header.len(), 1 + 3 * 4 + 3 + 1);
+        let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+        assert_eq!(rows.len(), 100);
+        for (k, row) in rows.iter().enumerate() {
+            assert_eq!(row.len(), header.len());
+            assert_eq!(row[0].parse::<f64>().expect("a time"), k as f64 / 100.0);
+            assert_eq!(row[13].is_empty(), !k.is_multiple_of(4), "row {k}");
+        }
+        let driven = rows.iter().any(|row| row[1].parse::<f64>().expect("a voltage").abs() > 1.0);
+        assert!(driven, "nobody drives");
+    }
+}
+
+#[test]
+fn a_folder_holds_the_robot_and_its_runs() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("a-recorded-session");
+    let made = session(6);
+    made.write(&folder).expect("a folder");
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).expect("a file");
+    assert_eq!(read("robot.toml"), made.robot);
+    for (name, text) in &made.runs {
+        assert_eq!(read(&format!("runs/{name}")), *text);
+    }
+}
