@@ -43,9 +43,14 @@ const fn on_one(id: &'static str, put: fn(&mut Setup, Option<usize>, f64)) -> Ca
     Cause { id, one_wheel: true, put }
 }
 
+/// What belongs to the wheels on which a cause sits, with their numbers.
+fn of_wheels<T>(each: &mut [T], wheel: Option<usize>) -> impl Iterator<Item = (usize, &mut T)> {
+    each.iter_mut().enumerate().filter(move |(j, _)| wheel.is_none_or(|wheel| wheel == *j))
+}
+
 /// The wheels on which a cause sits, with their numbers.
 fn wheels(setup: &mut Setup, wheel: Option<usize>) -> impl Iterator<Item = (usize, &mut Wheel)> {
-    setup.robot.wheels.iter_mut().enumerate().filter(move |(j, _)| wheel.is_none_or(|wheel| wheel == *j))
+    of_wheels(&mut setup.robot.wheels, wheel)
 }
 
 /// Cosine and sine of a ripple whose phase is each wheel's own.
@@ -205,15 +210,11 @@ pub const CAUSES: &[Cause] = &[
         at.sensors.currents.iter_mut().for_each(|sensor| sensor.gain_error = 0.05 * x);
     }),
     on_one("current_sensor_offset", |at, on, x| {
-        let on = |j: usize| on.is_none_or(|wheel| wheel == j);
-        let sensors = at.sensors.currents.iter_mut().enumerate();
-        sensors.filter(|(j, _)| on(*j)).for_each(|(_, sensor)| sensor.offset = 0.05 * x);
+        of_wheels(&mut at.sensors.currents, on).for_each(|(_, sensor)| sensor.offset = 0.05 * x);
     }),
     on_all("current_lag", |at, _, x| at.sensors.currents.iter_mut().for_each(|sensor| sensor.lag = 0.002 * x)),
     on_one("encoder_scale", |at, on, x| {
-        let on = |j: usize| on.is_none_or(|wheel| wheel == j);
-        let encoders = at.sensors.encoders.iter_mut().enumerate();
-        encoders.filter(|(j, _)| on(*j)).for_each(|(_, encoder)| encoder.scale_error = 0.02 * x);
+        of_wheels(&mut at.sensors.encoders, on).for_each(|(_, encoder)| encoder.scale_error = 0.02 * x);
     }),
     on_all("encoder_lag", |at, _, x| at.sensors.encoders.iter_mut().for_each(|encoder| encoder.lag = 0.008 * x)),
     on_all("gyro_bias", |at, _, x| at.sensors.gyro_bias = 0.02 * x),

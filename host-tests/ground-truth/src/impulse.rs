@@ -27,6 +27,13 @@ pub struct Row {
     pub wheel: Option<(usize, f64)>,
 }
 
+impl Row {
+    /// h·V, of a body's twist and the speeds of its wheels and rotors.
+    pub fn along(&self, body: &Vector3<f64>, shafts: &[Vector2<f64>]) -> f64 {
+        self.body.dot(body) + self.wheel.map_or(0.0, |(wheel, by)| by * shafts[wheel].x)
+    }
+}
+
 /// A force with a limit, or a rigid joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraint {
@@ -71,9 +78,10 @@ pub struct Velocities {
 }
 
 impl Velocities {
-    /// h·V
-    pub fn along(&self, row: &Row) -> f64 {
-        row.body.dot(&self.body) + row.wheel.map_or(0.0, |(wheel, by)| by * self.shafts[wheel].x)
+    /// At rest, with so many wheels.
+    pub fn at_rest(wheels: usize) -> Self {
+        let (shafts, shaft_mobility) = (vec![Vector2::zeros(); wheels], vec![Matrix2::zeros(); wheels]);
+        Self { shafts, shaft_mobility, ..Self::default() }
     }
 
     /// V ← V + A⁻¹·h·λ
@@ -101,7 +109,7 @@ impl Velocities {
             for (constraint, impulse) in constraints.iter().zip(impulses.iter_mut()) {
                 let Constraint { row, yields, relaxes, between: (least, most_held) } = constraint;
                 let gives = self.mobility(row) + yields;
-                let slides = self.along(row) + yields * *impulse + relaxes;
+                let slides = row.along(&self.body, &self.shafts) + yields * *impulse + relaxes;
                 let new = (*impulse - slides / gives).clamp(*least, *most_held);
                 self.push(row, new - *impulse);
                 most = most.max(((new - *impulse) * gives).abs());
@@ -145,7 +153,7 @@ mod tests {
             let (mut v, mut impulses) = (block_and_shaft(3.0, 1.0), [0.0]);
             v.solve(&[Constraint::dry(RIM, limit)], &mut impulses);
             assert_eq!(impulses[0] == -limit, slides);
-            assert_eq!(v.along(&RIM) > 1e-9, slides);
+            assert_eq!(RIM.along(&v.body, &v.shafts) > 1e-9, slides);
         }
     }
 
@@ -155,7 +163,7 @@ mod tests {
         v.solve(&[Constraint { yields: 0.25, ..Constraint::dry(RIM, f64::INFINITY) }], &mut impulses);
         // s = 2 + (2.5 + γ)·λ = 0
         assert!((impulses[0] + 2.0 / 2.75).abs() < 1e-12);
-        assert!((v.along(&RIM) + 0.25 * impulses[0]).abs() < 1e-12);
+        assert!((RIM.along(&v.body, &v.shafts) + 0.25 * impulses[0]).abs() < 1e-12);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! A drive, and what a log of it would hold without noise.
 
 use crate::causes::Setup;
+use crate::robot_file::Noise;
 use crate::sensors::follows;
 use crate::simulation::Simulation;
 use crate::track::Track;
@@ -29,8 +30,24 @@ pub struct Reading {
     pub pose: [f64; 3],
     /// [rad/s]
     pub gyro: f64,
-    /// [V]
-    pub bus: f64,
+}
+
+/// RMS difference of the group of signals in which two drives differ most, over its noise [1]: currents, wheel speeds,
+/// position, heading, yaw rate.
+pub fn apart(a: &[Reading], b: &[Reading], noise: &Noise) -> f64 {
+    let group = |sigma: f64, of: fn(&Reading) -> &[f64]| {
+        let pairs = a.iter().zip(b).flat_map(|(a, b)| of(a).iter().zip(of(b)));
+        let (sum, count) = pairs.fold((0.0, 0.0), |(sum, count), (a, b)| (sum + (a - b) * (a - b), count + 1.0));
+        (sum / f64::max(count, 1.0)).sqrt() / sigma
+    };
+    let groups = [
+        group(noise.current, |reading| &reading.currents),
+        group(noise.wheel_speed, |reading| &reading.wheel_speeds),
+        group(noise.position, |reading| &reading.pose[..2]),
+        group(noise.heading, |reading| &reading.pose[2..]),
+        group(noise.gyro, |reading| std::slice::from_ref(&reading.gyro)),
+    ];
+    groups.into_iter().fold(0.0, f64::max)
 }
 
 /// Drives a robot from rest by what `command` says of each row and time [s] and where the robot truly is, and reads it.
@@ -56,7 +73,6 @@ pub fn drive(
             currents: currents.into_iter().enumerate().map(current).collect(),
             wheel_speeds: followed_speeds.iter().enumerate().map(speed).collect(),
             gyro: moving.twist()[2] + sensors.gyro_bias,
-            bus: moving.bus_voltage(&u),
             command: u.clone(),
             pose: [0.0; 3],
         });

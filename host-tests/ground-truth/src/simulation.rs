@@ -1,6 +1,6 @@
 //! A robot that is driven: where it is, and what is read of it.
 
-use nalgebra::{Matrix2, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 
 use crate::chassis::SeenFrom;
 use crate::commands::Commands;
@@ -90,11 +90,7 @@ impl Simulation {
                 loads: none(),
                 heard: none(),
             },
-            velocities: Velocities {
-                shafts: state.shafts.clone(),
-                shaft_mobility: vec![Matrix2::zeros(); wheels],
-                ..Velocities::default()
-            },
+            velocities: Velocities::at_rest(wheels),
             impulses: vec![0.0; constraints.len()],
             slides: vec![0; constraints.len()],
             before: Before::default(),
@@ -155,7 +151,10 @@ impl Simulation {
 
     /// Currents [A] just after the voltages u [V] have been sent.
     pub fn currents(&self, u: &[f64]) -> Vec<f64> {
-        let heard = self.hearing(u);
+        let (mut commands, delay) = (self.commands.clone(), self.robot.command_delay);
+        commands.send(self.state.time, u, delay);
+        let mut heard = vec![0.0; u.len()];
+        commands.at(self.state.time - delay, &mut heard);
         let mut currents = self.state.currents.clone();
         for _ in 0..READINGS {
             let bus = self.bus(&heard, &currents);
@@ -172,16 +171,6 @@ impl Simulation {
     /// Currents over the last step [A]
     pub fn driving_currents(&self) -> &[f64] {
         &self.middle.currents
-    }
-
-    /// The battery's voltage [V] just after the voltages u [V] have been sent.
-    pub fn bus_voltage(&self, u: &[f64]) -> f64 {
-        self.bus(&self.hearing(u), &self.currents(u))
-    }
-
-    /// What the wheels press on the floor with [N], over the last step
-    pub fn loads(&self) -> &[f64] {
-        &self.middle.loads
     }
 
     /// What moves and what is strained [J]
@@ -203,15 +192,6 @@ impl Simulation {
             0.5 * (turning + patch + wheel.motor.inductance * state.currents[j].powi(2)) + twisted
         };
         body + self.robot.wheels.iter().enumerate().map(of_wheel).sum::<f64>()
-    }
-
-    /// What the bridges hear [V] just after the voltages u [V] have been sent.
-    fn hearing(&self, u: &[f64]) -> Vec<f64> {
-        let (mut commands, delay) = (self.commands.clone(), self.robot.command_delay);
-        commands.send(self.state.time, u, delay);
-        let mut heard = vec![0.0; u.len()];
-        commands.at(self.state.time - delay, &mut heard);
-        heard
     }
 
     /// The shaft that the motor of wheel j turns: 0, the wheel's own, or 1.

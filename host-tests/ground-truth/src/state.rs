@@ -54,14 +54,28 @@ impl Clone for State {
 
     /// Without asking for memory, where there is enough: it is done every step.
     fn clone_from(&mut self, from: &Self) {
-        let Self { time, position, heading, twist, twist_rate, shafts, turned, currents, temperatures, .. } = self;
-        (*time, *position, *heading, *twist, *twist_rate) =
-            (from.time, from.position, from.heading, from.twist, from.twist_rate);
-        shafts.clone_from(&from.shafts);
-        turned.clone_from(&from.turned);
-        currents.clone_from(&from.currents);
-        temperatures.clone_from(&from.temperatures);
-        self.strained.clone_from(&from.strained);
-        (self.given, self.polarisation) = (from.given, from.polarisation);
+        // named one by one, so that none is forgotten
+        let Self {
+            time,
+            position,
+            heading,
+            twist,
+            twist_rate,
+            shafts,
+            turned,
+            currents,
+            temperatures,
+            strained,
+            given,
+            polarisation,
+        } = from;
+        (self.time, self.position, self.heading) = (*time, *position, *heading);
+        (self.twist, self.twist_rate) = (*twist, *twist_rate);
+        self.shafts.clone_from(shafts);
+        self.turned.clone_from(turned);
+        self.currents.clone_from(currents);
+        self.temperatures.clone_from(temperatures);
+        self.strained.clone_from(strained);
+        (self.given, self.polarisation) = (*given, *polarisation);
     }
 }

@@ -4,10 +4,9 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 
 use crate::contact::{Grip, loads};
 use crate::holds::of_wheel;
-use crate::impulse::Velocities;
 use crate::rotated::rotated;
 use crate::shaft::{Shaft, Twisted};
-use crate::simulation::Simulation;
+use crate::simulation::{Middle, Simulation};
 use crate::surroundings::Place;
 
 /// Times that a step is looked at; in the later ones what depends on its middle is known.
@@ -148,35 +147,30 @@ impl Simulation {
         self.limit_body();
         let step = self.step;
         let time = self.state.time + 0.5 * step;
-        let middle = Velocities {
-            body: self.middle.twist,
-            shafts: std::mem::take(&mut self.middle.shafts),
-            ..Velocities::default()
-        };
+        let Middle { twist, shafts, torques, loads, .. } = &self.middle;
         for (j, wheel) in self.robot.wheels.iter().enumerate() {
             let [floor, rollers, bearing] = of_wheel(j);
             let constraints = &mut self.constraints;
-            let angle = self.state.turned[j].x + 0.5 * step * middle.shafts[j].x;
+            let angle = self.state.turned[j].x + 0.5 * step * shafts[j].x;
             constraints[floor].row.wheel = Some((j, -wheel.radius_at(angle)));
             match wheel.grip {
                 Grip::Rolls => {}
                 // s⁺ = c·f⁺, λ = −Δt·f⁺
                 Grip::Creeps(creep) => constraints[floor].yields = creep / step,
                 Grip::Slips(slip) => {
-                    let friction = slip.friction(middle.along(&constraints[floor].row));
+                    let friction = slip.friction(constraints[floor].row.along(twist, shafts));
                     // rollers spend a part of what the floor can hold
-                    let holds = (friction * self.middle.loads[j]).powi(2) - wheel.roller_friction.powi(2);
+                    let holds = (friction * loads[j]).powi(2) - wheel.roller_friction.powi(2);
                     constraints[floor].hold(holds.max(0.0).sqrt() * step);
                     (constraints[floor].yields, constraints[floor].relaxes) =
                         slip.softness(self.state.strained[j], step);
                 }
             }
-            let along_axle = middle.along(&constraints[rollers].row).abs();
+            let along_axle = constraints[rollers].row.along(twist, shafts).abs();
             constraints[rollers].hold((wheel.roller_friction + wheel.roller_damping * along_axle) * step);
-            let gear = wheel.gear_loss(self.middle.torques[j], middle.shafts[j].x);
-            constraints[bearing].hold((wheel.bearing.dry(middle.shafts[j].x, time) + gear) * step);
+            let gear = wheel.gear_loss(torques[j], shafts[j].x);
+            constraints[bearing].hold((wheel.bearing.dry(shafts[j].x, time) + gear) * step);
         }
-        self.middle.shafts = middle.shafts;
     }
 
     fn limit_body(&mut self) {
