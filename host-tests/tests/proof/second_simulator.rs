@@ -1,19 +1,15 @@
 //! The second simulator and the first one, where both describe the same physics: the paper's robots and others like them.
 
-use ground_truth::battery::Battery;
-use ground_truth::body_friction::BodyFriction;
-use ground_truth::chassis::Chassis;
-use ground_truth::motor::Motor;
-use ground_truth::robot::{Robot, Wheel};
+use ground_truth::reading::{Reading, apart};
+use ground_truth::robot_file::RobotFile;
 use ground_truth::simulation::Simulation;
-use ground_truth::surroundings::Surroundings;
 use host_tests::excitation::{SeededRng, VoltageHold, random_robot, voltages};
 use host_tests::generic_robot::{Drivetrain, GenericRobot};
 use host_tests::paper::{FOUR_HEADINGS_DEG, FOUR_WHEELS, THREE_HEADINGS_DEG, THREE_WHEELS};
 use host_tests::reference::Reference;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::{Input, Plant, State};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 
 use crate::fixture::core_robot;
 
@@ -22,37 +18,41 @@ const STEP: f64 = 5e-5;
 /// Steps of it in a millisecond.
 const STEPS: usize = 20;
 
-/// Noise of the paper's robots' sensors: current [A], wheel speed [rad/s], position [m], heading [rad].
-const SIGMA: [f64; 4] = [0.02, 0.15, 0.003, 0.01];
-
 /// How long the robots are compared from one start [ms].
 const HORIZON_MS: usize = 500;
 
-/// The same robot in the second simulator's words.
-fn of_rig<const N: usize>(rig: &GenericRobot<N>) -> Robot {
-    let wheel = |wheel: host_tests::generic_robot::Wheel| {
-        let drive = wheel.drivetrain;
-        let motor = Motor { torque_constant: drive.kt, ..Motor::plain(drive.resistance, drive.kv) };
-        Wheel::paper(wheel.heading, wheel.distance, drive.radius, drive.gear, motor)
-    };
-    Robot {
-        chassis: Chassis {
-            mass: rig.mass,
-            inertia: rig.inertia,
-            centre_of_mass: Vector2::zeros(),
-            height: 0.0,
-            transport: 0.0,
-            friction: BodyFriction::paper(rig.viscous.into(), rig.coulomb.into()),
-        },
-        wheels: rig.wheels.map(wheel).to_vec(),
-        battery: Battery::stiff(12.0),
-        command_delay: 0.0,
-        surroundings: Surroundings::default(),
+/// Two drives of one robot are no further apart [σ].
+const ALIKE: f64 = 0.02;
+
+/// What the core reads on a row of a millisecond, just after the voltages u [V] have been sent.
+pub fn as_read<const N: usize>(row: usize, u: &[f64; N], reading: &model_core::plant::Reading<N, f64>) -> Reading {
+    let Pose { x, y, theta } = reading.pose;
+    Reading {
+        time: 1e-3 * row as f64,
+        command: u.to_vec(),
+        currents: reading.current.to_vec(),
+        wheel_speeds: reading.wheel_speed.to_vec(),
+        pose: [x, y, theta],
+        gyro: reading.gyro,
     }
 }
 
-/// What is read each millisecond: currents, wheel speeds, position, heading.
-type Reading = [Vec<f64>; 4];
+/// The same robot in the second simulator's words.
+fn of_rig<const N: usize>(rig: &GenericRobot<N>) -> RobotFile {
+    let drive = rig.wheels[0].drivetrain;
+    RobotFile {
+        wheels: rig.wheels.map(|wheel| (wheel.heading.to_degrees(), wheel.distance, wheel.drivetrain.radius)).to_vec(),
+        gear_ratio: drive.gear,
+        resistance: drive.resistance,
+        emf_constant: drive.kv,
+        torque_constant: drive.kt,
+        mass: rig.mass,
+        inertia: rig.inertia,
+        viscous: rig.viscous,
+        coulomb: rig.coulomb,
+        ..RobotFile::paper(0.0)
+    }
+}
 
 fn voltages_by_millisecond<const N: usize>(seed: u64) -> Vec<[f64; N]> {
     let holds = voltages::<N>(seed, 30, 9.0).into_iter();
@@ -60,26 +60,38 @@ fn voltages_by_millisecond<const N: usize>(seed: u64) -> Vec<[f64; N]> {
 }
 
 fn by_ground_truth<const N: usize>(rig: &GenericRobot<N>, twist: [f64; 3], u: &[[f64; N]]) -> Vec<Reading> {
-    let mut moving = Simulation::new(of_rig(rig), STEP);
+    let mut moving = Simulation::new(of_rig(rig).setup().robot, STEP);
     moving.set_moving(Vector3::from(twist));
-    let read = |u: &[f64; N]| {
-        let (currents, speeds) = (moving.currents(u), moving.wheel_speeds().to_vec());
-        let [x, y, theta] = moving.pose();
+    let read = |(row, u): (usize, &[f64; N])| {
+        let reading = Reading {
+            time: 1e-3 * row as f64,
+            command: u.to_vec(),
+            currents: moving.currents(u),
+            wheel_speeds: moving.wheel_speeds().to_vec(),
+            pose: moving.pose(),
+            gyro: moving.twist()[2],
+        };
         moving.hold(u, STEPS);
-        [currents, speeds, vec![x, y], vec![theta]]
+        reading
     };
-    u.iter().map(read).collect()
+    u.iter().enumerate().map(read).collect()
 }
 
 fn exactly<const N: usize>(rig: &GenericRobot<N>, twist: [f64; 3], u: &[[f64; N]]) -> Vec<Reading> {
     let mut robot = Reference::derived(rig).moving(twist);
-    let read = |u: &[f64; N]| {
-        let [x, y, theta] = robot.pose;
-        let reading = [robot.currents(*u).to_vec(), robot.wheel_speeds().to_vec(), vec![x, y], vec![theta]];
+    let read = |(row, u): (usize, &[f64; N])| {
+        let reading = Reading {
+            time: 1e-3 * row as f64,
+            command: u.to_vec(),
+            currents: robot.currents(*u).to_vec(),
+            wheel_speeds: robot.wheel_speeds().to_vec(),
+            pose: robot.pose,
+            gyro: robot.twist[2],
+        };
         robot.advance(*u, 1e-3);
         reading
     };
-    u.iter().map(read).collect()
+    u.iter().enumerate().map(read).collect()
 }
 
 /// The core, in `parts` steps a millisecond.
@@ -87,30 +99,15 @@ fn by_core<const N: usize>(rig: &GenericRobot<N>, twist: [f64; 3], u: &[[f64; N]
     let plant = Plant::new(core_robot::<N, f64>(rig), Default::default());
     let [v, vn, w] = twist;
     let mut state: State<N, f64> = plant.start(0.0, Pose::default(), BodyTwist { v, vn, w });
-    let read = |u: &[f64; N]| {
+    let read = |(row, u): (usize, &[f64; N])| {
         let mut first = None;
         for _ in 0..parts {
             let reading = plant.step(&mut state, &mut [], &Input::Voltage(*u), 1e-3 / parts as f64);
             first.get_or_insert(reading);
         }
-        let reading = first.expect("at least one step");
-        let Pose { x, y, theta } = reading.pose;
-        [reading.current.to_vec(), reading.wheel_speed.to_vec(), vec![x, y], vec![theta]]
+        as_read(row, u, &first.expect("at least one step"))
     };
-    u.iter().map(read).collect()
-}
-
-/// RMS difference of each group over its noise [1].
-fn apart(a: &[Reading], b: &[Reading]) -> [f64; 4] {
-    std::array::from_fn(|group| {
-        let pairs = a.iter().zip(b).flat_map(|(a, b)| a[group].iter().zip(&b[group]));
-        let (sum, count) = pairs.fold((0.0, 0.0), |(sum, n), (a, b)| (sum + (a - b).powi(2), n + 1.0));
-        (sum / f64::max(count, 1.0)).sqrt() / SIGMA[group]
-    })
-}
-
-fn most(of: [f64; 4]) -> f64 {
-    of.into_iter().fold(0.0, f64::max)
+    u.iter().enumerate().map(read).collect()
 }
 
 /// Both simulators over windows of half a second, each from a twist of its own.
@@ -120,14 +117,15 @@ fn compare<const N: usize>(rig: &GenericRobot<N>, seed: u64) {
     let u = voltages_by_millisecond::<N>(seed);
     let (second, exact) = (by_ground_truth(rig, twist, &u), exactly(rig, twist, &u));
     let [fine, shipped] = [100, 1].map(|parts| by_core(rig, twist, &u, parts));
+    let noise = RobotFile::paper(0.0).noise;
+    let from = |one: &[Reading], other: &[Reading]| apart(one, other, &noise);
+    let (from_exact, from_fine) = (from(&second, &exact), from(&second, &fine));
     println!(
-        "{N} wheels, seed {seed}: from the exact solution {:.4} σ, from the core at 10 µs {:.4} σ; the core at 1 ms {:.4} σ",
-        most(apart(&second, &exact)),
-        most(apart(&second, &fine)),
-        most(apart(&shipped, &exact))
+        "{N} wheels, seed {seed}: from the exact solution {from_exact:.4} σ, from the core at 10 µs {from_fine:.4} σ; the core at 1 ms {:.4} σ",
+        from(&shipped, &exact)
     );
-    assert!(most(apart(&second, &exact)) < 0.02, "{:?}", apart(&second, &exact));
-    assert!(most(apart(&second, &fine)) < 0.02, "{:?}", apart(&second, &fine));
+    assert!(from_exact < ALIKE, "{from_exact} σ from the exact solution");
+    assert!(from_fine < ALIKE, "{from_fine} σ from the core");
 }
 
 /// A robot of any geometry, mass and friction, whose wheels have the same drive.
