@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::laid::Laid;
 use super::left::Left;
 use super::sensors::Sensors;
-use super::sizes::{size_needed, times_of_events};
+use super::sizes::{often_enough, size_needed, within_bounds};
 use super::standing::Standing;
 use super::suspects::{Column, Suspect, suspects};
 use super::view::View;
@@ -45,13 +45,15 @@ fn of_wheels<const N: usize>(file: &RobotFile, runs: &[Run], sensors: &Sensors, 
     let with_each = sensors.might_be_added.iter().map(|group| logged | mask::<N>(&[*group]));
     let views: Vec<View> = std::iter::once(logged).chain(with_each).map(|mask| laid.view(mask)).collect();
     let left = laid.left(columns, &views);
-    let now = asked.standings(&left[0]);
+    let now = asked.standings(laid, &left[0]);
     let shown = asked.shown(&now);
     let cause = |k: &usize| {
         let seen_times = match &columns[suspects[*k].typical] {
             // an effect without a size is there or not
             Column::Effect(effect) if !has_size(effect.card()) => now[*k].is_seen().then_some(1.0),
-            Column::Effect(effect) if effect.card().shows_event_by_event() => times_of_events(laid, effect, knobs),
+            Column::Effect(effect) if effect.card().shows_event_by_event() => {
+                within_bounds(now[*k].seen(), effect, knobs)
+            }
             Column::Effect(effect) => size_needed(laid, effect, &views[0], (now[*k].size, now[*k].needed), knobs),
             Column::Factors(_) => Some(now[*k].seen()).filter(|times| times.is_finite()),
         };
@@ -60,10 +62,10 @@ fn of_wheels<const N: usize>(file: &RobotFile, runs: &[Run], sensors: &Sensors, 
     let replaced = sensors.might_replace.iter().map(|(name, runs)| {
         let aligned = self::aligned::<N>(file, runs, &sensors.logged);
         let laid = Laid::new(file, laid.model.clone(), &aligned, knobs);
-        (*name, asked.standings(&laid.left(columns, &[laid.view(logged)])[0]))
+        (*name, asked.standings(&laid, &laid.left(columns, &[laid.view(logged)])[0]))
     });
     let added =
-        sensors.might_be_added.iter().zip(&left[1..]).map(|(group, left)| (group.name(), asked.standings(left)));
+        sensors.might_be_added.iter().zip(&left[1..]).map(|(group, left)| (group.name(), asked.standings(laid, left)));
     let with = |(sensor, then): (&'static str, Vec<Standing>)| {
         let newly = |is: fn(&Standing) -> bool| -> Vec<&'static str> {
             let comes = shown.iter().filter(|k| !is(&now[**k]) && is(&then[**k]));
@@ -91,7 +93,7 @@ fn confused<const N: usize>(
     let aligned = aligned::<N>(file, runs, logged);
     let asked = Asked::new(file, &aligned, knobs)?;
     let view = [asked.laid.view(mask::<N>(logged))];
-    let now = asked.standings(&asked.laid.left(&asked.columns, &view)[0]);
+    let now = asked.standings(&asked.laid, &asked.laid.left(&asked.columns, &view)[0]);
     let causes = asked.shown(&now).into_iter().map(|k| now[k].as_confused(&asked.suspects[k])).collect();
     Some((view[0].measured(), causes))
 }
@@ -129,8 +131,14 @@ impl<'a, const N: usize> Asked<'a, N> {
         Some(Self { file, knobs, laid: Laid::new(file, model, aligned, knobs), suspects, columns })
     }
 
-    fn standings(&self, left: &Left) -> Vec<Standing> {
-        Standing::of_all(&self.suspects, left, self.file, self.knobs)
+    /// By what is left of the signatures in recordings laid out.
+    fn standings(&self, laid: &Laid<'_, N>, left: &Left) -> Vec<Standing> {
+        Standing::of_all(&self.suspects, left, self.file, self.knobs, |suspect| match &self.columns[suspect.typical] {
+            Column::Effect(effect) if effect.card().shows_event_by_event() => {
+                Some(often_enough(laid, effect, self.knobs))
+            }
+            _ => None,
+        })
     }
 
     /// The suspects that an answer speaks of: of effects on one wheel, that wheel where they show least.

@@ -27,22 +27,21 @@ pub(super) fn size_needed<const N: usize>(
     Some(found.log_times.exp())
 }
 
-/// The multiple of its typical share from which on something that shows each time happens often enough to be sure of; none
-/// where it would have to happen more often than it may.
+/// The multiple of its typical share from which on something that shows each time happens often enough to be sure of.
 ///
 /// ```text
 /// k windows that all say the same, of many that say nothing:  k > z·√k        z: standard errors that are sure
 /// ```
-pub(super) fn times_of_events<const N: usize>(
-    laid: &Laid<'_, N>,
-    effect: &EffectInstance,
-    knobs: &SelftestKnobs,
-) -> Option<f64> {
-    let [share, ..] = effect.params[..] else { return None };
+pub(super) fn often_enough<const N: usize>(laid: &Laid<'_, N>, effect: &EffectInstance, knobs: &SelftestKnobs) -> f64 {
     let events = knobs.engine.search.tie_errors.powi(2);
-    let times = (events / (share * laid.telegrams_told(effect.wheel) as f64)).ln();
+    let share = effect.params.first().copied().unwrap_or_default();
+    events / (share * laid.telegrams_told(effect.wheel) as f64)
+}
+
+/// A multiple that is within an effect's bounds, if it is no more than the largest.
+pub(super) fn within_bounds(times: f64, effect: &EffectInstance, knobs: &SelftestKnobs) -> Option<f64> {
     let (low, high) = bounds(effect, knobs.least_times);
-    (times <= high).then(|| times.max(low).exp())
+    (times.ln() <= high).then(|| times.max(low.exp()))
 }
 
 /// A size that was tried.

@@ -17,6 +17,8 @@ pub(super) struct Standing {
     pub size: f64,
     /// What the engine would ask of it [σ²]
     pub needed: f64,
+    /// The power of its multiple of the typical size with which |s⊥|² grows, as a straight line.
+    grows: f64,
     /// The numbers that imitate it, the one first whose exact value would show most.
     imitated_by: Vec<Imitating>,
     /// Every other cause, the nearest first, each where it is nearest.
@@ -24,12 +26,26 @@ pub(super) struct Standing {
 }
 
 impl Standing {
-    pub fn of_all(suspects: &[Suspect], left: &Left, file: &RobotFile, knobs: &SelftestKnobs) -> Vec<Self> {
+    /// Of all of them; `enough` says of a suspect that shows event by event from which multiple of its size on it does so
+    /// often enough.
+    pub fn of_all(
+        suspects: &[Suspect],
+        left: &Left,
+        file: &RobotFile,
+        knobs: &SelftestKnobs,
+        enough: impl Fn(&Suspect) -> Option<f64>,
+    ) -> Vec<Self> {
         let prior = Prior::stated(file);
-        suspects.iter().map(|s| Self::of(s, suspects, left, &prior, knobs)).collect()
+        suspects.iter().map(|s| Self::of((s, enough(s)), suspects, left, &prior, knobs)).collect()
     }
 
-    fn of(suspect: &Suspect, all: &[Suspect], left: &Left, prior: &Prior, knobs: &SelftestKnobs) -> Self {
+    fn of(
+        (suspect, enough): (&Suspect, Option<f64>),
+        all: &[Suspect],
+        left: &Left,
+        prior: &Prior,
+        knobs: &SelftestKnobs,
+    ) -> Self {
         let freedom = suspect.cause.freedom(prior);
         let search = &knobs.engine.search;
         // what is measured counts by the runs that are held out, what was stated counts whole
@@ -37,17 +53,20 @@ impl Standing {
         let counts = held + (1.0 - held) * stated;
         let gain = search.convincing + (search.convincing_each + search.price_of_freedom) * freedom as f64;
         let size = left.size_of(suspect.typical);
-        let relevant = match suspect.cause {
+        let relevant = match (&suspect.cause, enough) {
+            (_, Some(times)) => size * times,
             // by the channel where it shows most
-            Cause::Effect(card, _) if card.shows_event_by_event() => 0.0,
-            Cause::Effect(..) => search.relevant * size / left.most_in_a_channel(suspect.typical),
-            Cause::Parameter(_) => 0.0,
+            (Cause::Effect(..), None) => search.relevant * size / left.most_in_a_channel(suspect.typical),
+            (Cause::Parameter(_), None) => 0.0,
         };
+        // events are as many more, and each is what it was
+        let grows = if enough.is_some() { 1.0 } else { 2.0 };
         let rival = |rival: &Suspect| {
             let beside = left.beside(suspect, rival, knobs.regular);
             // what leaves nothing is not told from anything
             let angle_rad = if size > 0.0 { (beside / size).sqrt().clamp(0.0, 1.0).asin() } else { 0.0 };
-            let told_times = (angle_rad > knobs.same_angle_rad).then(|| (search.tie / (counts * beside)).sqrt());
+            let told_times =
+                (angle_rad > knobs.same_angle_rad).then(|| (search.tie / (counts * beside)).powf(1.0 / grows));
             Rival { cause: rival.cause.id(), axis: rival.cause.axis(), angle_rad, told_times }
         };
         let mut others: Vec<Rival> = all.iter().filter(|r| !r.cause.same_id(&suspect.cause)).map(rival).collect();
@@ -60,12 +79,12 @@ impl Standing {
         });
         let needed = (gain / counts).max(relevant);
         let imitated_by = imitating(suspect.typical, left, prior, (needed, knobs));
-        Self { size, needed, imitated_by, others }
+        Self { size, needed, grows, imitated_by, others }
     }
 
     /// The multiple of its size from which on it is seen, as a straight line.
     pub fn seen(&self) -> f64 {
-        (self.needed / self.size).sqrt()
+        (self.needed / self.size).powf(1.0 / self.grows)
     }
 
     pub fn is_seen(&self) -> bool {
