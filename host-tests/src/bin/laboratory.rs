@@ -19,14 +19,12 @@ fn main() -> ExitCode {
 
 fn made(only: Option<&str>, folder: Option<&Path>) -> Result<bool, Error> {
     let mut outcomes: Vec<LaboratoryOutcome> = Vec::new();
-    let named = |id: Option<&str>| only.is_none_or(|only| id.unwrap_or("nothing").contains(only));
-    for case in cases().into_iter().filter(|case| named(case.cause.map(|cause| cause.id))) {
-        if let Some(folder) = folder {
-            case.write(&folder.join(format!("session-{}", case.seed)))?;
-        }
-        let outcome = case.diagnosed()?;
-        let hidden = case.hidden().map_or("nothing", |(id, _)| id);
-        println!("{hidden}: {}, {:?}; {:.1} s", right(outcome.judged()), outcome.report.causes, outcome.seconds);
+    for case in cases().into_iter().filter(|case| only.is_none_or(|only| case.name().contains(only))) {
+        let outcome = match folder {
+            Some(folder) => case.diagnosed_in(&folder.join(format!("session-{}", case.seed)))?,
+            None => case.diagnosed()?,
+        };
+        println!("{}: {}, {:?}; {:.1} s", case.name(), right(outcome.judged()), outcome.report.causes, outcome.seconds);
         if only.is_some() {
             println!("{}", terminal(&outcome.report, None));
         }

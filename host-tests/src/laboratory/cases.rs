@@ -59,6 +59,11 @@ pub struct LaboratoryOutcome {
 }
 
 impl LaboratoryCase {
+    /// The name of what is hidden.
+    pub fn name(&self) -> &'static str {
+        self.cause.map_or("nothing", |cause| cause.id)
+    }
+
     /// The cause's name and its wheel.
     pub fn hidden(&self) -> Option<(&'static str, Option<usize>)> {
         self.cause.map(|cause| (cause.id, cause.one_wheel.then_some(WHEEL)))
@@ -75,25 +80,30 @@ impl LaboratoryCase {
         Recorded::of(&file, &setup, &plan, self.seed)
     }
 
-    /// Writes the folder.
-    ///
-    /// # Errors
-    /// Where it cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<()> {
-        self.recorded().write(folder).map_err(|why| not_written(folder, &why))
+    /// How the robot is called: by its wheels' layout.
+    pub fn robot(&self) -> &'static str {
+        if self.turned == 0.0 { "+" } else { "X" }
     }
 
-    /// What the diagnosis says of the folder, read as a user's.
+    /// What the diagnosis says of the folder that it is recorded into, read as a user's.
     ///
     /// # Errors
     /// Where the folder cannot be written or read.
-    pub fn diagnosed(self) -> Result<LaboratoryOutcome> {
-        let folder = tempfile::tempdir().map_err(|why| not_written(&std::env::temp_dir(), &why))?;
-        self.write(folder.path())?;
-        let session = Session::load(folder.path(), None, &known_effects())?;
+    pub fn diagnosed_in(self, folder: &Path) -> Result<LaboratoryOutcome> {
+        self.recorded().write(folder).map_err(|why| not_written(folder, &why))?;
+        let session = Session::load(folder, None, &known_effects())?;
         let start = Instant::now();
         let report = diagnose(&session, &Options::default());
         Ok(LaboratoryOutcome { case: self, report, seconds: start.elapsed().as_secs_f64() })
+    }
+
+    /// The same, with a folder that nobody keeps.
+    ///
+    /// # Errors
+    /// Where no folder can be written or read.
+    pub fn diagnosed(self) -> Result<LaboratoryOutcome> {
+        let folder = tempfile::tempdir().map_err(|why| not_written(&std::env::temp_dir(), &why))?;
+        self.diagnosed_in(folder.path())
     }
 }
 

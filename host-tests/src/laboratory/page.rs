@@ -32,9 +32,9 @@ pub fn page(outcomes: &[LaboratoryOutcome]) -> String {
         for hidden in [true, false] {
             let of: Vec<_> =
                 outcomes.iter().filter(|o| o.case.turned == turned && o.case.cause.is_some() == hidden).collect();
+            let robot = of.first().map_or("–", |outcome| outcome.case.robot());
             let count = |is: &dyn Fn(&LaboratoryOutcome) -> bool| of.iter().filter(|outcome| is(outcome)).count();
             let seconds = of.iter().map(|outcome| outcome.seconds).sum::<f64>() / of.len().max(1) as f64;
-            let robot = if turned == 0.0 { "+" } else { "X" };
             let what = if hidden { "one cause" } else { "nothing" };
             writeln!(
                 text,
@@ -56,10 +56,12 @@ pub fn page(outcomes: &[LaboratoryOutcome]) -> String {
 }
 
 fn row(outcome: &LaboratoryOutcome) -> String {
-    let robot = if outcome.case.turned == 0.0 { "+" } else { "X" };
-    let hidden = outcome.case.hidden().map_or("nothing".to_owned(), |(id, wheel)| {
-        wheel.map_or(format!("`{id}`"), |wheel| format!("`{id}` on wheel {wheel}"))
-    });
+    let (robot, name) = (outcome.case.robot(), outcome.case.name());
+    let hidden = match outcome.case.hidden() {
+        Some((_, Some(wheel))) => format!("`{name}` on wheel {wheel}"),
+        Some((_, None)) => format!("`{name}`"),
+        None => name.to_owned(),
+    };
     let report = &outcome.report;
     let answered =
         if report.causes.is_empty() { format!("`{}`", word(report.verdict)) } else { listed(&report.causes) };
