@@ -58,9 +58,10 @@ pub struct ScreenKnobs {
     pub runs: usize,
     /// How long these last together, at least, where there are more runs [s]: 24 windows. Of short runs it looks at more.
     pub least_s: f64,
-    /// Rows of these that it looks at, at the most [rows]: what tells candidates apart shows in a minute, and the matrices of
-    /// every window are kept.
-    pub rows: usize,
+    /// Of these it looks at this long, at the most [s]: what tells candidates apart shows in a minute.
+    pub most_s: f64,
+    /// And at so many rows, at the most [rows]: the matrices of every window are kept.
+    pub most_rows: usize,
     /// A promise below this is not worth a fit [σ²]: three sigma of one number.
     pub promising: f64,
     /// Beyond the best `always_fitted`, a promise below this share of the best is not worth a fit [1]. By trial.
@@ -282,7 +283,8 @@ impl Default for ScreenKnobs {
         Self {
             runs: 4,
             least_s: 12.0,
-            rows: 8_000,
+            most_s: 80.0,
+            most_rows: 20_000,
             promising: 9.0,
             worth_a_fit: 0.25,
             closer_look: 0.1,

@@ -86,11 +86,14 @@ impl<'a, const N: usize> Shots<'a, N> {
         Self { runs: &self.runs[..count], windows: &self.windows[..count] }
     }
 
-    /// With no more than so many rows, each run giving the same share: whole windows from its beginning, at least one.
-    pub fn shortened(&self, rows: usize) -> Shortened<'a, N> {
-        let all: usize = self.runs.iter().map(|run| run.rows()).sum();
+    /// No longer than `most_s` [s] together and with no more than so many rows, each run giving the same share: whole windows
+    /// from its beginning, at least one.
+    pub fn shortened(&self, most_s: f64, most_rows: usize) -> Shortened<'a, N> {
+        let rows: usize = self.runs.iter().map(|run| run.rows()).sum();
+        let lasts_s: f64 = self.runs.iter().flat_map(|run| &run.dt).sum();
+        let share = (most_s / lasts_s).min(most_rows as f64 / rows as f64).min(1.0);
         let windows = self.windows.iter().zip(self.runs).map(|(windows, run)| {
-            let most = if all > rows { rows * run.rows() / all } else { run.rows() };
+            let most = (share * run.rows() as f64) as usize;
             let whole = windows.0.iter().skip(1).take_while(|end| **end <= most).count();
             Windows(windows.0[..=whole.max(1)].to_vec())
         });
@@ -202,5 +205,21 @@ mod tests {
             let few = Shots { runs: &runs, windows: &windows }.beginning(4, 11.9);
             assert_eq!((few.runs.len(), few.windows.len()), (count, count), "runs of {seconds} s");
         }
+    }
+
+    #[test]
+    fn long_runs_are_shortened_by_their_length_and_by_their_rows() {
+        let runs: Vec<AlignedRun<3>> = (0..4).map(|_| lasting(50.0)).collect();
+        let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, WINDOW_S)).collect();
+        let runs: Vec<&AlignedRun<3>> = runs.iter().collect();
+        let all = Shots { runs: &runs, windows: &windows };
+        let seconds = |most_s, most_rows| -> Vec<usize> {
+            all.shortened(most_s, most_rows).windows.iter().map(|few| few.rows(few.len() - 1).end / 100).collect()
+        };
+        assert_eq!(seconds(80.0, 20_000), [20; 4]);
+        assert_eq!(seconds(1e3, 4_000), [10; 4]);
+        assert_eq!(seconds(1e3, 1_000_000), [50; 4]);
+        // at least a window of each
+        assert_eq!(all.shortened(0.1, 20_000).windows.iter().map(Windows::len).collect::<Vec<_>>(), [1; 4]);
     }
 }

@@ -61,7 +61,7 @@ fn worth_a_fit<'a>(screened: &'a [Screened], knobs: &ScreenKnobs) -> Vec<&'a Scr
 /// Tries every cause on top of a fitted model. `released` are the statements already struck out.
 pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prior) -> Ranking<N> {
     let knobs = &data.knobs.screen;
-    let shortened = data.to_fit().beginning(knobs.runs, knobs.least_s).shortened(knobs.rows);
+    let shortened = data.to_fit().beginning(knobs.runs, knobs.least_s).shortened(knobs.most_s, knobs.most_rows);
     let few = shortened.shots();
     let linear = base.fit.linearised(few);
     let all = candidates::<N>(&base.fit.model.effects, data.fit[0].chain, knobs);
