@@ -6,17 +6,15 @@
 //! one for a model that is right.
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
+use super::begun::Begun;
 use super::chance;
 use super::linear::{Linearised, Reduced, linearise};
 use super::misfit::Misfit;
 use super::prior::{Prior, PriorRow};
-use super::shoot::{Piece, Shots, Starts, run_some_windows};
-use super::starts::{better_starts, starts_of};
-use super::whiten::Whitener;
-use crate::simulate::{AlignedRun, FreeRun, Model, Slot};
-use model_core::geometry::frames::{BodyTwist, Pose};
+use super::shoot::{Shots, Starts};
+use super::starts::starts_of;
+use crate::simulate::{Model, Slot};
 use model_core::plant::robot::Nominal;
 
 /// A number of the model that the fit may change.
@@ -82,6 +80,9 @@ impl<const N: usize> Fit<N> {
 /// A step that promises less than this of the cost is not taken [σ²]: no number would move by a thirtieth of its sigma.
 const ARRIVED: f64 = 1e-3;
 
+/// Starts creep if they promise more than this share of what they promised in the round before [1].
+const STILL_PROMISED: f64 = 0.2;
+
 /// What a fit may change, and how it goes.
 #[derive(Clone, Copy, Debug)]
 pub struct FitOptions<'a> {
@@ -120,8 +121,12 @@ pub(super) fn fit_on<const N: usize>(
     let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
     let mut damping = 1e-7;
     let mut total = linear.misfit().cost() / dispersion + prior.cost(&model);
+    let mut by_starts_before = f64::INFINITY;
     'rounds: for _ in 0..rounds {
         let reduced = with_prior(linear.reduced().with_dispersion(dispersion), &model, free, prior);
+        // what starts promise is all but nothing after a step that went all the way
+        let still_promised = reduced.by_starts > STILL_PROMISED * by_starts_before;
+        by_starts_before = reduced.by_starts;
         let mut better = None;
         for _ in 0..5 {
             let Some(step) = solve(&reduced, damping) else {
@@ -129,19 +134,23 @@ pub(super) fn fit_on<const N: usize>(
                 continue;
             };
             // Δpᵀ·g + Σ g_zᵀ·H_zz⁻¹·g_z: what a step that is linear all the way would gain
-            if step.dot(&reduced.grad) + reduced.by_starts < ARRIVED {
+            let by_numbers = step.dot(&reduced.grad);
+            if by_numbers + reduced.by_starts < ARRIVED {
                 break 'rounds;
             }
             let (trial, taken) = stepped(&model, free, &step);
-            let mut moved = linear.starts_after(&starts, &taken);
-            let mut cost = cost_of(&trial, shots, &moved) / dispersion + prior.cost(&trial);
-            if by_window && (!cost.is_finite() || cost >= total) {
-                moved = better_starts(&trial, shots, &starts, moved);
-                cost = cost_of(&trial, shots, &moved) / dispersion + prior.cost(&trial);
+            let mut begun = Begun::of(&trial, shots, linear.starts_after(&starts, &taken));
+            let cost = |begun: &Begun| begun.cost() / dispersion + prior.cost(&trial);
+            if by_window && (cost(&begun).is_nan() || cost(&begun) >= total) {
+                begun = begun.or(Begun::of(&trial, shots, starts.clone()));
             }
-            if cost.is_finite() && cost < total {
+            if cost(&begun) < total {
                 damping = (damping * 0.1).max(1e-10);
-                better = Some((trial, moved, cost));
+                if still_promised && reduced.by_starts > by_numbers {
+                    begun = begun.taken_farther(&trial, shots, &starts);
+                }
+                let cost = cost(&begun);
+                better = Some((trial, begun.starts, cost));
                 break;
             }
             damping = (damping * 30.0).max(1e-5);
@@ -178,46 +187,6 @@ pub(super) fn fit_on<const N: usize>(
         windows: linear.misfits().into_iter().flatten().collect(),
     };
     (fitted, linear)
-}
-
-/// Σ error² [σ²] of a model and its starts.
-fn cost_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, starts: &[Starts]) -> f64 {
-    let plant = model.plant();
-    let count = AlignedRun::<N>::channels().count();
-    let Shots { runs, windows } = shots;
-    let costs: Vec<f64> = shots
-        .pieces(model)
-        .into_par_iter()
-        .map(|Piece { run: k, windows: which }| {
-            let (run, starts) = (runs[k], &starts[k]);
-            let start = |w: usize| {
-                let [x, y, theta, v, vn, w] = starts[w];
-                (Pose { x, y, theta }, BodyTwist { v, vn, w })
-            };
-            let mut white = Whitener::<1>::of(run);
-            let (mut sum, mut last) = (0.0, usize::MAX);
-            run_some_windows(
-                FreeRun::new(&plant, run),
-                &windows[k],
-                which,
-                start,
-                |_| {},
-                |w, row, predicted| {
-                    if w != last {
-                        white.enter();
-                        last = w;
-                    }
-                    for c in (0..count).filter(|c| run.saw(row, *c)) {
-                        let mut error = [run.error(row, c, predicted[c])];
-                        white.whiten(c, run.t[row], &mut error);
-                        sum += error[0] * error[0];
-                    }
-                },
-            );
-            sum
-        })
-        .collect();
-    costs.iter().sum()
 }
 
 /// Adds what was stated; and holds each number loosely to its bounds' width, so that the equations stay regular.

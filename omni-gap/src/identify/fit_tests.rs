@@ -3,7 +3,7 @@ use model_core::plant::robot::Nominal;
 use super::super::shoot::Windows;
 use super::super::staged::{Staging, robot, staged};
 use super::*;
-use crate::simulate::MAX_CHANNELS;
+use crate::simulate::{AlignedRun, MAX_CHANNELS};
 
 /// Free numbers and their true factors.
 const TRUTH: [(Nominal, f64); 4] =
@@ -56,7 +56,7 @@ fn what_the_fit_says_it_cost_is_the_cost_of_its_model_and_starts() {
         let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, 0.5)).collect();
         let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
         let shots = Shots { runs: &runs, windows: &windows };
-        let plain = cost_of(&fit.model, shots, &fit.starts);
+        let plain = Begun::of(&fit.model, shots, fit.starts.clone()).cost();
         let linear = fit.linearised(shots).misfit();
         assert!((plain / fit.cost - 1.0).abs() < 1e-9 && (linear.cost() / fit.cost - 1.0).abs() < 1e-9);
         assert_eq!(linear.numbers, fit.samples);

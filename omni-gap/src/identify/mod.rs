@@ -6,6 +6,7 @@
 //! number comes with its uncertainty, which holds under errors that go on through a window.
 
 mod answer;
+mod begun;
 mod block;
 mod chance;
 mod disagree;

@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::begun::{Begun, part_of_the_way};
 use super::linear::linearise;
 use super::misfit::Misfit;
 use super::settings::FitSettings;
@@ -30,7 +31,7 @@ pub(super) fn starts_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -
             uncertain = true;
         }
     }
-    if uncertain { better_starts(model, shots, &measured, at_rest) } else { measured }
+    if uncertain { Begun::of(model, shots, at_rest).or(Begun::of(model, shots, measured)).starts } else { measured }
 }
 
 /// The best starts for a model as it is, and how far each window is missed: how well whole runs are predicted. `from` are
@@ -44,12 +45,12 @@ pub fn profile<const N: usize>(
     let none = DVector::zeros(0);
     let mut starts = starts_of(model, shots);
     if let Some(from) = from {
-        starts = better_starts(model, shots, &starts, from.to_vec());
+        starts = Begun::of(model, shots, from.to_vec()).or(Begun::of(model, shots, starts)).starts;
     }
     let mut linear = linearise(model, shots, &starts, &[], false);
     let mut part: Vec<Vec<f64>> = starts.iter().map(|run| vec![1.0; run.len()]).collect();
     for _ in 0..settings.start_rounds {
-        let moved = part_of_the_way(&starts, linear.starts_after(&starts, &none), &part);
+        let moved = part_of_the_way(&starts, &linear.starts_after(&starts, &none), |run, k| part[run][k]);
         let trial = linearise(model, shots, &moved, &[], false);
         // each window on its own: a start that got worse stays, and goes a part of the way in the next round
         let (old, new) = (linear.misfits(), trial.misfits());
@@ -72,37 +73,6 @@ pub fn profile<const N: usize>(
     }
     let misfits = linear.misfits();
     (starts, misfits)
-}
-
-/// Starts on the way from one to another, each its own part of it.
-fn part_of_the_way(from: &[Starts], mut to: Vec<Starts>, part: &[Vec<f64>]) -> Vec<Starts> {
-    let between = from.iter().flatten().zip(part.iter().flatten());
-    for (to, (from, part)) in to.iter_mut().flatten().zip(between) {
-        for (to, from) in to.iter_mut().zip(from) {
-            *to = from + part * (*to - from);
-        }
-    }
-    to
-}
-
-/// Of two starts of each window the better one: a robot that friction stops at once tells nothing of the speed with which
-/// it began, and a step that is linear all the way goes anywhere.
-pub(super) fn better_starts<const N: usize>(
-    model: &Model<N>,
-    shots: Shots<'_, N>,
-    stayed: &[Starts],
-    mut moved: Vec<Starts>,
-) -> Vec<Starts> {
-    let [old, new] = [stayed, &moved].map(|starts| linearise(model, shots, starts, &[], false).misfits());
-    for (run, (old, new)) in old.iter().zip(&new).enumerate() {
-        for (k, (old, new)) in old.iter().zip(new).enumerate() {
-            // a cost that is no number is worse than any
-            if new.cost().is_nan() || new.cost() > old.cost() {
-                moved[run][k] = stayed[run][k];
-            }
-        }
-    }
-    moved
 }
 
 #[cfg(test)]
