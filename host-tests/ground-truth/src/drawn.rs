@@ -18,6 +18,11 @@ impl Drawn {
         low + (high - low) * self.0.random::<f64>()
     }
 
+    /// Between two positive numbers, their logarithms even.
+    pub fn log_between(&mut self, low: f64, high: f64) -> f64 {
+        libm::exp(self.between(libm::log(low), libm::log(high)))
+    }
+
     /// One of 0 … n − 1.
     pub fn below(&mut self, n: u32) -> u32 {
         self.0.random_range(0..n)

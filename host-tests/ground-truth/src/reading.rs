@@ -1,8 +1,8 @@
 //! A drive, and what a log of it would hold without noise.
 
-use crate::causes::Setup;
 use crate::robot_file::Noise;
 use crate::sensors::follows;
+use crate::setup::Setup;
 use crate::simulation::Simulation;
 use crate::track::Track;
 
@@ -30,6 +30,8 @@ pub struct Reading {
     pub pose: [f64; 3],
     /// [rad/s]
     pub gyro: f64,
+    /// v, vn, ω as they truly are [m/s, m/s, rad/s]: no log has them
+    pub twist: [f64; 3],
 }
 
 /// RMS difference of the group of signals in which two drives differ most, over its noise [1]: currents, wheel speeds,
@@ -73,6 +75,7 @@ pub fn drive(
             currents: currents.into_iter().enumerate().map(current).collect(),
             wheel_speeds: followed_speeds.iter().enumerate().map(speed).collect(),
             gyro: moving.twist()[2] + sensors.gyro_bias,
+            twist: moving.twist(),
             command: u.clone(),
             pose: [0.0; 3],
         });

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use crate::causes::Setup;
 use crate::drawn::Drawn;
 use crate::driving::Driver;
 use crate::reading::{Pace, Reading, drive};
 use crate::robot_file::{Noise, RobotFile};
+use crate::setup::Setup;
 
 /// How recordings are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,9 +37,6 @@ pub struct Session {
 /// What parts the noise of a run from its drive.
 const OF_NOISE: u64 = 0x5eed;
 
-/// Longest step of the simulator [s]
-const STEP: f64 = 20e-6;
-
 impl Session {
     /// Recordings of a robot whose file says something else, or the same.
     pub fn of(file: &RobotFile, setup: &Setup, plan: &Plan, seed: u64) -> Self {
@@ -65,7 +62,7 @@ impl Session {
 /// One run, as a table.
 fn recorded(file: &RobotFile, setup: &Setup, plan: &Plan, seed: u64) -> String {
     let row = 1.0 / plan.rate;
-    let pace = Pace { row, steps: (row / STEP).ceil() as usize };
+    let pace = Pace { row, steps: (row / setup.step()).ceil() as usize };
     let mut driver = Driver::new(file, plan.voltage, seed);
     let rows = (plan.duration * plan.rate).round() as usize;
     let readings = drive(setup, pace, rows, |k, moving| driver.command(k as f64 * row, moving.pose()));

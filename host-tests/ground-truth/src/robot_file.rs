@@ -6,11 +6,11 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::battery::Battery;
 use crate::body_friction::BodyFriction;
-use crate::causes::Setup;
 use crate::chassis::Chassis;
 use crate::motor::Motor;
 use crate::robot::{Robot, Wheel};
 use crate::sensors::Sensors;
+use crate::setup::Setup;
 use crate::surroundings::Surroundings;
 
 /// Numbers of a robot file, in the form of the data contract.

@@ -106,6 +106,12 @@ impl Simulation {
         self.state.time
     }
 
+    /// Sets the robot's centre at a place x, y and a heading θ [m, m, rad].
+    pub fn set_at(&mut self, [x, y, heading]: [f64; 3]) {
+        self.state.position = Vector2::new(x, y) + rotated(heading, self.point);
+        self.state.heading = heading;
+    }
+
     /// Sets the robot's centre in motion with a twist (v, vn, ω) [m/s, m/s, rad/s], its wheels rolling.
     pub fn set_moving(&mut self, twist: Vector3<f64>) {
         self.state.twist = twist_at(self.point) * twist;

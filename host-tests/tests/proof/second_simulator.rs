@@ -13,10 +13,10 @@ use nalgebra::Vector3;
 
 use crate::fixture::core_robot;
 
-/// Step of the second simulator [s]
-const STEP: f64 = 5e-5;
+/// Step of the second simulator, that of its recordings [s]
+const STEP: f64 = 1e-4;
 /// Steps of it in a millisecond.
-const STEPS: usize = 20;
+const STEPS: usize = 10;
 
 /// How long the robots are compared from one start [ms].
 const HORIZON_MS: usize = 500;
@@ -34,6 +34,7 @@ pub fn as_read<const N: usize>(row: usize, u: &[f64; N], reading: &model_core::p
         wheel_speeds: reading.wheel_speed.to_vec(),
         pose: [x, y, theta],
         gyro: reading.gyro,
+        ..Reading::default()
     }
 }
 
@@ -70,6 +71,7 @@ fn by_ground_truth<const N: usize>(rig: &GenericRobot<N>, twist: [f64; 3], u: &[
             wheel_speeds: moving.wheel_speeds().to_vec(),
             pose: moving.pose(),
             gyro: moving.twist()[2],
+            ..Reading::default()
         };
         moving.hold(u, STEPS);
         reading
@@ -87,6 +89,7 @@ fn exactly<const N: usize>(rig: &GenericRobot<N>, twist: [f64; 3], u: &[[f64; N]
             wheel_speeds: robot.wheel_speeds().to_vec(),
             pose: robot.pose,
             gyro: robot.twist[2],
+            ..Reading::default()
         };
         robot.advance(*u, 1e-3);
         reading
