@@ -67,14 +67,20 @@ pub fn check_record(name: &str, page: &str, command: &str) -> Result<bool> {
 }
 
 /// The commit of this tree, as git abbreviates it; said where files differ from it.
-fn commit() -> String {
-    let git = |arguments: &[&str]| {
-        let done = Command::new("git").args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).output().ok()?;
-        done.status.success().then(|| String::from_utf8_lossy(&done.stdout).trim().to_owned())
-    };
+pub fn commit() -> String {
     let changed = git(&["status", "--porcelain", "--untracked-files=no"]).is_some_and(|said| !said.is_empty());
     let hash = git(&["rev-parse", "--short", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
     if changed { format!("{hash} with changes") } else { hash }
+}
+
+/// The commit's whole hash.
+pub fn full_commit() -> Option<String> {
+    git(&["rev-parse", "HEAD"])
+}
+
+fn git(arguments: &[&str]) -> Option<String> {
+    let done = Command::new("git").args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).output().ok()?;
+    done.status.success().then(|| String::from_utf8_lossy(&done.stdout).trim().to_owned())
 }
 
 /// The lines in which two pages differ, where `same` tells lines that do not.

@@ -15,6 +15,7 @@
 //! - [`verified`]: the sizes that the self-test foretells, found in simulated recordings of three robots;
 //! - [`carried`]: effects that a robot file carries with a wrong size, and what `identify` makes of it;
 //! - [`laboratory`]: every cause, recorded by a simulator that shares no line with the one that judges;
+//! - `withheld`: the benchmark that others can enter, on recordings whose labels nobody is given (on Linux);
 //! - [`frozen`]: whole reports that stay as they are while walls move;
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
 //! - [`real`]: what the diagnosis says of recordings of real robots;
@@ -59,3 +60,5 @@ pub mod real;
 pub mod reference;
 pub mod verified;
 pub mod virtual_board;
+#[cfg(target_os = "linux")]
+pub mod withheld;

@@ -13,18 +13,26 @@ use crate::{invented, real, steps, tool};
 pub struct Errand {
     /// Its name on the command line.
     pub name: &'static str,
-    /// The argument that it takes, as `help` shows it; empty where it takes none.
+    /// What it takes, as `help` shows it: nothing, one argument, or any number of them where it ends in [`AND_MORE`].
     pub takes: &'static str,
     /// What it does, in a line.
     pub does: &'static str,
-    run: fn(Option<OsString>) -> Result<(), String>,
+    run: fn(&[OsString]) -> Result<(), String>,
 }
+
+/// How what takes any number of arguments is shown.
+const AND_MORE: &str = "...]";
 
 /// All errands, in the order of `help`.
 pub const ERRANDS: &[Errand] = &[
     Errand { name: "test", takes: "", does: "run every check there is, stop at the first failure", run: test },
     Errand { name: "bless", takes: "", does: "run the tests and rewrite the golden pages", run: bless },
-    Errand { name: "bench", takes: "", does: "run the benches", run: bench },
+    Errand {
+        name: "bench",
+        takes: "[make|run|score|table ...]",
+        does: "the benchmark with the effect withheld (BENCHMARK.md); with nothing more, run the benches",
+        run: bench,
+    },
     Errand {
         name: "benchmark",
         takes: "",
@@ -127,20 +135,25 @@ pub enum ErrandError {
 
 /// Does what the arguments ask for.
 pub fn perform(arguments: impl IntoIterator<Item = OsString>) -> Result<(), ErrandError> {
-    let (errand, argument) = asked(arguments)?;
-    (errand.run)(argument).map_err(ErrandError::Failed)
+    let (errand, arguments) = asked(arguments)?;
+    (errand.run)(&arguments).map_err(ErrandError::Failed)
 }
 
-fn asked(arguments: impl IntoIterator<Item = OsString>) -> Result<(&'static Errand, Option<OsString>), ErrandError> {
+fn asked(arguments: impl IntoIterator<Item = OsString>) -> Result<(&'static Errand, Vec<OsString>), ErrandError> {
     let usage = |what: String| ErrandError::Usage(format!("{what}\n{}", list()));
     let mut arguments = arguments.into_iter();
     let name = arguments.next().ok_or_else(|| usage("no errand named".into()))?;
     let errand = ERRANDS.iter().find(|errand| name == errand.name);
     let errand = errand.ok_or_else(|| usage(format!("no errand is called {}", name.display())))?;
-    let argument = if errand.takes.is_empty() { None } else { arguments.next() };
-    match arguments.next() {
+    let most = match errand.takes {
+        "" => 0,
+        takes if takes.ends_with(AND_MORE) => usize::MAX,
+        _ => 1,
+    };
+    let given: Vec<OsString> = arguments.collect();
+    match given.get(most) {
         Some(more) => Err(usage(format!("{} does not take {}", errand.name, more.display()))),
-        None => Ok((errand, argument)),
+        None => Ok((errand, given)),
     }
 }
 
@@ -150,7 +163,7 @@ fn list() -> String {
     ERRANDS.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-fn test(_: Option<OsString>) -> Result<(), String> {
+fn test(_: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
     let outcome = steps::run(steps::STEPS, Line::succeeds);
     if outcome.failed.is_some() {
@@ -160,86 +173,90 @@ fn test(_: Option<OsString>) -> Result<(), String> {
     Ok(())
 }
 
-fn bless(_: Option<OsString>) -> Result<(), String> {
+fn bless(_: &[OsString]) -> Result<(), String> {
     announced(Line::of("cargo test --workspace").env("BLESS", "1"))?;
     println!("golden pages rewritten where they differed; read the difference before you commit it: git diff");
     Ok(())
 }
 
-fn bench(_: Option<OsString>) -> Result<(), String> {
-    announced(Line::of("cargo bench -p host-tests"))
+fn bench(words: &[OsString]) -> Result<(), String> {
+    if words.is_empty() {
+        return announced(Line::of("cargo bench -p host-tests"));
+    }
+    let line = Line::of("cargo run --release -p host-tests --bin bench --");
+    announced(words.iter().fold(line, Line::word))
 }
 
-fn benchmark(_: Option<OsString>) -> Result<(), String> {
+fn benchmark(_: &[OsString]) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin catalogue"))
 }
 
-fn medicine(_: Option<OsString>) -> Result<(), String> {
+fn medicine(_: &[OsString]) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin medicine"))
 }
 
-fn confusion(_: Option<OsString>) -> Result<(), String> {
+fn confusion(_: &[OsString]) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin confusion"))
 }
 
-fn selftest(_: Option<OsString>) -> Result<(), String> {
+fn selftest(_: &[OsString]) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin selftest"))
 }
 
-fn laboratory(_: Option<OsString>) -> Result<(), String> {
+fn laboratory(_: &[OsString]) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin laboratory"))
 }
 
-fn carried(_: Option<OsString>) -> Result<(), String> {
+fn carried(_: &[OsString]) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin carried"))
 }
 
-fn identification(_: Option<OsString>) -> Result<(), String> {
+fn identification(_: &[OsString]) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin identification"))
 }
 
-fn mujoco(_: Option<OsString>) -> Result<(), String> {
+fn mujoco(_: &[OsString]) -> Result<(), String> {
     let python = MUJOCO.ensure()?;
     announced(Line::of("cargo run --release -p host-tests --bin mujoco --").word(python))
 }
 
-fn pil(_: Option<OsString>) -> Result<(), String> {
+fn pil(_: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
     announced(Line::of(steps::EMULATED_IMAGES))?;
     steps::IN_LOOP.into_iter().try_for_each(|command| announced(Line::of(command)))
 }
 
-fn emulate(_: Option<OsString>) -> Result<(), String> {
+fn emulate(_: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
     announced(Line::of(steps::EMULATED_IMAGES))?;
     announced(Line::of(steps::EMULATE))
 }
 
-fn image(_: Option<OsString>) -> Result<(), String> {
+fn image(_: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
     announced(Line::of(steps::BOARD_IMAGE))?;
     announced(Line::of(steps::CHECK_IMAGE))
 }
 
-fn on_recordings(argument: Option<OsString>) -> Result<(), String> {
-    let folder = real::folder(argument, std::env::var_os(real::VARIABLE))?;
+fn on_recordings(given: &[OsString]) -> Result<(), String> {
+    let folder = real::folder(given.first().cloned(), std::env::var_os(real::VARIABLE))?;
     announced(Line::of("cargo run --release -p host-tests --bin real --").word(folder))
 }
 
-fn frozen(argument: Option<OsString>) -> Result<(), String> {
+fn frozen(given: &[OsString]) -> Result<(), String> {
     let line = Line::of("cargo run --release -p host-tests --bin frozen --");
     let variable = std::env::var_os(real::VARIABLE);
-    announced(match argument.is_some() || variable.is_some() {
-        true => line.word(real::folder(argument, variable)?),
+    announced(match !given.is_empty() || variable.is_some() {
+        true => line.word(real::folder(given.first().cloned(), variable)?),
         false => line,
     })
 }
 
-fn invented(_: Option<OsString>) -> Result<(), String> {
+fn invented(_: &[OsString]) -> Result<(), String> {
     invented::perform()
 }
 
-fn help(_: Option<OsString>) -> Result<(), String> {
+fn help(_: &[OsString]) -> Result<(), String> {
     println!("{}", list());
     Ok(())
 }
@@ -253,8 +270,8 @@ fn announced(line: Line) -> Result<(), String> {
 mod tests {
     use super::*;
 
-    fn ask(words: &[&str]) -> Result<(&'static str, Option<OsString>), ErrandError> {
-        asked(words.iter().map(OsString::from)).map(|(errand, argument)| (errand.name, argument))
+    fn ask(words: &[&str]) -> Result<(&'static str, Vec<OsString>), ErrandError> {
+        asked(words.iter().map(OsString::from)).map(|(errand, given)| (errand.name, given))
     }
 
     #[test]
@@ -267,9 +284,11 @@ mod tests {
     }
 
     #[test]
-    fn only_an_errand_that_takes_an_argument_gets_one() {
-        assert_eq!(ask(&["real", "logs"]), Ok(("real", Some("logs".into()))));
-        assert_eq!(ask(&["real"]), Ok(("real", None)));
+    fn an_errand_gets_as_many_arguments_as_it_takes() {
+        assert_eq!(ask(&["real", "logs"]), Ok(("real", vec!["logs".into()])));
+        assert_eq!(ask(&["real"]), Ok(("real", Vec::new())));
+        let many = ["bench", "run", "a set", "--name", "x"];
+        assert_eq!(ask(&many).map(|(_, given)| given.len()), Ok(4));
         assert!(matches!(ask(&["test", "logs"]), Err(ErrandError::Usage(_))));
         assert!(matches!(ask(&["real", "logs", "more"]), Err(ErrandError::Usage(_))));
     }

@@ -1,0 +1,136 @@
+//! The benchmark with the effect withheld: makes a set of sessions, lets contestants answer it, scores them, and lays the
+//! table. `cargo xtask bench make|run|score|table`; `BENCHMARK.md` has the rules.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use clap::{Parser, Subcommand, ValueEnum};
+use host_tests::golden;
+use host_tests::withheld::contestant::{Contestant, Ended};
+use host_tests::withheld::set::{About, SetFolder};
+use host_tests::withheld::suites::{Case, REDUCED, WHOLE, cases};
+use host_tests::withheld::table;
+use omni_gap::error::{Error, Result};
+use rayon::prelude::*;
+
+/// The seed of the split that anybody may tune on.
+const TUNING_SEED: u64 = 2008;
+
+#[derive(Parser)]
+#[command(name = "cargo xtask bench", about = "The benchmark with the effect withheld")]
+struct Arguments {
+    #[command(subcommand)]
+    errand: Errand,
+}
+
+#[derive(Subcommand)]
+enum Errand {
+    /// Record a split and seal its labels; goes on where it was stopped
+    Make {
+        /// Folder of the set
+        set: PathBuf,
+        /// Which split
+        #[arg(long, value_enum, default_value = "tuning")]
+        split: SplitName,
+    },
+    /// Let a contestant answer what it has not answered yet
+    Run {
+        /// Folder of the set
+        set: PathBuf,
+        /// As the table calls it
+        #[arg(long)]
+        name: String,
+        /// The most that a session may take [s]
+        #[arg(long, default_value_t = 120)]
+        seconds: u64,
+        /// Only every so many-th session
+        #[arg(long, default_value_t = 1)]
+        every: usize,
+        /// Its command; {session} and {out} stand for the folders
+        #[arg(last = true, required = true)]
+        command: Vec<String>,
+    },
+    /// Print the figures of one contestant
+    Score {
+        /// Folder of the set
+        set: PathBuf,
+        /// Its name
+        name: String,
+    },
+    /// Lay the table of some contestants and keep it
+    Table {
+        /// Folder of the set
+        set: PathBuf,
+        /// Their names, ours first
+        #[arg(required = true)]
+        names: Vec<String>,
+    },
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SplitName {
+    /// The one that anybody may tune on
+    Tuning,
+    /// One that nobody can have tuned on: its seed is the commit
+    Fresh,
+    /// Forty sessions of the tuning split's kinds, with seeds of their own
+    Reduced,
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().errand {
+        Errand::Make { set, split } => make(&SetFolder(set), split),
+        Errand::Run { set, name, seconds, every, command } => {
+            run(&SetFolder(set), &Contestant { name, command, most: Duration::from_secs(seconds) }, every)
+        }
+        Errand::Score { set, name } => page(&SetFolder(set), &[name]).map(|page| println!("{page}")),
+        Errand::Table { set, names } => page(&SetFolder(set), &names)
+            .and_then(|page| golden::record("withheld.md", &page, "cargo xtask bench table SET NAME...")),
+    };
+    golden::exit(done.map(|()| true))
+}
+
+fn make(set: &SetFolder, split: SplitName) -> Result<()> {
+    let commit = golden::commit();
+    let (name, seed, sizes) = match split {
+        SplitName::Tuning => ("tuning", TUNING_SEED, WHOLE),
+        SplitName::Fresh => ("fresh", seed_of(&commit)?, WHOLE),
+        SplitName::Reduced => ("reduced", TUNING_SEED + 1, REDUCED),
+    };
+    set.begin(&About { split: name.to_owned(), seed, commit })?;
+    let start = Instant::now();
+    let all = cases(&sizes, seed);
+    let missing: Vec<&Case> = all.iter().filter(|case| set.label(&case.name()).is_none()).collect();
+    missing.par_iter().try_for_each(|case| {
+        let (session, label) = case.made();
+        let folder = set.session(&case.name());
+        session.write(&folder).map_err(|why| Error::output(&folder, why.to_string(), "Make room"))?;
+        // last, so that a session without it is made anew
+        set.put_label(&label)
+    })?;
+    set.seal()?;
+    println!("{} sessions, {} of them new, in {:.0} s", all.len(), missing.len(), start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// The first 64 bits of a commit's hash; of a tree with changes there is none.
+fn seed_of(commit: &str) -> Result<u64> {
+    let hash = golden::full_commit().filter(|_| !commit.contains(' '));
+    hash.and_then(|hash| u64::from_str_radix(hash.get(..16)?, 16).ok()).ok_or_else(|| {
+        let why = "the tree differs from its commit, whose hash is the seed";
+        Error::output(std::path::Path::new("."), why, "Commit, or set the changes aside")
+    })
+}
+
+fn run(set: &SetFolder, contestant: &Contestant, every: usize) -> Result<()> {
+    let sessions: Vec<String> = set.labels()?.into_iter().step_by(every.max(1)).map(|label| label.session).collect();
+    contestant.run(set, &sessions, &mut |session, Ended { failed, seconds, .. }| {
+        println!("{session}: {} in {seconds:.1} s", failed.as_deref().unwrap_or("answered"));
+    })
+}
+
+fn page(set: &SetFolder, names: &[String]) -> Result<String> {
+    let all = names.iter().map(|name| table::scored(set, name).map(|scored| (name.clone(), scored)));
+    Ok(table::page(&set.about()?, &all.collect::<Result<Vec<_>>>()?))
+}

@@ -1,0 +1,16 @@
+//! # The effect withheld: a benchmark that others can enter
+//!
+//! [`suites`] draws robots, causes and logs and lets `ground-truth` record them; [`set`] keeps recordings and labels apart and
+//! seals the labels; a [`contestant`] is any command that takes a session folder and leaves `report.json`, run where it sees
+//! nothing else, and [`watch`]ed; [`scored`] holds each [`answer`] to its [`label`], and [`table`] puts [`figures`] with their
+//! intervals beside one another. `cargo xtask bench make | run | score | table`; the rules stand in `BENCHMARK.md`.
+
+pub mod answer;
+pub mod contestant;
+pub mod figures;
+pub mod label;
+pub mod scored;
+pub mod set;
+pub mod suites;
+pub mod table;
+pub mod watch;

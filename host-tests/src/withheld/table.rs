@@ -1,0 +1,191 @@
+//! The table: contestants beside one another, suite by suite, each figure with its interval.
+
+use std::fmt::Write;
+
+use omni_gap::error::Result;
+use omni_gap::report::num;
+
+use super::answer::Answer;
+use super::contestant::{Contestant, Ended};
+use super::figures::{Figure, auroc, calibration_error, calibration_error_of_chance, figure, share};
+use super::label::{Label, Severity, Suite};
+use super::scored::{Scored, stage_of};
+use super::set::{About, SetFolder};
+
+/// All that a contestant answered, in the order of the labels; a session that it was not asked is no failure, and no row.
+///
+/// # Errors
+/// Where the set is not sealed, or not any more what it was.
+pub fn scored(set: &SetFolder, contestant: &str) -> Result<Vec<Scored>> {
+    let of = |label: Label| {
+        let ended: Ended = Contestant::ended(contestant, set, &label.session)?;
+        let report = set.answers(contestant).join(&label.session).join("report.json");
+        let text = std::fs::read_to_string(report).ok();
+        let answer = if ended.failed.is_some() { None } else { text.and_then(|text| Answer::parse(&text).ok()) };
+        Some(Scored { label, ended, answer })
+    };
+    Ok(set.labels()?.into_iter().filter_map(of).collect())
+}
+
+/// One column of the table.
+struct Column {
+    /// Its heading.
+    name: &'static str,
+    /// What stands in it.
+    of: fn(&[Scored]) -> Option<Figure>,
+    /// Its numbers are shares of 1.
+    percent: bool,
+}
+
+const fn percent(name: &'static str, of: fn(&[Scored]) -> Option<Figure>) -> Column {
+    Column { name, of, percent: true }
+}
+
+const fn plain(name: &'static str, of: fn(&[Scored]) -> Option<Figure>) -> Column {
+    Column { name, of, percent: false }
+}
+
+const COLUMNS: [Column; 12] = [
+    percent("right", |all| share(all, |one| Some(one.right()))),
+    percent("another named", |all| share(all, |one| Some(one.names_another()))),
+    percent("in the set", |all| share(all, Scored::in_set)),
+    plain("causes in it", |all| figure(all, Scored::set_size)),
+    percent("among three", |all| share(all, Scored::in_three)),
+    percent("of several, named", |all| figure(all, Scored::recall)),
+    percent("stage", |all| share(all, Scored::stage_right)),
+    percent("wheel", |all| share(all, Scored::wheel_right)),
+    percent("false alarms", |all| share(all, Scored::false_alarm)),
+    percent("probability of the truth", |all| figure(all, |one| Some(one.probability()))),
+    percent("failed", |all| share(all, |one| Some(one.answer.is_none()))),
+    plain("time [s]", |all| figure(all, |one| Some(one.ended.seconds))),
+];
+
+fn cell(column: &Column, all: &[Scored]) -> String {
+    let Some(Figure { mean, within: (low, high), .. }) = (column.of)(all) else { return "–".to_owned() };
+    if column.percent {
+        format!("{:.0} % ({:.0}–{:.0})", 100.0 * mean, 100.0 * low, 100.0 * high)
+    } else {
+        format!("{} ({}–{})", num(mean), num(low), num(high))
+    }
+}
+
+/// The whole page of contestants and what they answered.
+pub fn page(about: &About, contestants: &[(String, Vec<Scored>)]) -> String {
+    let mut text = format!(
+        "# The effect withheld\n\n\
+         Recordings of a second simulator, which shares no line with the one that the diagnosis is made of; robots, sensors and\n\
+         drives drawn; a robot file that is wrong by what it states. What is hidden was sealed before anybody answered\n\
+         (`BENCHMARK.md` has the rules). Split *{}*, seed {:016x}, recorded at commit {}.\n\n\
+         *Right*: the hidden cause first, on its wheel; all of several; `unknown` of what no entry describes; `no_gap` of nothing,\n\
+         and of a cause that no size within bounds makes visible. *Another named*: the first cause is none of the hidden ones.\n\
+         Figures about single causes leave out the invisible ones. Intervals are those of the bootstrap, 95 of 100.\n",
+        about.split, about.seed, about.commit
+    );
+    let of_suites = Suite::ALL.into_iter().map(|suite| (suite.name().to_owned(), Which::Suite(suite)));
+    let of_severity =
+        [Severity::Invisible, Severity::Weak, Severity::Medium, Severity::Strong].into_iter().map(|severity| {
+            (format!("{severity:?}").to_lowercase() + " causes of laboratory and life", Which::Severity(severity))
+        });
+    for (title, which) in std::iter::once(("all".to_owned(), Which::All)).chain(of_suites).chain(of_severity) {
+        section(&mut text, &title, which, contestants);
+    }
+    text += "\n## How sure, how honest\n\n";
+    text += "| contestant | calibration error | of which chance | `unknown` tells what no entry describes (AUROC) | \
+             log-loss of the truth |\n|---|---|---|---|---|\n";
+    for (name, all) in contestants {
+        let stated: Vec<_> = all.iter().filter_map(Scored::stated).collect();
+        let unknown: Vec<_> = all.iter().filter_map(Scored::unknown).collect();
+        let area = auroc(&unknown)
+            .map_or("–".to_owned(), |area| format!("{:.2} ({:.2}–{:.2})", area.mean, area.within.0, area.within.1));
+        // a truth that is given no chance at all costs as much as one in a thousand
+        let loss =
+            figure(all, |one| Some(-one.probability().max(1e-3).ln())).map_or("–".to_owned(), |loss| num(loss.mean));
+        let (off, chance) = (calibration_error(&stated), calibration_error_of_chance(&stated));
+        writeln!(text, "| {name} | {off:.3} | {chance:.3} | {area} | {loss} |").expect(FITS);
+    }
+    if let Some((name, all)) = contestants.first() {
+        text += &by_cause(name, all);
+    }
+    text
+}
+
+const FITS: &str = "a string takes any text";
+
+/// Sessions of a section.
+#[derive(Clone, Copy)]
+enum Which {
+    All,
+    Suite(Suite),
+    Severity(Severity),
+}
+
+impl Which {
+    fn has(self, one: &Scored) -> bool {
+        match self {
+            Which::All => true,
+            Which::Suite(suite) => one.of(suite),
+            Which::Severity(severity) => {
+                let drawn = one.of(Suite::Laboratory) || one.of(Suite::Life);
+                drawn && one.single() && one.label.severity() == Some(severity)
+            }
+        }
+    }
+}
+
+fn section(text: &mut String, title: &str, which: Which, contestants: &[(String, Vec<Scored>)]) {
+    let of: Vec<(&str, Vec<Scored>)> = contestants
+        .iter()
+        .map(|(name, all)| (name.as_str(), all.iter().filter(|one| which.has(one)).cloned().collect()))
+        .collect();
+    let shown: Vec<&Column> =
+        COLUMNS.iter().filter(|column| of.iter().any(|(_, all)| (column.of)(all).is_some())).collect();
+    if shown.is_empty() {
+        return;
+    }
+    let heads: Vec<&str> = shown.iter().map(|column| column.name).collect();
+    writeln!(text, "\n## {title}\n\n| contestant | sessions | {} |", heads.join(" | ")).expect(FITS);
+    writeln!(text, "|---|---|{}", "---|".repeat(shown.len())).expect(FITS);
+    for (name, all) in of {
+        let cells: Vec<String> = shown.iter().map(|column| cell(column, &all)).collect();
+        writeln!(text, "| {name} | {} | {} |", all.len(), cells.join(" | ")).expect(FITS);
+    }
+}
+
+/// What became of each cause, of one contestant.
+fn by_cause(name: &str, all: &[Scored]) -> String {
+    let mut text = format!("\n## Each cause, {name}\n\nSingle causes that can be seen, of all suites.\n\n");
+    text += "| cause | stage | sessions | first | named with the first | most often answered instead |\n|---|---|---|---|---|---|\n";
+    let mut causes: Vec<&str> =
+        all.iter().flat_map(|one| &one.label.hidden).map(|hidden| hidden.cause.as_str()).collect();
+    causes.sort_unstable();
+    causes.dedup();
+    for cause in causes {
+        let of: Vec<&Scored> =
+            all.iter().filter(|one| one.in_set().is_some() && one.label.hidden[0].cause == cause).collect();
+        if of.is_empty() {
+            continue;
+        }
+        let right = of.iter().filter(|one| one.right()).count();
+        let named = of.iter().filter(|one| !one.right() && one.in_set() == Some(true)).count();
+        let mut instead: Vec<String> = of.iter().filter(|one| !one.right()).map(|one| answered(one)).collect();
+        instead.sort_unstable();
+        let most = instead.chunk_by(|a, b| a == b).max_by_key(|same| same.len());
+        let most = most.map_or("–".to_owned(), |same| format!("`{}` × {}", same[0], same.len()));
+        let stage = stage_of(cause).unwrap_or("–");
+        writeln!(text, "| `{cause}` | {stage} | {} | {right} | {named} | {most} |", of.len()).expect(FITS);
+    }
+    text
+}
+
+/// What was answered, in a word.
+fn answered(one: &Scored) -> String {
+    match &one.answer {
+        None => "failed".to_owned(),
+        Some(answer) => answer.causes.first().cloned().unwrap_or_else(|| {
+            serde_json::to_value(answer.verdict)
+                .ok()
+                .and_then(|word| word.as_str().map(str::to_owned))
+                .unwrap_or_default()
+        }),
+    }
+}
