@@ -88,7 +88,7 @@ impl Diagnosis {
             robot: session.robot.name.clone(),
             session: name.clone(),
             faults: why.map(fault).into_iter().chain(faults.iter().map(Fault::from)).collect(),
-            notices: session.notices.iter().cloned().chain(notices).collect(),
+            notices: session.notices.iter().cloned().chain(notices).chain(left_out(&knobs.screen.without)).collect(),
         };
         let changes = findings.corrected.changes();
         Self {
@@ -98,6 +98,12 @@ impl Diagnosis {
             findings,
         }
     }
+}
+
+/// What the reader should know of a catalogue that was not whole.
+fn left_out(without: &[String]) -> Option<String> {
+    let names: Vec<String> = without.iter().map(|id| format!("`{id}`")).collect();
+    (!names.is_empty()).then(|| format!("left out of the catalogue, as asked: {}", names.join(", ")))
 }
 
 fn fault(unfit: Unfit) -> Fault {

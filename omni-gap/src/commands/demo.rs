@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use omni_gap::engine::Knobs;
 use omni_gap::log::{write_whole, write_whole_with};
 use omni_gap::report::{self, estimate};
-use omni_gap::simulate::{EffectInstance, HORIZON_S};
+use omni_gap::simulate::EffectInstance;
 use omni_gap::synthesize::{Scenario, synthesize};
 use omni_gap::{Error, Report, Session, known_effects};
 
@@ -53,7 +54,7 @@ impl Demo {
 
         console.phase("reading the recordings");
         let session = Session::load(&at, None, &known_effects())?;
-        let (report, written) = diagnosed(&session, Some("session".to_owned()), HORIZON_S, &out, console)?;
+        let (report, written) = diagnosed(&session, Some("session".to_owned()), Knobs::default(), &out, console)?;
         folder.keep();
 
         let runs = session.runs.len();

@@ -7,6 +7,7 @@ use omni_gap::report::{self, Written};
 use omni_gap::simulate::HORIZON_S;
 use omni_gap::{Diagnosis, Options, Report, Session};
 
+use super::causes::all_known;
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
@@ -27,6 +28,10 @@ pub struct Diagnose {
     #[arg(long, value_name = "S", default_value_t = HORIZON_S, value_parser = seconds)]
     horizon: f64,
 
+    /// Causes to leave out, as if the catalogue did not have them: what would be answered then
+    #[arg(long, value_name = "ID,ID", value_delimiter = ',')]
+    without: Vec<String>,
+
     /// Exit with 0 no gap, 10 parameter, 20 effect, 30 unknown, 40 unfit data
     #[arg(long)]
     exit_code: bool,
@@ -38,9 +43,13 @@ pub const FILES: [&str; 3] = ["report.json", "report.html", "corrected_robot.tom
 impl Diagnose {
     /// Does it.
     pub fn run(&self, console: &Console) -> Done {
+        all_known(&self.without)?;
         output_path::folder(&self.out, &FILES)?;
         let session = self.session.load(console)?;
-        let (report, written) = diagnosed(&session, self.session.name(), self.horizon, &self.out, console)?;
+        let mut knobs = Knobs::default();
+        knobs.measure.horizon_s = self.horizon;
+        knobs.screen.without.clone_from(&self.without);
+        let (report, written) = diagnosed(&session, self.session.name(), knobs, &self.out, console)?;
         console.say(&report::terminal(&report, Some(&written)))?;
         Ok(if self.exit_code { report.verdict.exit_code() } else { DONE })
     }
@@ -50,12 +59,10 @@ impl Diagnose {
 pub fn diagnosed(
     session: &Session,
     name: Option<String>,
-    horizon_s: f64,
+    knobs: Knobs,
     out: &Path,
     console: &Console,
 ) -> Result<(Report, Written), CliError> {
-    let mut knobs = Knobs::default();
-    knobs.measure.horizon_s = horizon_s;
     let diagnosis =
         Diagnosis::of(session, &Options { session: name, knobs, progress: &|phrase| console.phase(phrase) });
     let page = report::html(&diagnosis.report, &diagnosis.pictures);

@@ -3,14 +3,14 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Role, Scope};
 use model_core::effects::nominal::{NOMINAL, NominalCard};
 use omni_gap::known_effects;
-use omni_gap::log::{RobotFile, nearest, write_whole};
+use omni_gap::log::{RobotFile, write_whole};
 use omni_gap::report::{effect_picture, num, shown_in};
 use omni_gap::simulate::{NOMINAL_KEYS, effect_shown};
 
+use super::causes::{cards, unknown};
 use super::cli_error::CliError;
 use super::console::Console;
 use super::console::wrapped;
@@ -32,10 +32,6 @@ pub struct Explain {
     /// The robot of the picture; without it the paper's on four wheels
     #[arg(long, value_name = "ROBOT.toml", requires = "out")]
     robot: Option<PathBuf>,
-}
-
-fn cards() -> impl Iterator<Item = &'static Card> {
-    EffectKind::ALL.iter().map(|e| e.card())
 }
 
 impl Explain {
@@ -69,15 +65,6 @@ impl Explain {
 
 const NO_PICTURE: &str = "pictures are drawn of effects, and this is a parameter of the robot file: leave out --out, or \
     name an effect of the list that `omni-gap explain` prints.";
-
-fn unknown(name: &str) -> CliError {
-    let near = nearest(name, cards().map(|c| c.id).chain(NOMINAL.iter().map(|p| p.id)));
-    let fix = match near {
-        Some(near) => format!("Did you mean `{near}`?"),
-        None => "`omni-gap explain` lists all names".to_owned(),
-    };
-    CliError::UnknownName { name: name.to_owned(), fix }
-}
 
 fn list() -> String {
     let mut page = "Effects that a simulator may lack:\n".to_owned();

@@ -1,9 +1,10 @@
 //! # Commands: one file a verb
 //!
-//! [`cli_error`] is why a command ends early, [`console`] says things on the terminal, [`given`] reads what the command line
+//! [`causes`] knows their names, [`cli_error`] is why a command ends early, [`console`] says things on the terminal, [`given`] reads what the command line
 //! names, [`output_path`] looks at outputs before any work is done for them. Bad input ends with one message on standard error
 //! and exit code 2; what a command writes is whole or not there.
 
+mod causes;
 mod check;
 mod cli_error;
 mod console;

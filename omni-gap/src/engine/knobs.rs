@@ -62,6 +62,9 @@ pub struct ScreenKnobs {
     pub most_s: f64,
     /// And at so many rows, at the most [rows]: the matrices of every window are kept.
     pub most_rows: usize,
+    /// Causes that are left out, by their ids: for whoever asks what an answer rests on.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub without: Vec<String>,
     /// A promise below this is not worth a fit [σ²]: three sigma of one number.
     pub promising: f64,
     /// Beyond the best `always_fitted`, a promise below this share of the best is not worth a fit [1]. By trial.
@@ -285,6 +288,7 @@ impl Default for ScreenKnobs {
             least_s: 12.0,
             most_s: 80.0,
             most_rows: 20_000,
+            without: Vec::new(),
             promising: 9.0,
             worth_a_fit: 0.25,
             closer_look: 0.1,

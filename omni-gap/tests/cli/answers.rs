@@ -37,6 +37,24 @@ fn the_demo_finds_what_is_hidden_and_its_files_say_the_same_again() {
 }
 
 #[test]
+fn without_the_cause_the_answer_is_another_and_says_what_was_left_out() {
+    let bench = Bench::empty();
+    bench.done(&["demo", "--quiet"]);
+    let args = ["diagnose", "omni-gap-demo/session", "--without", "dead_time,mass", "--out", "without"];
+    let said = bench.done(&args);
+    assert!(said.out.contains("left out of the catalogue, as asked: `dead_time`, `mass`"), "{}", said.out);
+    let report: serde_json::Value = serde_json::from_str(&bench.read("without/report.json")).unwrap();
+    let considered = |id: &str| report["which"].as_array().unwrap().iter().any(|which| which["cause"] == id);
+    assert!(!considered("dead_time") && !considered("mass"), "{}", report["which"]);
+    // half of what dead time does nothing else explains
+    assert_ne!(report["causes"], serde_json::json!(["dead_time"]));
+    assert_ne!(report["verdict"], "no_gap");
+    let refused = bench.run(&["diagnose", "omni-gap-demo/session", "--without", "dead_tim"]);
+    assert_eq!(refused.code, 2);
+    assert!(refused.err.contains("Did you mean `dead_time`?"), "{}", refused.err);
+}
+
+#[test]
 fn the_bytes_depend_neither_on_threads_nor_on_what_the_processor_can() {
     let bench = Bench::with_session();
     bench.done(&["diagnose", "session", "--out", "here"]);

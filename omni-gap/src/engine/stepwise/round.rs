@@ -64,11 +64,15 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
     let shortened = data.to_fit().beginning(knobs.runs, knobs.least_s).shortened(knobs.most_s, knobs.most_rows);
     let few = shortened.shots();
     let linear = base.fit.linearised(few);
-    let all = candidates::<N>(&base.fit.model.effects, data.fit[0].chain, knobs);
+    let considered = |id: &str| !knobs.without.iter().any(|without| without == id);
+    let mut all = candidates::<N>(&base.fit.model.effects, data.fit[0].chain, knobs);
+    all.retain(|candidate| considered(candidate.card.id));
     let mut screened = screen(&base.fit, &linear, prior, few, all, knobs);
     screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     drop(linear);
-    let mut released = screen_releases(&base.fit, prior, &freed_priors(), &data.knobs.fit);
+    let mut releases = freed_priors();
+    releases.retain(|release| considered(release.cause));
+    let mut released = screen_releases(&base.fit, prior, &releases, &data.knobs.fit);
     released.sort_by(|a, b| b.gain.total_cmp(&a.gain));
 
     let effects = worth_a_fit(&screened, knobs)
