@@ -6,18 +6,18 @@ use ground_truth::causes::{CAUSES, Cause};
 use ground_truth::drawn::Drawn;
 use ground_truth::drawn_robot::DrawnRobot;
 use ground_truth::recording::{Plan, Session};
-use ground_truth::sizing::Trial;
+use ground_truth::sizing::{Sized, Trial};
 
 use super::label::{Hidden, Label, Severity, Suite};
 
 /// How many sessions of each suite.
-pub type Sizes = [(Suite, usize); 2];
+pub type Sizes = [(Suite, usize); 3];
 
 /// A whole split.
-pub const WHOLE: Sizes = [(Suite::Laboratory, 250), (Suite::NoGap, 150)];
+pub const WHOLE: Sizes = [(Suite::Laboratory, 250), (Suite::NoGap, 150), (Suite::Several, 150)];
 
 /// What the test command takes on.
-pub const REDUCED: Sizes = [(Suite::Laboratory, 30), (Suite::NoGap, 10)];
+pub const REDUCED: Sizes = [(Suite::Laboratory, 24), (Suite::NoGap, 8), (Suite::Several, 8)];
 
 /// One session of a split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,22 +64,25 @@ impl Case {
 
     /// Recordings and label.
     pub fn made(&self) -> (Session, Label) {
-        let cause = (self.suite != Suite::NoGap).then(|| &CAUSES[self.number % CAUSES.len()]);
-        let keys = cause.map_or(&[][..], |cause| cause.keys);
-        let robot = DrawnRobot::new(self.seed).with_true(keys);
         let mut drawn = Drawn::new(mixed(self.seed));
-        let plan = plan(&robot, cause, &mut drawn);
+        let causes = self.causes(&mut drawn);
+        let keys: Vec<&str> = causes.iter().flat_map(|cause| cause.keys).copied().collect();
+        let robot = DrawnRobot::new(self.seed).with_true(&keys);
+        let plan = plan(&robot, &causes, &mut drawn);
         let trial = Trial { truth: &robot.truth, voltage: plan.voltage, seed: self.seed, seconds: TRIED_S };
-        let hidden = cause.map(|cause| self.hidden(cause, &robot, &trial, &mut drawn));
-        let setup = match (&cause, &hidden) {
-            (Some(cause), Some(hidden)) => trial.with(cause, hidden.wheel, hidden.times),
-            _ => robot.truth.setup(),
-        };
+        let mut setup = robot.truth.setup();
+        let mut hidden: Vec<Hidden> = Vec::new();
+        for cause in causes {
+            let one = self.hidden(cause, &trial, &mut drawn);
+            (cause.put)(&mut setup, one.wheel, one.times);
+            hidden.push(one);
+        }
+        hidden.sort_by(|a, b| b.gap.total_cmp(&a.gap));
         let label = Label {
             session: self.name(),
             suite: self.suite,
             seed: self.seed,
-            hidden: hidden.into_iter().collect(),
+            hidden,
             foreign: None,
             far_off: robot.far_off.map_or_else(Vec::new, |key| causes_of(key).map(str::to_owned).collect()),
             about: about(&robot, &plan),
@@ -87,15 +90,60 @@ impl Case {
         (Session::of(&robot.file, &setup, &plan, self.seed), label)
     }
 
+    /// What is hidden: by turns, or drawn.
+    fn causes(&self, drawn: &mut Drawn) -> Vec<&'static Cause> {
+        match self.suite {
+            Suite::NoGap => Vec::new(),
+            Suite::Several => several(self.number, drawn),
+            _ => vec![&CAUSES[self.number % CAUSES.len()]],
+        }
+    }
+
     /// A cause on a wheel if it sits on one, as large as its turn asks for.
-    fn hidden(&self, cause: &Cause, robot: &DrawnRobot, trial: &Trial<'_>, drawn: &mut Drawn) -> Hidden {
-        let wheel = drawn.below(robot.truth.wheels.len() as u32) as usize;
+    fn hidden(&self, cause: &Cause, trial: &Trial<'_>, drawn: &mut Drawn) -> Hidden {
+        let wheel = drawn.below(trial.truth.wheels.len() as u32) as usize;
         let wheel = cause.one_wheel.then_some(wheel);
-        let (low, high) = SEVERITIES[(self.number / CAUSES.len()) % SEVERITIES.len()].range();
-        let asked = drawn.log_between(low, high);
-        let sized = trial.sized(cause, wheel, asked);
+        let several = self.suite == Suite::Several;
+        let sized = if several && !cause.keys.is_empty() {
+            let times = wrong_by(drawn);
+            Sized { times, gap: trial.gap(&trial.with(cause, wheel, times)) }
+        } else {
+            let turn = SEVERITIES[(self.number / CAUSES.len()) % SEVERITIES.len()];
+            let (low, high) = if several { Severity::Medium } else { turn }.range();
+            trial.sized(cause, wheel, drawn.log_between(low, high))
+        };
         Hidden { cause: cause.id.to_owned(), wheel, times: sized.times, gap: sized.gap }
     }
+}
+
+/// Of fifteen sessions with several causes, so many have two effects, and so many of the others three; the rest have wrong
+/// numbers.
+const SEVERAL: [usize; 3] = [6, 4, 15];
+
+/// Two effects, three, or three to five numbers that are wrong, no two of which are the same number.
+fn several(number: usize, drawn: &mut Drawn) -> Vec<&'static Cause> {
+    let turn = number % SEVERAL[2];
+    let (numbers, count) = match turn {
+        _ if turn < SEVERAL[0] => (false, 2),
+        _ if turn < SEVERAL[0] + SEVERAL[1] => (false, 3),
+        _ => (true, 3 + drawn.below(3) as usize),
+    };
+    let kind: Vec<&Cause> = CAUSES.iter().filter(|cause| cause.keys.is_empty() != numbers).collect();
+    let mut chosen: Vec<&'static Cause> = Vec::new();
+    while chosen.len() < count {
+        let next = kind[drawn.below(kind.len() as u32) as usize];
+        let twice = |other: &&Cause| other.id == next.id || other.keys.iter().any(|key| next.keys.contains(key));
+        if !chosen.iter().any(twice) {
+            chosen.push(next);
+        }
+    }
+    chosen
+}
+
+/// By how many times three stated sigmas a number is wrong, one way or the other: a friction can only be a little less than
+/// half of what it was thought to be.
+fn wrong_by(drawn: &mut Drawn) -> f64 {
+    if drawn.below(2) == 0 { drawn.between(1.0, 2.0) } else { -drawn.between(1.0, 1.2) }
 }
 
 /// Causes that name a number of the robot file.
@@ -103,7 +151,7 @@ fn causes_of(key: &str) -> impl Iterator<Item = &'static str> {
     CAUSES.iter().filter(move |cause| cause.keys.contains(&key)).map(|cause| cause.id)
 }
 
-fn plan(robot: &DrawnRobot, cause: Option<&Cause>, drawn: &mut Drawn) -> Plan {
+fn plan(robot: &DrawnRobot, causes: &[&Cause], drawn: &mut Drawn) -> Plan {
     let gyro = drawn.below(2) == 0;
     Plan {
         runs: 6,
@@ -112,7 +160,7 @@ fn plan(robot: &DrawnRobot, cause: Option<&Cause>, drawn: &mut Drawn) -> Plan {
         camera_rate: drawn.between(25.0, 90.0).round(),
         voltage: DRIVEN * robot.truth.supply,
         // what only a gyro shows needs one
-        gyro: gyro || cause.is_some_and(|cause| cause.id == "gyro_bias"),
+        gyro: gyro || causes.iter().any(|cause| cause.id == "gyro_bias"),
     }
 }
 
@@ -164,5 +212,27 @@ mod tests {
         assert_eq!(session.runs.len(), 6);
         let (_, nothing) = Case { suite: Suite::NoGap, number: 3, seed: 6 }.made();
         assert!(nothing.nothing());
+    }
+
+    #[test]
+    fn several_causes_are_two_or_three_effects_or_three_to_five_numbers() {
+        let mut drawn = Drawn::new(3);
+        let mut counts = [0; 3];
+        for number in 0..150 {
+            let causes = several(number, &mut drawn);
+            let numbers = causes.iter().filter(|cause| !cause.keys.is_empty()).count();
+            let mut keys: Vec<&str> = causes.iter().flat_map(|cause| cause.keys).copied().collect();
+            let all = keys.len();
+            keys.sort_unstable();
+            keys.dedup();
+            assert_eq!(keys.len(), all, "a number that is wrong twice");
+            match (numbers, causes.len()) {
+                (0, 2) => counts[0] += 1,
+                (0, 3) => counts[1] += 1,
+                (3..=5, all) if all == numbers => counts[2] += 1,
+                other => panic!("{other:?}"),
+            }
+        }
+        assert_eq!(counts, [60, 40, 50]);
     }
 }
