@@ -8,6 +8,8 @@ five are fitted in full with SciPy's trust-region least squares (Branch, Coleman
 
     BIC = |r|² + |z|² + k ln n;   probability of a model exp(-BIC/2) over the sum
 
+Schwarz, Annals of Statistics 6, 1978. A number of the robot file that is let go pays for its wider prior instead.
+
 `unknown` is a model that leaves a chi-square of 1.5 for every number: it wins where the best fit leaves more.
 """
 
@@ -21,7 +23,7 @@ from peers.candidate import candidates  # noqa: E402
 from peers.catalogue import catalogue  # noqa: E402
 from peers.clock import Clock  # noqa: E402
 from peers.fit import fitted, nominal  # noqa: E402
-from peers.linear import bic, shares  # noqa: E402
+from peers.linear import shares  # noqa: E402
 from peers.problem import Problem  # noqa: E402
 from peers.report import Answer  # noqa: E402
 from peers.screen import screened  # noqa: E402
@@ -41,13 +43,16 @@ BELIEVED = 1.5
 OPTIONS = [("--seconds", {"type": float, "default": SECONDS, "help": "time for the whole answer [s]"})]
 
 
-def compared(without, fits, numbers):
+def compared(robot, without, fits, numbers):
     """The entries of `which`: no gap, each fit, and unknown."""
-    criteria = [bic(without, 0, numbers)]
-    criteria += [bic(one.square, one.candidate.cost(), numbers) for one in fits]
-    criteria.append(BELIEVED * numbers)
+    criteria = [without, *(criterion(robot, one, numbers) for one in fits), BELIEVED * numbers]
     names = [("no_gap", None), *((one.candidate.cause, one.candidate.wheel) for one in fits), ("unknown", None)]
     return [(*name, float(p)) for name, p in zip(names, shares(criteria), strict=True)]
+
+
+def criterion(robot, one, numbers):
+    """BIC of a fit."""
+    return one.square + one.candidate.price(robot, numbers)
 
 
 def answer(session, tool, asked):
@@ -64,8 +69,8 @@ def answer(session, tool, asked):
         "screened": [(one.name(), one.square / numbers) for one in ranking[:15]],
         "simulations": problem.calls,
     }
-    best = min(fits, key=lambda one: bic(one.square, one.candidate.cost(), numbers), default=None)
-    return Answer(compared(base.square, fits, numbers), robot=best and best.robot(session.robot), notes=notes)
+    best = min(fits, key=lambda one: criterion(session.robot, one, numbers), default=None)
+    return Answer(compared(session.robot, base.square, fits, numbers), robot=best and best.robot(session.robot), notes=notes)
 
 
 if __name__ == "__main__":

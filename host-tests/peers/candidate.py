@@ -4,8 +4,10 @@ import itertools
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from peers.catalogue import SHAPES, SIZES
-from peers.robot_file import carries, with_cause
+from peers.robot_file import carries, uncertain, with_cause
 
 # What has to be logged for a cause to be seen at all: u and wset say what drives.
 NEEDS = {
@@ -46,9 +48,18 @@ class Candidate:
         """The parameters that size it."""
         return self.cause.role(SIZES)
 
-    def cost(self):
-        """How many parameters it counts for; what has none still is one thing more."""
-        return max(1, len(self.free))
+    def price(self, robot, numbers):
+        """What a model pays for it beside its squares.
+
+        A parameter of an effect costs ln n (BIC); what has none still is one thing more. A number of the robot file is
+        fitted with this cause or without: only its prior gets wider, from its stated sigma to a factor of e, and the ratio of
+        the evidences is that of the priors' widths, 2 ln(1/sigma) in units of BIC (MacKay, Information Theory, 2003, ch. 28).
+        """
+        if self.cause.kind != "parameter":
+            return max(1, len(self.free)) * np.log(numbers)
+        stated = dict(uncertain(robot))
+        sigmas = [stated.get(where, 1.0) for where in self.cause.keys]
+        return sum(2 * np.log(1 / min(sigma, 1.0)) for sigma in sigmas[: len(self.free)])
 
     def put(self, robot, numbers):
         """A robot with it."""

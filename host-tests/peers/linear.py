@@ -34,13 +34,8 @@ def amplitudes(residual, changes, low, high):
     return found.x, float(residual @ residual - 2 * found.cost)
 
 
-def bic(square, parameters, numbers):
-    """Schwarz's criterion, Annals of Statistics 6, 1978, of a fit with known noise: |r|² + k ln n."""
-    return square + parameters * np.log(numbers)
-
-
 def shares(criteria):
-    """Probabilities of models from their criteria: exp(-BIC/2), of sum 1 (Raftery, Bayesian Model Selection, 1995)."""
+    """Probabilities of models from their criteria: exp(-BIC/2), of sum 1 (Raftery, Sociological Methodology 25, 1995)."""
     lowest = min(criteria)
     weights = np.exp(-0.5 * (np.asarray(criteria) - lowest))
     return weights / weights.sum()

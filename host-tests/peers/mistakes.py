@@ -3,3 +3,7 @@
 
 class Mistake(Exception):
     """Input that cannot be used; the message says what, where, and how to mend it."""
+
+
+class Refused(Mistake):
+    """What the program would not do with what it was given; the message is its own."""

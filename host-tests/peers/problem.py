@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from peers.mistakes import Mistake
+from peers.mistakes import Refused
 from peers.residuals import Floor, residuals
 from peers.robot_file import moved, uncertain
 from peers.session import Run
@@ -56,7 +56,7 @@ class Problem:
         for run in self.runs:
             try:
                 found = residuals(self.tool, robot, run, self.horizon, self.robot)
-            except Mistake:
+            except Refused:
                 found = {name: np.full(len(run.time), 1e3) for name in self.floor.size}
             for name, size in self.floor.size.items():
                 if name in run.columns:

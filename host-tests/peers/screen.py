@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from peers.candidate import Candidate, on_each_wheel
-from peers.linear import Projection, amplitudes, bic
+from peers.linear import Projection, amplitudes
 
 # How many of the best are looked at wheel by wheel.
 CLOSER = 3
@@ -32,7 +32,7 @@ def screened(problem, base, offered, clock):
     numbers = problem.numbers()
 
     def criterion(one):
-        return bic(one.square, one.candidate.cost(), numbers)
+        return one.square + one.candidate.price(problem.robot, numbers)
 
     def looked_at(some):
         found = []

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import tomli_w
 
-from peers.mistakes import Mistake
+from peers.mistakes import Mistake, Refused
 
 # Where a build of this tree leaves the program.
 BUILT = Path(__file__).resolve().parents[2] / "target" / "release" / "omni-gap"
@@ -42,11 +42,14 @@ class Tool:
         self.kept.cleanup()
 
     def said(self, *words):
-        """What the program prints; its complaint becomes a Mistake."""
-        done = subprocess.run([self.program, *map(str, words)], capture_output=True, text=True, encoding="utf-8")
+        """What the program prints; its complaint is Refused."""
+        try:
+            done = subprocess.run([self.program, *map(str, words)], capture_output=True, text=True, encoding="utf-8")
+        except OSError as why:
+            raise Mistake(f"{self.program}: cannot be run ({why.strerror}); build it again") from why
         if done.returncode != 0:
             complaint = " ".join(done.stderr.split()) or f"exit code {done.returncode}"
-            raise Mistake(f"omni-gap {words[0]}: {complaint}")
+            raise Refused(f"omni-gap {words[0]}: {complaint}")
         return done.stdout
 
     def robot(self, robot):

@@ -57,7 +57,7 @@ def answered(robot):
     clock = Clock(1e6, lambda: next(ticking))
     base = nominal(posed, clock)
     fits = fitted(posed, base, screened(posed, base, [Candidate(one) for one in CAUSES], clock), clock)
-    which = compared(base.square, fits, posed.numbers())
+    which = compared(FOUR, base.square, fits, posed.numbers())
     top = max(which, key=lambda one: one[2])[0]
     return (top if isinstance(top, str) else top.id), fits
 
@@ -84,7 +84,7 @@ def test_what_no_candidate_explains_is_unknown():
     strange.runs[0].columns["i0_A"] += 0.2 * np.sin(np.arange(VOLTS.size))
     base = nominal(strange, Clock(1e6))
     fits = fitted(strange, base, screened(strange, base, [Candidate(one) for one in CAUSES], Clock(1e6)), Clock(1e6))
-    which = compared(base.square, fits, strange.numbers())
+    which = compared(FOUR, base.square, fits, strange.numbers())
     assert max(which, key=lambda one: one[2])[0] == "unknown"
     assert base.square > BELIEVED * strange.numbers()
 
@@ -93,7 +93,7 @@ def test_no_time_still_gives_an_answer():
     posed = problem(robot(dead_time=0.4))
     base = nominal(posed, Clock(0))
     assert screened(posed, base, [Candidate(CAUSES[0])], Clock(0)) == []
-    which = compared(base.square, [], posed.numbers())
+    which = compared(FOUR, base.square, [], posed.numbers())
     assert sum(weight for *_, weight in which) == pytest.approx(1)
 
 
@@ -111,3 +111,9 @@ def test_long_recordings_keep_their_beginnings(tmp_path):
     assert shortened([run], 100, tmp_path) == [run]
     assert [len(one.time) for one in shortened([run, run], 60, tmp_path)] == [30, 30]
     assert beginning(run, 7, tmp_path / "some.csv").columns["x_m"].tolist() == list(range(7))
+
+
+def test_a_number_that_is_let_go_pays_for_its_prior_alone():
+    wider = Cause("resistance", "parameter", "electrical", CAUSES[0].parameters, keys=(("motor", "resistance_ohm"),))
+    assert Candidate(wider).price(FOUR, 1e9) == pytest.approx(2 * np.log(10))
+    assert Candidate(CAUSES[0]).price(FOUR, 1e9) == pytest.approx(np.log(1e9))
