@@ -36,7 +36,7 @@ class Library:
         self.wheels = range(n.radius.size)
         self.sign = soft(m.twist, MOVES / 4)
         self.away = np.zeros((m.time.size, 2)) if m.position is None else m.position
-        self.voltage = np.max(np.abs(m.volts)) if m.volts is not None else 1.0
+        self.voltage = m.supply or (float(np.max(np.abs(m.volts))) if m.volts is not None else 0.0) or 1.0
 
     def columns(self):
         """All of them."""

@@ -21,7 +21,6 @@ one_thread()
 import warnings  # noqa: E402
 
 import numpy as np  # noqa: E402
-from scipy.optimize import lsq_linear  # noqa: E402
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
@@ -29,8 +28,9 @@ with warnings.catch_warnings():
 
 from peers.catalogue import catalogue  # noqa: E402
 from peers.design import Design  # noqa: E402
+from peers.nominal_terms import beyond_nominal  # noqa: E402
 from peers.report import STAGES, Answer  # noqa: E402
-from peers.robot_file import carries, uncertain  # noqa: E402
+from peers.robot_file import carries  # noqa: E402
 
 NAME = "sindy"
 MODELS = 40
@@ -42,32 +42,8 @@ SHARE, SIGMAS = 0.15, 12.0
 # Ridge of the least squares, for terms of norm 1: several of the catalogue's terms are nearly alike.
 RIDGE = 0.3
 
-# How far a nominal number may plausibly be off [its stated sigmas]; a parameter cause is what goes on from there.
-PLAUSIBLE = 2.0
-
 # The mean square of what is left, over that of noise, up to which nothing is missing.
 BELIEVED = 2.5
-
-# The regressors' size of a parameter cause: its share of the number.
-FIFTH = 0.2
-
-
-def nuisance(robot, design):
-    """The columns of the nominal numbers, one stated sigma each."""
-    stated = dict(uncertain(robot))
-    sigmas = {
-        "mass": stated.get(("body", "mass_kg")),
-        "inertia": stated.get(("body", "inertia_kg_m2")),
-        "resistance": stated.get(("motor", "resistance_ohm")),
-        "torque_constant": stated.get(("motor", "emf_constant_V_s")),
-        "kt_over_kv": stated.get(("motor", "torque_constant_Nm_per_A")),
-        "wheel_radius": stated.get(("wheel", "radius_m")),
-        "center_distance": stated.get(("wheel", "distance_m")),
-        "viscous_friction": stated.get(("friction", "viscous_v_N_s_per_m")),
-        "coulomb_friction": stated.get(("friction", "coulomb_v_N")),
-    }
-    columns = [k for k, (cause, _) in enumerate(design.named) if sigmas.get(cause)]
-    return design.terms[:, columns] * [sigmas[design.named[k][0]] / FIFTH for k in columns]
 
 
 def ensemble(y, terms, threshold, models=MODELS, seed=SEED):
@@ -83,9 +59,7 @@ def ensemble(y, terms, threshold, models=MODELS, seed=SEED):
 
 def weights(design, robot, models=MODELS):
     """Weights by (cause, wheel), of unknown and of no gap; the share of the residual's norm that is explained."""
-    moved = nuisance(robot, design)
-    left = design.y - moved @ lsq_linear(moved, design.y, (-PLAUSIBLE, PLAUSIBLE)).x if moved.size else design.y
-    columns = design.terms
+    left, columns = beyond_nominal(design, robot), design.terms
     norms = np.linalg.norm(columns, axis=0)
     seen = np.flatnonzero(norms > 1e-3 * max(norms.max(), 1e-9))
     unit = columns[:, seen] / norms[seen]

@@ -124,6 +124,7 @@ class Motion:
 
     def __init__(self, robot, run):
         self.numbers = numbers = Numbers.of(robot)
+        self.supply = robot.get("supply", {}).get("voltage_V")
         self.time = run.time
         self.dt = float(np.median(np.diff(run.time)))
         self.half = max(2, round(WHEELS_S / self.dt))
