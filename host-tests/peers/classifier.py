@@ -1,8 +1,8 @@
 """The amortised contestant: gradient boosting on residual features, trained on recordings of the product's own plant.
 
 Same physics, no hand-written logic (Radev and others, Amortized Bayesian model comparison, IEEE TNNLS 34, 2023; here trees in
-place of nets). Train it first: python -m peers.train --out MODEL. `learned.py` says how it abstains. A model's file is a pickle:
-load only one that you trained.
+place of nets). Train it first: python -m peers.train --out MODEL. `learned.py` says how it abstains. A model's file is a
+pickle: load only one that you trained.
 """
 
 import sys

@@ -82,6 +82,12 @@ pub const ERRANDS: &[Errand] = &[
         run: mujoco,
     },
     Errand {
+        name: "peers",
+        takes: "",
+        does: "install the peers that enter the benchmark beside us under target/, and test them",
+        run: peers,
+    },
+    Errand {
         name: "pil",
         takes: "",
         does: "build the image and run it in QEMU in the loop with a robot: scenarios, faults, the gap (BLESS=1: rewrite)",
@@ -123,6 +129,10 @@ pub const ERRANDS: &[Errand] = &[
 /// What the comparison with MuJoCo runs on.
 const MUJOCO: Environment =
     Environment { folder: "target/mujoco-venv", requirements: "host-tests/mujoco/requirements.txt" };
+
+/// What the benchmark's peers run on.
+const PEERS: Environment =
+    Environment { folder: "target/peers-venv", requirements: "host-tests/peers/requirements.txt" };
 
 /// Why an errand was not done.
 #[derive(Debug, PartialEq, Eq)]
@@ -218,6 +228,13 @@ fn identification(_: &[OsString]) -> Result<(), String> {
 fn mujoco(_: &[OsString]) -> Result<(), String> {
     let python = MUJOCO.ensure()?;
     announced(Line::of("cargo run --release -p host-tests --bin mujoco --").word(python))
+}
+
+fn peers(_: &[OsString]) -> Result<(), String> {
+    let python = PEERS.ensure()?;
+    announced(Line::of("cargo build --release -p omni-gap"))?;
+    let tests = "-m pytest host-tests/peers".split(' ');
+    announced(tests.fold(Line::of("").word(python), Line::word).env("PYTHONPATH", "host-tests"))
 }
 
 fn pil(_: &[OsString]) -> Result<(), String> {
