@@ -32,7 +32,9 @@ pub mod chassis;
 pub mod commands;
 pub mod contact;
 pub mod harmonics;
+pub mod misread;
 pub mod motor;
+pub mod oddities;
 pub mod paper;
 pub mod reading;
 pub mod robot;
@@ -51,6 +53,7 @@ pub mod impulse;
 pub mod simulation;
 pub mod state;
 mod step;
+mod with_oddities;
 
 // Its recordings
 pub mod drawn;

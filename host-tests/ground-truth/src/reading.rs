@@ -1,5 +1,6 @@
 //! A drive, and what a log of it would hold without noise.
 
+use crate::misread::Leaning;
 use crate::robot_file::Noise;
 use crate::sensors::follows;
 use crate::setup::Setup;
@@ -63,16 +64,19 @@ pub fn drive(
     let mut moving = Simulation::new(setup.robot.clone(), step);
     let mut followed_currents = vec![0.0; sensors.currents.len()];
     let mut followed_speeds = vec![0.0; sensors.encoders.len()];
+    let mut leaning = Leaning::default();
     let mut track = Track { step, poses: vec![moving.pose()] };
     let mut readings = Vec::with_capacity(rows);
     for row in 0..rows {
         let u = command(row, &moving);
         let currents = moving.currents(&u);
         let current = |(j, now): (usize, f64)| sensors.currents[j].read(now, followed_currents[j]);
-        let speed = |(j, followed): (usize, &f64)| sensors.encoders[j].read(*followed);
+        let speed = |(j, followed): (usize, &f64)| sensors.misread.counted(sensors.encoders[j].read(*followed));
+        let mut currents: Vec<f64> = currents.into_iter().enumerate().map(current).collect();
+        sensors.misread.mix(&mut currents);
         readings.push(Reading {
             time: row as f64 * pace.row,
-            currents: currents.into_iter().enumerate().map(current).collect(),
+            currents,
             wheel_speeds: followed_speeds.iter().enumerate().map(speed).collect(),
             gyro: moving.twist()[2] + sensors.gyro_bias,
             twist: moving.twist(),
@@ -81,7 +85,10 @@ pub fn drive(
         });
         for _ in 0..pace.steps {
             moving.hold(&u, 1);
-            track.poses.push(moving.pose());
+            if let Some(lean) = &sensors.misread.lean {
+                leaning = leaning.after(lean, moving.acceleration(), step);
+            }
+            track.poses.push(sensors.misread.leant(moving.pose(), &leaning));
             for (j, followed) in followed_currents.iter_mut().enumerate() {
                 *followed = follows(*followed, moving.driving_currents()[j], sensors.currents[j].lag, step);
             }
@@ -91,7 +98,7 @@ pub fn drive(
         }
     }
     for reading in &mut readings {
-        reading.pose = sensors.camera.read(&track, reading.time);
+        reading.pose = sensors.misread.bent(sensors.camera.read(&track, reading.time));
     }
     readings
 }

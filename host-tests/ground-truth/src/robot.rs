@@ -9,6 +9,7 @@ use crate::chassis::Chassis;
 use crate::contact::Grip;
 use crate::harmonics::Harmonic;
 use crate::motor::Motor;
+use crate::oddities::Oddities;
 use crate::shaft::Shaft;
 use crate::surroundings::Surroundings;
 
@@ -25,6 +26,8 @@ pub struct Robot {
     pub command_delay: f64,
     /// Where it drives.
     pub surroundings: Surroundings,
+    /// What no entry of the diagnosis's catalogue describes.
+    pub oddities: Oddities,
 }
 
 /// One wheel, its gear and its motor.

@@ -8,6 +8,7 @@ use crate::battery::Battery;
 use crate::body_friction::BodyFriction;
 use crate::chassis::Chassis;
 use crate::motor::Motor;
+use crate::oddities::Oddities;
 use crate::robot::{Robot, Wheel};
 use crate::sensors::Sensors;
 use crate::setup::Setup;
@@ -95,6 +96,7 @@ impl RobotFile {
             battery: Battery::stiff(self.supply),
             command_delay: 0.0,
             surroundings: Surroundings::default(),
+            oddities: Oddities::default(),
         };
         Setup { robot, sensors: Sensors::true_to(self.wheels.len()) }
     }

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
+use crate::misread::Misread;
 use crate::rotated::rotated;
 use crate::track::Track;
 
@@ -16,6 +17,8 @@ pub struct Sensors {
     pub camera: Camera,
     /// What the gyro reads at rest [rad/s]
     pub gyro_bias: f64,
+    /// What no entry of the diagnosis's catalogue describes.
+    pub misread: Misread,
 }
 
 /// `T·dy/dt + y = i`, read as `(1 + g)·y + o`.
@@ -63,6 +66,7 @@ impl Sensors {
             encoders: vec![Encoder::default(); wheels],
             camera: Camera::default(),
             gyro_bias: 0.0,
+            misread: Misread::default(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
+use crate::bridge::Loss;
 use crate::chassis::SeenFrom;
 use crate::commands::Commands;
 use crate::contact::{Grip, floor_row};
@@ -39,6 +40,8 @@ pub struct Simulation {
     /// Which way each constraint slid in the last step.
     pub(crate) slides: Vec<i8>,
     pub(crate) before: Before,
+    /// Whether the robot has oddities.
+    pub(crate) odd: bool,
 }
 
 /// Where a step began.
@@ -95,6 +98,7 @@ impl Simulation {
             slides: vec![0; constraints.len()],
             before: Before::default(),
             commands: Commands::default(),
+            odd: robot.oddities.any(),
             constraints,
             state,
             robot,
@@ -112,7 +116,8 @@ impl Simulation {
         self.state.heading = heading;
     }
 
-    /// Sets the robot's centre in motion with a twist (v, vn, ω) [m/s, m/s, rad/s], its wheels rolling.
+    /// Sets the robot's centre in motion with a twist (v, vn, ω) [m/s, m/s, rad/s], its wheels rolling; a load
+    /// that swings stays behind.
     pub fn set_moving(&mut self, twist: Vector3<f64>) {
         self.state.twist = twist_at(self.point) * twist;
         for (j, wheel) in self.robot.wheels.iter().enumerate() {
@@ -145,6 +150,13 @@ impl Simulation {
         (self.chassis.centre * self.state.twist).into()
     }
 
+    /// Of the robot's centre over the last step, along (v, vn) [m/s²]
+    pub fn acceleration(&self) -> Vector2<f64> {
+        let [v, vn, w] = self.twist();
+        let rate = self.chassis.centre * self.state.twist_rate;
+        Vector2::new(rate.x - w * vn, rate.y + w * v)
+    }
+
     /// Speeds of the wheels [rad/s]
     pub fn wheel_speeds(&self) -> Vec<f64> {
         self.state.shafts.iter().map(|shafts| shafts.x).collect()
@@ -161,6 +173,7 @@ impl Simulation {
         commands.send(self.state.time, u, delay);
         let mut heard = vec![0.0; u.len()];
         commands.at(self.state.time - delay, &mut heard);
+        self.robot.oddities.hear(&self.state.memory, &mut heard);
         let mut currents = self.state.currents.clone();
         for _ in 0..READINGS {
             let bus = self.bus(&heard, &currents);
@@ -182,7 +195,7 @@ impl Simulation {
     /// What moves and what is strained [J]
     ///
     /// ```text
-    /// ½·Vᵀ·M·V + Σ ½·J·ω² + Σ ½·k·z² + Σ ½·f²/k + Σ ½·L·i²
+    /// ½·Vᵀ·M·V + Σ ½·J·ω² + Σ ½·k·z² + Σ ½·f²/k + Σ ½·L·i² + what oddities hold
     /// ```
     pub fn energy(&self) -> f64 {
         let state = &self.state;
@@ -194,10 +207,11 @@ impl Simulation {
                 Grip::Rolls | Grip::Creeps(_) => 0.0,
                 Grip::Slips(slip) => state.strained[j].powi(2) / slip.stiffness,
             };
-            let twisted = wheel.shaft.energy(state.turned[j].x - state.turned[j].y);
+            let apart = state.turned[j].x - state.turned[j].y - self.robot.oddities.slipped(j, &state.memory);
+            let twisted = wheel.shaft.energy(apart);
             0.5 * (turning + patch + wheel.motor.inductance * state.currents[j].powi(2)) + twisted
         };
-        body + self.robot.wheels.iter().enumerate().map(of_wheel).sum::<f64>()
+        body + self.robot.wheels.iter().enumerate().map(of_wheel).sum::<f64>() + self.odd_energy()
     }
 
     /// The shaft that the motor of wheel j turns: 0, the wheel's own, or 1.
@@ -207,7 +221,8 @@ impl Simulation {
 
     /// The voltage of the battery under what the bridges hear [V] and currents [A].
     pub(crate) fn bus(&self, heard: &[f64], currents: &[f64]) -> f64 {
-        self.robot.battery.voltage(self.drawn(heard, currents), self.state.polarisation)
+        let supplied = self.robot.oddities.supplied(self.drawn(heard, currents), &self.state.memory);
+        self.robot.battery.voltage(supplied, self.state.polarisation) + self.state.memory.converting.voltage
     }
 
     /// What the bridges draw from the battery [A]: a current times the part of the time for which it is passed on.
@@ -218,13 +233,17 @@ impl Simulation {
     /// The winding of motor j for a step under what its bridge hears [V], at about a bus voltage [V], a current [A] and a
     /// speed of the motor [rad/s] in its middle.
     pub(crate) fn winding(&self, j: usize, heard: f64, (bus, near, speed): (f64, f64, f64)) -> Winding {
-        let wheel = &self.robot.wheels[j];
+        let (wheel, left) = (&self.robot.wheels[j], self.leaves(j, heard));
+        if left == 0.0 {
+            return Winding { stalled: 0.0, per_speed: 0.0 };
+        }
+        let loss = wheel.bridge.loss(near, wheel.motor.emf_constant * speed);
         let fed = Fed {
-            voltage: wheel.bridge.applied(heard * (bus / self.robot.battery.nominal)),
-            loss: wheel.bridge.loss(near, wheel.motor.emf_constant * speed),
+            voltage: left * wheel.bridge.applied(heard * (bus / self.robot.battery.nominal)),
+            loss: Loss { at_none: left * loss.at_none, ..loss },
             temperatures: self.state.temperatures[j],
         };
         let winding = wheel.motor.winding(&fed, self.state.currents[j], near, self.step);
-        winding.limited(speed, wheel.bridge.current_limit)
+        Winding { per_speed: left * winding.per_speed, ..winding }.limited(speed, wheel.bridge.current_limit)
     }
 }

@@ -2,6 +2,8 @@
 
 use nalgebra::{Vector2, Vector3};
 
+use crate::oddities::Memory;
+
 /// The state of a simulated robot; of the body, it is that of the point that is followed.
 #[derive(Debug, Default, PartialEq)]
 pub struct State {
@@ -29,6 +31,8 @@ pub struct State {
     pub given: Vector3<f64>,
     /// What the battery has lost by polarisation [V]
     pub polarisation: f64,
+    /// What oddities remember.
+    pub memory: Memory,
 }
 
 impl State {
@@ -40,6 +44,7 @@ impl State {
             currents: vec![0.0; wheels],
             temperatures: vec![[0.0; 2]; wheels],
             strained: vec![0.0; wheels],
+            memory: Memory::at_rest(wheels),
             ..Self::default()
         }
     }
@@ -68,6 +73,7 @@ impl Clone for State {
             strained,
             given,
             polarisation,
+            memory,
         } = from;
         (self.time, self.position, self.heading) = (*time, *position, *heading);
         (self.twist, self.twist_rate) = (*twist, *twist_rate);
@@ -77,5 +83,6 @@ impl Clone for State {
         self.temperatures.clone_from(temperatures);
         self.strained.clone_from(strained);
         (self.given, self.polarisation) = (*given, *polarisation);
+        self.memory.clone_from(memory);
     }
 }

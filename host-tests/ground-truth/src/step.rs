@@ -45,6 +45,7 @@ impl Simulation {
     fn find(&mut self) {
         let (from, delay) = (self.state.time, self.robot.command_delay);
         self.commands.mean((from - delay, from + self.step - delay), &mut self.middle.heard);
+        self.robot.oddities.hear(&self.state.memory, &mut self.middle.heard);
         self.middle.twist = self.state.twist + 0.5 * self.step * self.state.twist_rate;
         self.middle.shafts.clone_from(&self.state.shafts);
         self.middle.currents.clone_from(&self.state.currents);
@@ -73,7 +74,8 @@ impl Simulation {
         let (step, half) = (self.step, 0.5 * self.step);
         let damped = self.chassis.inertia + half * self.chassis.viscous;
         let kept = self.chassis.inertia - half * self.chassis.viscous;
-        let pull = self.robot.surroundings.pull(&self.place());
+        let place = self.place();
+        let pull = self.with_odd_forces(self.robot.surroundings.pull(&place), &place);
         let force = pull + self.chassis.apparent(self.middle.twist);
         let v = &mut self.velocities;
         v.body_mobility = damped.try_inverse().expect("a body with mass and inertia");
@@ -82,15 +84,15 @@ impl Simulation {
         let rate = (self.middle.twist - self.state.twist) / half;
         // M·a = M·V̇ − what is apparent
         let by_floor = self.chassis.inertia * rate - self.chassis.apparent(self.middle.twist);
-        let chassis = &self.robot.chassis;
-        loads(&self.feet, chassis.mass, chassis.height, by_floor.xy() / chassis.mass, &mut self.middle.loads);
+        let mass = self.weighing();
+        loads(&self.feet, mass, self.robot.chassis.height, by_floor.xy() / mass, &mut self.middle.loads);
         for (load, wheel) in self.middle.loads.iter_mut().zip(&self.robot.wheels) {
             *load *= wheel.load_factor;
         }
     }
 
     /// Where the body is in the middle of the step.
-    fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Place {
         let (half, twist) = (0.5 * self.step, self.middle.twist);
         let heading = self.state.heading + half * twist.z;
         Place {
@@ -116,21 +118,25 @@ impl Simulation {
             let (driven, brake) = (per_current * winding.stalled + cogging, l * per_current * winding.per_speed);
             let (own, reflected) = (wheel.inertia, wheel.reflected_inertia());
             let bearing = wheel.bearing.viscous;
+            let wheel_angle = self.state.turned[j].x + half * self.middle.shafts[j].x;
+            let bias = self.robot.oddities.over_tooth(j, wheel.bearing.bias(), wheel_angle);
             let (inertia, damping, torque) = match wheel.shaft {
                 // the rotor that is apart is nobody's
                 Shaft::Rigid => (
                     Vector2::new((own + reflected).max(LEAST_INERTIA), 1.0),
                     Matrix2::new(bearing + brake, 0.0, 0.0, 0.0),
-                    Vector2::new(wheel.bearing.bias() + driven, 0.0),
+                    Vector2::new(bias + driven, 0.0),
                 ),
                 Shaft::Elastic { .. } => {
                     let [wheel_angle, rotor_angle] = self.state.turned[j].into();
                     let speed = self.middle.shafts[j].x - self.middle.shafts[j].y;
-                    let Twisted { still, per_speed: k } = wheel.shaft.twisted(wheel_angle - rotor_angle, speed, step);
+                    let apart = wheel_angle - rotor_angle - self.robot.oddities.slipped(j, &self.state.memory);
+                    let twisted = wheel.shaft.twisted(apart, speed, step);
+                    let Twisted { still, per_speed: k } = self.robot.oddities.through_hub(j, twisted, speed);
                     (
                         Vector2::new(own.max(LEAST_INERTIA), reflected.max(LEAST_INERTIA)),
                         Matrix2::new(bearing + k, -k, -k, brake + k),
-                        Vector2::new(wheel.bearing.bias() - still, driven + still),
+                        Vector2::new(bias - still, driven + still),
                     )
                 }
             };
@@ -213,9 +219,11 @@ impl Simulation {
     fn take(&mut self) {
         let step = self.step;
         let drawn = self.drawn(&self.middle.heard, &self.middle.currents);
+        let supplied = self.robot.oddities.supplied(drawn, &self.state.memory);
+        self.remember(drawn);
         let place = self.place();
         let state = &mut self.state;
-        state.polarisation = self.robot.battery.polarised(state.polarisation, drawn, step);
+        state.polarisation = self.robot.battery.polarised(state.polarisation, supplied, step);
         state.twist_rate = (self.velocities.body - state.twist) / step;
         // ẋ = R(θ)·(v, vn), at the middle of the step
         state.position += step * rotated(place.heading, place.twist.xy());
