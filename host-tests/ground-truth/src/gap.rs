@@ -47,6 +47,7 @@ pub fn predicted(model: &Setup, drawn: &[Reading]) -> Vec<Reading> {
                 pose: moving.pose(),
                 twist: moving.twist(),
                 gyro: moving.twist()[2],
+                ..Reading::default()
             });
             moving.hold(&row.command, steps);
         }

@@ -60,6 +60,7 @@ pub mod drawn;
 pub mod drawn_robot;
 pub mod driving;
 pub mod gap;
+pub mod logging;
 pub mod recording;
 pub mod robot_file;
 pub mod sizing;

@@ -31,6 +31,8 @@ pub struct Reading {
     pub pose: [f64; 3],
     /// [rad/s]
     pub gyro: f64,
+    /// How far the wheels have truly turned [rad]
+    pub wheel_angles: Vec<f64>,
     /// v, vn, ω as they truly are [m/s, m/s, rad/s]: no log has them
     pub twist: [f64; 3],
 }
@@ -80,6 +82,7 @@ pub fn drive(
             wheel_speeds: followed_speeds.iter().enumerate().map(speed).collect(),
             gyro: moving.twist()[2] + sensors.gyro_bias,
             twist: moving.twist(),
+            wheel_angles: moving.wheel_angles(),
             command: u.clone(),
             pose: [0.0; 3],
         });

@@ -1,11 +1,9 @@
 //! Recordings: what a log of a drive holds, with noise, as the data contract has it.
 
-use std::fmt::Write;
-
-use crate::drawn::Drawn;
-use crate::driving::Driver;
-use crate::reading::{Pace, Reading, drive};
-use crate::robot_file::{Noise, RobotFile};
+use crate::driving::{Driver, Style};
+use crate::logging::{Log, Logging};
+use crate::reading::{Pace, drive};
+use crate::robot_file::RobotFile;
 use crate::setup::Setup;
 
 /// How recordings are made.
@@ -23,6 +21,8 @@ pub struct Plan {
     pub voltage: f64,
     /// Whether a gyro is logged.
     pub gyro: bool,
+    /// How it is driven.
+    pub style: Style,
 }
 
 /// What stands in a session folder.
@@ -40,9 +40,14 @@ const OF_NOISE: u64 = 0x5eed;
 impl Session {
     /// Recordings of a robot whose file says something else, or the same.
     pub fn of(file: &RobotFile, setup: &Setup, plan: &Plan, seed: u64) -> Self {
+        Self::logged((file, setup), plan, &Logging::clean(), seed)
+    }
+
+    /// The same, logged as it may be.
+    pub fn logged((file, setup): (&RobotFile, &Setup), plan: &Plan, logging: &Logging, seed: u64) -> Self {
         let run = |k: usize| {
             let seed = seed.wrapping_mul(1000).wrapping_add(k as u64);
-            (format!("run{k}.csv"), recorded(file, setup, plan, seed))
+            (format!("run{k}.csv"), recorded((file, setup), plan, logging, seed))
         };
         Self { robot: file.toml(), runs: (0..plan.runs).map(run).collect() }
     }
@@ -60,48 +65,21 @@ impl Session {
 }
 
 /// One run, as a table.
-fn recorded(file: &RobotFile, setup: &Setup, plan: &Plan, seed: u64) -> String {
+fn recorded((file, setup): (&RobotFile, &Setup), plan: &Plan, logging: &Logging, seed: u64) -> String {
     let row = 1.0 / plan.rate;
     let pace = Pace { row, steps: (row / setup.step()).ceil() as usize };
-    let mut driver = Driver::new(file, plan.voltage, seed);
+    let mut driver = Driver::new(file, plan.voltage, plan.style, seed);
     let rows = (plan.duration * plan.rate).round() as usize;
     let readings = drive(setup, pace, rows, |k, moving| driver.command(k as f64 * row, moving.pose()));
-    let mut noise = Drawn::new(seed ^ OF_NOISE);
+    let mut log = Log::new(logging, &file.noise, plan.gyro, seed ^ OF_NOISE);
     let mut next_frame = 0.0;
-    let mut text = header(file.wheels.len(), plan.gyro);
+    let mut text = log.header(file.wheels.len());
     for reading in &readings {
         let framed = reading.time >= next_frame - 1e-9;
         if framed {
             next_frame += 1.0 / plan.camera_rate;
         }
-        text += &line(reading, (framed, plan.gyro), &file.noise, &mut noise);
+        text += &log.row(reading, framed);
     }
     text
-}
-
-fn header(wheels: usize, gyro: bool) -> String {
-    let of = |name: &str, unit: &str| (0..wheels).map(|j| format!(",{name}{j}_{unit}")).collect::<String>();
-    let gyro = if gyro { ",gyro_rad_s" } else { "" };
-    format!("t_s{}{}{},x_m,y_m,theta_rad{gyro}\n", of("u", "V"), of("i", "A"), of("w", "rad_s"))
-}
-
-fn line(reading: &Reading, (framed, gyro): (bool, bool), noise: &Noise, drawn: &mut Drawn) -> String {
-    let mut line = format!("{:.6}", reading.time);
-    let put = |line: &mut String, value: f64| write!(line, ",{value:.6}").expect("a string takes any text");
-    reading.command.iter().for_each(|u| put(&mut line, *u));
-    reading.currents.iter().for_each(|i| put(&mut line, i + noise.current * drawn.normal()));
-    reading.wheel_speeds.iter().for_each(|w| put(&mut line, w + noise.wheel_speed * drawn.normal()));
-    for (x, sigma) in reading.pose.iter().zip([noise.position, noise.position, noise.heading]) {
-        // drawn on every row, so that a faster camera does not change all other noise
-        let seen = x + sigma * drawn.normal();
-        if framed {
-            put(&mut line, seen);
-        } else {
-            line.push(',');
-        }
-    }
-    if gyro {
-        put(&mut line, reading.gyro + noise.gyro * drawn.normal());
-    }
-    line + "\n"
 }

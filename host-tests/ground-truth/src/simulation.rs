@@ -162,6 +162,11 @@ impl Simulation {
         self.state.shafts.iter().map(|shafts| shafts.x).collect()
     }
 
+    /// How far the wheels have turned [rad]
+    pub fn wheel_angles(&self) -> Vec<f64> {
+        self.state.turned.iter().map(|turned| turned.x).collect()
+    }
+
     /// Speed of one wheel [rad/s]
     pub fn wheel_speed(&self, wheel: usize) -> f64 {
         self.state.shafts[wheel].x

@@ -1,7 +1,7 @@
 //! How large a cause has to be for the gap that is asked for.
 
 use crate::causes::Cause;
-use crate::driving::Driver;
+use crate::driving::{Driver, Style};
 use crate::gap::gap;
 use crate::robot_file::RobotFile;
 use crate::setup::Setup;
@@ -31,6 +31,8 @@ pub struct Trial<'a> {
     pub truth: &'a RobotFile,
     /// The most that a motor is given [V]
     pub voltage: f64,
+    /// How it is driven.
+    pub style: Style,
     /// Of the drive.
     pub seed: u64,
     /// How long it is [s]
@@ -47,7 +49,7 @@ impl Trial<'_> {
 
     /// The gap that a robot with something hidden makes [1].
     pub fn gap(&self, hidden: &Setup) -> f64 {
-        gap(self.truth, hidden, &mut Driver::new(self.truth, self.voltage, self.seed), self.seconds)
+        gap(self.truth, hidden, &mut Driver::new(self.truth, self.voltage, self.style, self.seed), self.seconds)
     }
 
     /// The size at which a cause makes a gap, or what comes closest to it within [`BOUNDS`].

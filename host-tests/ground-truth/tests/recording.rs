@@ -1,9 +1,11 @@
 //! Recordings as the data contract has them.
 
+use ground_truth::driving::Style;
 use ground_truth::recording::{Plan, Session};
 use ground_truth::robot_file::RobotFile;
 
-const PLAN: Plan = Plan { runs: 2, duration: 1.0, rate: 100.0, camera_rate: 25.0, voltage: 8.0, gyro: true };
+const PLAN: Plan =
+    Plan { runs: 2, duration: 1.0, rate: 100.0, camera_rate: 25.0, voltage: 8.0, gyro: true, style: Style::Excitation };
 
 fn session(seed: u64) -> Session {
     let file = RobotFile::paper(0.0);
@@ -45,4 +47,19 @@ fn a_folder_holds_the_robot_and_its_runs() {
     for (name, text) in &made.runs {
         assert_eq!(read(&format!("runs/{name}")), *text);
     }
+}
+
+#[test]
+fn everyday_driving_is_slower_to_change_and_still_moves() {
+    let file = RobotFile::paper(0.0);
+    let steepest = |style: Style| {
+        let plan = Plan { style, duration: 6.0, ..PLAN };
+        let runs = Session::of(&file, &file.setup(), &plan, 3).runs;
+        let voltage = |line: &str| line.split(',').nth(1).and_then(|cell| cell.parse::<f64>().ok());
+        let all: Vec<f64> = runs[0].1.lines().filter_map(voltage).collect();
+        assert!(all.iter().any(|u| u.abs() > 1.0), "nobody drives");
+        all.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max)
+    };
+    // a ramp of 8 V in 0.8 s on each of three axes, 10 ms apart
+    assert!(steepest(Style::Everyday) < 0.31 && steepest(Style::Excitation) > 2.0);
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use ground_truth::causes::{CAUSES, Cause};
+use ground_truth::driving::Style;
 use ground_truth::recording::{Plan, Session as Recorded};
 use ground_truth::robot_file::RobotFile;
 use omni_gap::error::{Error, Result};
@@ -14,7 +15,15 @@ use omni_gap::{Options, diagnose, known_effects};
 use crate::catalogue::outcome::{Judgement, judge_cause};
 
 /// Runs, length [s], rows a second, frames of the camera a second, largest voltage [V].
-pub const PLAN: Plan = Plan { runs: 6, duration: 6.0, rate: 200.0, camera_rate: 60.0, voltage: 8.0, gyro: false };
+pub const PLAN: Plan = Plan {
+    runs: 6,
+    duration: 6.0,
+    rate: 200.0,
+    camera_rate: 60.0,
+    voltage: 8.0,
+    gyro: false,
+    style: Style::Excitation,
+};
 
 /// The wheel of a cause that sits on one.
 pub const WHEEL: usize = 1;
