@@ -31,6 +31,7 @@ pub mod causes;
 pub mod chassis;
 pub mod commands;
 pub mod contact;
+pub mod foreign;
 pub mod harmonics;
 pub mod misread;
 pub mod motor;

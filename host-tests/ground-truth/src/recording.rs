@@ -1,5 +1,6 @@
 //! Recordings: what a log of a drive holds, with noise, as the data contract has it.
 
+use crate::drawn::Drawn;
 use crate::driving::{Driver, Style};
 use crate::logging::{Log, Logging};
 use crate::reading::{Pace, drive};
@@ -37,6 +38,12 @@ pub struct Session {
 /// What parts the noise of a run from its drive.
 const OF_NOISE: u64 = 0x5eed;
 
+/// What parts the time at which a run begins from its drive.
+const OF_CLOCK: u64 = 0xc10c;
+
+/// Some time within this the room's clock shows when a run begins [s]
+const DAY: f64 = 120.0;
+
 impl Session {
     /// Recordings of a robot whose file says something else, or the same.
     pub fn of(file: &RobotFile, setup: &Setup, plan: &Plan, seed: u64) -> Self {
@@ -70,7 +77,8 @@ fn recorded((file, setup): (&RobotFile, &Setup), plan: &Plan, logging: &Logging,
     let pace = Pace { row, steps: (row / setup.step()).ceil() as usize };
     let mut driver = Driver::new(file, plan.voltage, plan.style, seed);
     let rows = (plan.duration * plan.rate).round() as usize;
-    let readings = drive(setup, pace, rows, |k, moving| driver.command(k as f64 * row, moving.pose()));
+    let setup = setup.clone().begun_at(Drawn::new(seed ^ OF_CLOCK).between(0.0, DAY));
+    let readings = drive(&setup, pace, rows, |k, moving| driver.command(k as f64 * row, moving.pose()));
     let mut log = Log::new(logging, &file.noise, plan.gyro, seed ^ OF_NOISE);
     let mut next_frame = 0.0;
     let mut text = log.header(file.wheels.len());

@@ -56,7 +56,16 @@ impl Trial<'_> {
     pub fn sized(&self, cause: &Cause, wheel: Option<usize>, asked: f64) -> Sized {
         // a number that is off by less than three times what is stated of it is not wrong
         let least = if cause.keys.is_empty() { BOUNDS.0 } else { 1.0 };
-        let at = |times: f64| Sized { times, gap: self.gap(&self.with(cause, wheel, times)) };
+        self.sized_by(asked, least, &|setup, times| (cause.put)(setup, wheel, times))
+    }
+
+    /// The same of anything that can be put into a setup, at `least` [1] so many times its typical size.
+    pub fn sized_by(&self, asked: f64, least: f64, put: &dyn Fn(&mut Setup, f64)) -> Sized {
+        let at = |times: f64| {
+            let mut setup = self.truth.setup();
+            put(&mut setup, times);
+            Sized { times, gap: self.gap(&setup) }
+        };
         let off = |sized: &Sized| libm::log(sized.gap / asked).abs();
         let mut best = at(1.0);
         let (mut below, mut above) = (None, None);

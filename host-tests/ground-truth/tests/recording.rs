@@ -1,6 +1,8 @@
 //! Recordings as the data contract has them.
 
 use ground_truth::driving::Style;
+use ground_truth::foreign::foreign;
+use ground_truth::reading::{Pace, apart, drive};
 use ground_truth::recording::{Plan, Session};
 use ground_truth::robot_file::RobotFile;
 
@@ -62,4 +64,20 @@ fn everyday_driving_is_slower_to_change_and_still_moves() {
     };
     // a ramp of 8 V in 0.8 s on each of three axes, 10 ms apart
     assert!(steepest(Style::Everyday) < 0.31 && steepest(Style::Excitation) > 2.0);
+}
+
+#[test]
+fn each_run_begins_at_another_time_of_the_room() {
+    let file = RobotFile::paper(0.0);
+    let mut setup = file.setup();
+    (foreign("gusts").expect("a kind").put)(&mut setup, 1.0, 2);
+    let blown = |clock: f64| {
+        let pace = Pace { row: 1e-2, steps: 100 };
+        drive(&setup.clone().begun_at(clock), pace, 50, |_, _| vec![6.0, -2.0, -6.0, 2.0])
+    };
+    assert_eq!(blown(3.0), blown(3.0));
+    assert!(apart(&blown(3.0), &blown(4.0), &file.noise) > 1.0);
+    // by nothing else than the seed
+    let session = Session::of(&file, &setup, &PLAN, 3);
+    assert_eq!(session, Session::of(&file, &setup.clone().begun_at(55.0), &PLAN, 3));
 }
