@@ -100,7 +100,7 @@ fn make(set: &SetFolder, split: SplitName) -> Result<()> {
     };
     set.begin(&About { split: name.to_owned(), seed, commit })?;
     let start = Instant::now();
-    let all = cases(&sizes, seed);
+    let all = cases(&sizes, seed, matches!(split, SplitName::Fresh));
     let missing: Vec<&Case> = all.iter().filter(|case| set.label(&case.name()).is_none()).collect();
     missing.par_iter().try_for_each(|case| {
         let (session, label) = case.made();
