@@ -47,6 +47,8 @@ impl Contestant {
     /// # Errors
     /// Where the set cannot be read, or an answer not be written; never for what the contestant does.
     pub fn run(&self, set: &SetFolder, sessions: &[String], told: &mut dyn FnMut(&str, &Ended)) -> Result<()> {
+        // two at once would be seen to look at each other's sessions
+        let _alone = set.alone()?;
         for session in sessions {
             let kept = set.answers(&self.name).join(session);
             if kept.join("ended.json").is_file() {

@@ -9,6 +9,7 @@
 //! ```
 
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use omni_gap::error::{Error, Result};
@@ -77,6 +78,18 @@ impl SetFolder {
             return Err(Error::output(&place, why, "Choose another folder, or remove that one"));
         }
         write(&place, about)
+    }
+
+    /// Holds the set as long as what is returned lives.
+    ///
+    /// # Errors
+    /// Where somebody else holds it.
+    pub fn alone(&self) -> Result<File> {
+        let place = self.0.join("running");
+        let held = File::create(&place).map_err(|why| Error::output(&place, why.to_string(), "Make the set first"))?;
+        let why = "another contestant is being run on this set";
+        held.try_lock().map_err(|_| Error::output(&place, why, "Wait until it has ended"))?;
+        Ok(held)
     }
 
     /// Writes a label.
@@ -157,6 +170,17 @@ mod tests {
             far_off: Vec::new(),
             about: BTreeMap::new(),
         }
+    }
+
+    #[test]
+    fn a_set_is_held_by_one_at_a_time() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let set = SetFolder(folder.path().to_owned());
+        let held = set.alone().expect("nobody holds it");
+        let why = set.alone().expect_err("held").to_string();
+        assert!(why.contains("another contestant is being run on this set"), "{why}");
+        drop(held);
+        set.alone().expect("nobody holds it any more");
     }
 
     #[test]

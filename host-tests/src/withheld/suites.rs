@@ -45,6 +45,9 @@ const DRIVEN: f64 = 2.0 / 3.0;
 /// Gaps are measured on so much of a drive [s]
 const TRIED_S: f64 = 6.0;
 
+/// From one cause to the next, which shares no divisor with their number [causes]
+const STRIDE: usize = 23;
+
 /// Severities take turns.
 const SEVERITIES: [Severity; 3] = [Severity::Weak, Severity::Medium, Severity::Strong];
 
@@ -143,8 +146,15 @@ impl Case {
         match self.suite {
             Suite::NoGap | Suite::Open => Vec::new(),
             Suite::Several => several(self.number, drawn),
-            _ => vec![&CAUSES[self.number % CAUSES.len()]],
+            _ => vec![&CAUSES[self.turn().0]],
         }
+    }
+
+    /// The cause whose turn it is, and how large it is: as many sessions as there are causes hide each once, three times as
+    /// many hide each once weak, once medium and once strong, and a few hide causes of every kind.
+    fn turn(&self) -> (usize, Severity) {
+        let (round, place) = (self.number / CAUSES.len(), self.number % CAUSES.len());
+        (place * STRIDE % CAUSES.len(), SEVERITIES[(place + round) % SEVERITIES.len()])
     }
 
     /// A cause on a wheel if it sits on one, as large as its turn asks for.
@@ -156,8 +166,7 @@ impl Case {
             let times = wrong_by(drawn);
             Sized { times, gap: trial.gap(&trial.with(cause, wheel, times)) }
         } else {
-            let turn = SEVERITIES[(self.number / CAUSES.len()) % SEVERITIES.len()];
-            let (low, high) = if several { Severity::Medium } else { turn }.range();
+            let (low, high) = if several { Severity::Medium } else { self.turn().1 }.range();
             trial.sized(cause, wheel, drawn.log_between(low, high))
         };
         Hidden { cause: cause.id.to_owned(), wheel, times: sized.times, gap: sized.gap }
@@ -276,8 +285,9 @@ mod tests {
 
     #[test]
     fn a_session_hides_what_its_label_says_at_the_size_that_was_asked_for() {
-        let coriolis = CAUSES.iter().position(|cause| cause.id == "coriolis").expect("a cause");
-        let case = Case { suite: Suite::Laboratory, number: coriolis + CAUSES.len(), seed: 5, fresh: false };
+        let of = |number: usize| Case { suite: Suite::Laboratory, number, seed: 5, fresh: false };
+        let is = |case: &Case| (CAUSES[case.turn().0].id, case.turn().1) == ("coriolis", Severity::Medium);
+        let case = (0..).map(of).find(is).expect("within three rounds");
         let (session, label) = case.made();
         assert_eq!(case.made(), (session.clone(), label.clone()), "the same bits from the same seed");
         assert_eq!((label.hidden[0].cause.as_str(), label.severity()), ("coriolis", Some(Severity::Medium)));
@@ -313,6 +323,15 @@ mod tests {
         setup.sensors.gyro_bias = 1.0;
         let trial = Trial { truth: &seen, voltage: 8.0, style: Style::Excitation, seed: 1, seconds: 1.0 };
         assert!(trial.gap(&setup) < 0.02);
+    }
+
+    #[test]
+    fn each_cause_gets_its_turn_in_each_severity() {
+        let of = |number: usize| Case { suite: Suite::Laboratory, number, seed: 5, fresh: false }.turn();
+        let mut turns: Vec<(usize, Severity)> = (0..3 * CAUSES.len()).map(of).collect();
+        turns.sort_unstable();
+        turns.dedup();
+        assert_eq!(turns.len(), 3 * CAUSES.len());
     }
 
     #[test]
