@@ -6,31 +6,12 @@ import numpy as np
 import tomli_w
 
 from peers.catalogue import Cause, Parameter
+from peers.draw import PAPER
 
 FOUR = {
     "name": "four",
     "wheel": [{"drive_angle_deg": angle, "distance_m": 0.089, "radius_m": 0.0325} for angle in (90.0, 180.0, 270.0, 0.0)],
-    "motor": {
-        "gear_ratio": 5.0,
-        "resistance_ohm": 4.3111,
-        "emf_constant_V_s": 0.0259,
-        "torque_constant_Nm_per_A": 0.0259,
-    },
-    "body": {"mass_kg": 2.34, "inertia_kg_m2": 0.0228},
-    "friction": {
-        "viscous_v_N_s_per_m": 0.4978,
-        "viscous_vn_N_s_per_m": 0.6763,
-        "viscous_w_Nm_s": 0.0141,
-        "coulomb_v_N": 1.8738,
-        "coulomb_vn_N": 2.2198,
-        "coulomb_w_Nm": 0.1385,
-    },
-    "sensors": {
-        "current_noise_A": 0.02,
-        "wheel_speed_noise_rad_s": 0.15,
-        "position_noise_m": 0.003,
-        "heading_noise_rad": 0.01,
-    },
+    **{table: PAPER[table] for table in ("motor", "body", "friction", "sensors")},
 }
 
 
