@@ -91,4 +91,6 @@ fn who_answers_is_scored_once() {
     assert_eq!(tried(&set, "honest", "exit 1").failed, None);
     let page = table::page(&set.about().expect("a set"), &[("honest".to_owned(), scored)]);
     assert!(page.contains("| honest | 1 | 100 % (100–100) |"), "{page}");
+    let nobody = table::scored(&set, "nobody").expect_err("no answers").to_string();
+    assert!(nobody.contains("nobody has answered under this name"), "{nobody}");
 }

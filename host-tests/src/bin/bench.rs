@@ -41,7 +41,7 @@ enum Errand {
         /// As the table calls it
         #[arg(long)]
         name: String,
-        /// The most that a session may take [s]
+        /// The most that a session may take, in seconds
         #[arg(long, default_value_t = 120)]
         seconds: u64,
         /// Only every so many-th session
@@ -119,7 +119,7 @@ fn seed_of(commit: &str) -> Result<u64> {
     let hash = golden::full_commit().filter(|_| !commit.contains(' '));
     hash.and_then(|hash| u64::from_str_radix(hash.get(..16)?, 16).ok()).ok_or_else(|| {
         let why = "the tree differs from its commit, whose hash is the seed";
-        Error::output(std::path::Path::new("."), why, "Commit, or set the changes aside")
+        Error::input(std::path::Path::new("."), why, "Commit, or set the changes aside")
     })
 }
 

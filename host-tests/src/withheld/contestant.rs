@@ -56,8 +56,8 @@ impl Contestant {
             }
             std::fs::create_dir_all(&kept).map_err(|why| Error::output(&kept, why.to_string(), "Make room"))?;
             let ended = self.answers(set, session, &kept).map_err(|why| {
-                Error::output(
-                    &kept,
+                Error::input(
+                    &set.session(session),
                     why.to_string(),
                     "Look at the folder of the set and at the room in the temporary one",
                 )

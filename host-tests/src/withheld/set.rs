@@ -75,7 +75,7 @@ impl SetFolder {
         let place = self.0.join("set.json");
         if place.is_file() && self.about()? != *about {
             let why = "another set stands there".to_owned();
-            return Err(Error::output(&place, why, "Choose another folder, or remove that one"));
+            return Err(Error::input(&place, why, "Choose another folder, or remove that one"));
         }
         write(&place, about)
     }
@@ -88,7 +88,7 @@ impl SetFolder {
         let place = self.0.join("running");
         let held = File::create(&place).map_err(|why| Error::output(&place, why.to_string(), "Make the set first"))?;
         let why = "another contestant is being run on this set";
-        held.try_lock().map_err(|_| Error::output(&place, why, "Wait until it has ended"))?;
+        held.try_lock().map_err(|_| Error::input(&place, why, "Wait until it has ended"))?;
         Ok(held)
     }
 
@@ -124,14 +124,14 @@ impl SetFolder {
         let changed = sealed.iter().chain(&now).find(|(name, _)| sealed.get(*name) != now.get(*name));
         if let Some((name, _)) = changed {
             let why = format!("the label of {name} is not what it was when the set was sealed");
-            return Err(Error::output(&place, why, "Make the set anew: its answers prove nothing any more"));
+            return Err(Error::input(&place, why, "Make the set anew: its answers prove nothing any more"));
         }
         now.keys().map(|name| read(&self.labels_folder().join(format!("{name}.json")), "Make the set anew")).collect()
     }
 
     fn hashes(&self) -> Result<BTreeMap<String, String>> {
         let folder = self.labels_folder();
-        let unread = |why: std::io::Error| Error::output(&folder, why.to_string(), "Make the set first");
+        let unread = |why: std::io::Error| Error::input(&folder, why.to_string(), "Make the set first");
         let mut all = BTreeMap::new();
         for entry in std::fs::read_dir(&folder).map_err(unread)? {
             let path = entry.map_err(unread)?.path();
@@ -145,8 +145,8 @@ impl SetFolder {
 
 /// Reads a file of ours.
 pub(super) fn read<T: DeserializeOwned>(path: &Path, fix: &str) -> Result<T> {
-    let text = std::fs::read_to_string(path).map_err(|why| Error::output(path, why.to_string(), fix))?;
-    serde_json::from_str(&text).map_err(|why| Error::output(path, why.to_string(), fix))
+    let text = std::fs::read_to_string(path).map_err(|why| Error::input(path, why.to_string(), fix))?;
+    serde_json::from_str(&text).map_err(|why| Error::input(path, why.to_string(), fix))
 }
 
 /// Writes one, whole.

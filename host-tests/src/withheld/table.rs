@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use omni_gap::error::Result;
+use omni_gap::error::{Error, Result};
 use omni_gap::report::num;
 
 use super::answer::Answer;
@@ -15,7 +15,7 @@ use super::set::{About, SetFolder};
 /// All that a contestant answered, in the order of the labels; a session that it was not asked is no failure, and no row.
 ///
 /// # Errors
-/// Where the set is not sealed, or not any more what it was.
+/// Where the set is not sealed, or not any more what it was, or nobody answered under this name.
 pub fn scored(set: &SetFolder, contestant: &str) -> Result<Vec<Scored>> {
     let of = |label: Label| {
         let ended: Ended = Contestant::ended(contestant, set, &label.session)?;
@@ -24,7 +24,12 @@ pub fn scored(set: &SetFolder, contestant: &str) -> Result<Vec<Scored>> {
         let answer = if ended.failed.is_some() { None } else { text.and_then(|text| Answer::parse(&text).ok()) };
         Some(Scored { label, ended, answer })
     };
-    Ok(set.labels()?.into_iter().filter_map(of).collect())
+    let all: Vec<Scored> = set.labels()?.into_iter().filter_map(of).collect();
+    if all.is_empty() {
+        let place = set.answers(contestant);
+        return Err(Error::input(&place, "nobody has answered under this name", "Run it first: cargo xtask bench run"));
+    }
+    Ok(all)
 }
 
 /// One column of the table.
