@@ -9,7 +9,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use crate::rotated::rotated;
+use crate::rotated::{bent_heading, rotated};
 
 /// What there is of it; by default nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -98,14 +98,12 @@ impl Misread {
         if self.distortion == 0.0 {
             return [x, y, heading];
         }
-        let (place, ahead) = (Vector2::new(x, y), rotated(heading, Vector2::x()));
+        let place = Vector2::new(x, y);
         let grown = 1.0 + self.distortion * place.norm_squared();
         let seen = grown * place;
         // a short line on the robot is seen through the derivative
         let bend = grown * Matrix2::identity() + 2.0 * self.distortion * place * place.transpose();
-        let turned = bend * ahead;
-        let across = ahead.x * turned.y - ahead.y * turned.x;
-        [seen.x, seen.y, heading + libm::atan2(across, ahead.dot(&turned))]
+        [seen.x, seen.y, bent_heading(heading, &bend)]
     }
 }
 

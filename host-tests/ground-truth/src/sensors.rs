@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use crate::misread::Misread;
-use crate::rotated::rotated;
+use crate::rotated::{bent_heading, rotated};
 use crate::track::Track;
 
 /// What every sensor reads otherwise than it is.
@@ -101,10 +101,7 @@ impl Camera {
         let seen_heading = if self.perspective == Vector2::zeros() {
             heading
         } else {
-            let ahead = rotated(heading, Vector2::x());
-            let turned = (near * Matrix2::identity() + near * near * marker * self.perspective.transpose()) * ahead;
-            let across = ahead.x * turned.y - ahead.y * turned.x;
-            heading + libm::atan2(across, ahead.dot(&turned))
+            bent_heading(heading, &(near * Matrix2::identity() + near * near * marker * self.perspective.transpose()))
         };
         [seen.x, seen.y, seen_heading + self.heading_offset]
     }

@@ -22,7 +22,7 @@ pub type Sizes = [(Suite, usize); 5];
 pub const WHOLE: Sizes =
     [(Suite::Laboratory, 250), (Suite::NoGap, 150), (Suite::Several, 150), (Suite::Life, 400), (Suite::Open, 150)];
 
-/// What the test command takes on.
+/// A quick look: a few of each.
 pub const REDUCED: Sizes =
     [(Suite::Laboratory, 12), (Suite::NoGap, 6), (Suite::Several, 4), (Suite::Life, 12), (Suite::Open, 6)];
 
