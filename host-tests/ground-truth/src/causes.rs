@@ -297,7 +297,29 @@ pub const CAUSES: &[Cause] = &[
     }),
 ];
 
+/// Causes that only a robot shows whose drives control speed.
+pub const DRIVE_CAUSES: &[Cause] = &[
+    // it hears late, answers softly, and counts too much
+    on_all("speed_loop", |at, _, x| {
+        if let Some(drive) = &mut at.robot.drive {
+            drive.dead_time += 0.02 * x;
+            drive.tune((0.04 * x).clamp(drive.answers_in(), SOFTEST * drive.inertial / drive.induced));
+            drive.shortfall += 0.02 * x;
+        }
+    }),
+    on_all("command_deadband", |at, _, x| {
+        let nominal = at.robot.battery.nominal;
+        if let Some(drive) = &mut at.robot.drive {
+            // of the speed at which a motor idles at full voltage
+            drive.threshold = 0.02 * x * nominal / drive.induced;
+        }
+    }),
+];
+
+/// The longest time in which a drive answers, of that in which its motor gets up to speed by itself [1]
+const SOFTEST: f64 = 0.8;
+
 /// A cause by its name.
 pub fn cause(id: &str) -> Option<&'static Cause> {
-    CAUSES.iter().find(|cause| cause.id == id)
+    CAUSES.iter().chain(DRIVE_CAUSES).find(|cause| cause.id == id)
 }

@@ -126,6 +126,7 @@ fn truth(seed: u64, drawn: &mut Drawn) -> RobotFile {
         coulomb: scaled(paper.coulomb, [m, m, m * lambda]),
         noise: paper.noise,
         supply,
+        drive: None,
     };
     // but the mass, which is drawn already
     for number in &NUMBERS[1..] {

@@ -11,12 +11,17 @@ use crate::rotated::rotated;
 const FIELD: f64 = 1.2;
 
 /// What somebody drives for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Style {
     /// To show what a robot does: short, hard, all axes at once.
     Excitation,
     /// To get somewhere: longer, slower, with ramps, and with time to stand.
     Everyday,
+    /// To show what a robot does whose drives control speed: all axes, by ramps that its motors can follow.
+    SetPoints {
+        /// How long a ramp to full speed takes [s]
+        ramp: f64,
+    },
 }
 
 impl Style {
@@ -25,6 +30,8 @@ impl Style {
         match self {
             Style::Excitation => (0.1, 0.6),
             Style::Everyday => (0.6, 2.5),
+            // long enough for some wishes to come true
+            Style::SetPoints { ramp } => (0.3_f64.max(0.1 * ramp), 1.2_f64.max(0.4 * ramp)),
         }
     }
 
@@ -32,7 +39,16 @@ impl Style {
     fn part(self) -> f64 {
         match self {
             Style::Excitation => 1.0,
-            Style::Everyday => 0.7,
+            Style::Everyday | Style::SetPoints { .. } => 0.7,
+        }
+    }
+
+    /// How long a ramp to full voltage, or full speed, takes [s]; none where there is no ramp
+    fn ramp(self) -> Option<f64> {
+        match self {
+            Style::Excitation => None,
+            Style::Everyday => Some(RAMP_S),
+            Style::SetPoints { ramp } => Some(ramp),
         }
     }
 }
@@ -48,6 +64,10 @@ pub struct Driver {
     rows: Vec<Vector3<f64>>,
     /// The most that a motor is given [V]
     voltage: f64,
+    /// Whether it tells the wheels speeds instead of voltages.
+    sets_speed: bool,
+    /// Of the wheels [m]
+    radii: Vec<f64>,
     drawn: Drawn,
     style: Style,
     until: f64,
@@ -61,13 +81,13 @@ impl Driver {
     pub fn new(file: &RobotFile, voltage: f64, style: Style, seed: u64) -> Self {
         let setup = file.setup();
         let rows = setup.robot.wheels.iter().map(|wheel| floor_row(wheel.contact, wheel.heading)).collect();
-        let radius = file.wheels.iter().map(|wheel| wheel.2).sum::<f64>() / file.wheels.len() as f64;
-        let per_speed = file.gear_ratio * file.emf_constant / radius;
+        let per_speed = file.gear_ratio * file.emf_constant / file.mean_radius();
         let (wish, ramped) = (Vector3::zeros(), (Vector3::zeros(), 0.0));
-        Self { per_speed, rows, voltage, drawn: Drawn::new(seed), style, until: 0.0, wish, ramped }
+        let (sets_speed, radii) = (file.drive.is_some(), file.wheels.iter().map(|wheel| wheel.2).collect());
+        Self { per_speed, rows, voltage, sets_speed, radii, drawn: Drawn::new(seed), style, until: 0.0, wish, ramped }
     }
 
-    /// The voltages at a time [s] and a pose [m, m, rad].
+    /// The voltages, or the wheel speeds of a drive that controls these, at a time [s] and a pose [m, m, rad].
     pub fn command(&mut self, time: f64, [x, y, heading]: [f64; 3]) -> Vec<f64> {
         if time >= self.until - 1e-9 {
             let (least, most) = self.style.hold();
@@ -84,16 +104,28 @@ impl Driver {
                 wish -= 2.0 * along * Vector3::new(out.x, out.y, 0.0);
             }
         }
-        if self.style == Style::Everyday {
-            wish = self.ramped_to(wish, time);
+        if let Some(ramp) = self.style.ramp() {
+            wish = self.ramped_to(wish, time, ramp);
+        }
+        if self.sets_speed {
+            return self.set_speeds(wish);
         }
         self.rows.iter().map(|row| row.dot(&wish).clamp(-self.voltage, self.voltage)).collect()
     }
 
-    /// As far on the way to a wish as a ramp is at a time [s].
-    fn ramped_to(&mut self, wish: Vector3<f64>, time: f64) -> Vector3<f64> {
+    /// The speeds of the wheels for a twist in volts at the rims [rad/s]: slower in all where one wheel alone could not, for
+    /// wheels that do not roll together fight each other.
+    fn set_speeds(&self, wish: Vector3<f64>) -> Vec<f64> {
+        let most = self.rows.iter().map(|row| row.dot(&wish).abs()).fold(self.voltage, f64::max);
+        let part = self.voltage / most;
+        let speed = |(row, radius): (&Vector3<f64>, &f64)| part * row.dot(&wish) / (self.per_speed * radius);
+        self.rows.iter().zip(&self.radii).map(speed).collect()
+    }
+
+    /// As far on the way to a wish as a ramp, which takes so long in all [s], is at a time [s].
+    fn ramped_to(&mut self, wish: Vector3<f64>, time: f64, ramp: f64) -> Vector3<f64> {
         let (now, since) = self.ramped;
-        let most = self.voltage * (time - since) / RAMP_S;
+        let most = self.voltage * (time - since) / ramp;
         let arm = self.rows[0].z.abs();
         let most = Vector3::new(most, most, most / arm);
         self.ramped = (Vector3::from_fn(|k, _| now[k] + (wish[k] - now[k]).clamp(-most[k], most[k])), time);

@@ -11,6 +11,7 @@ use crate::harmonics::Harmonic;
 use crate::motor::Motor;
 use crate::oddities::Oddities;
 use crate::shaft::Shaft;
+use crate::speed_drive::SpeedDrive;
 use crate::surroundings::Surroundings;
 
 /// Everything that a robot's motion depends on.
@@ -24,6 +25,8 @@ pub struct Robot {
     pub battery: Battery,
     /// How long a command is on its way to the bridges [s]
     pub command_delay: f64,
+    /// What makes voltages of speeds that are set; none where voltages are commanded
+    pub drive: Option<SpeedDrive>,
     /// Where it drives.
     pub surroundings: Surroundings,
     /// What no entry of the diagnosis's catalogue describes.

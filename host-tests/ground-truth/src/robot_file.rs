@@ -6,12 +6,14 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::battery::Battery;
 use crate::body_friction::BodyFriction;
+use crate::bridge::Bridge;
 use crate::chassis::Chassis;
 use crate::motor::Motor;
 use crate::oddities::Oddities;
 use crate::robot::{Robot, Wheel};
 use crate::sensors::Sensors;
 use crate::setup::Setup;
+use crate::speed_drive::SpeedDrive;
 use crate::surroundings::Surroundings;
 
 /// Numbers of a robot file, in the form of the data contract.
@@ -41,6 +43,17 @@ pub struct RobotFile {
     pub noise: Noise,
     /// What commands refer to [V]
     pub supply: f64,
+    /// What it says of drives that control wheel speed; none where voltages are commanded
+    pub drive: Option<SpeedLoop>,
+}
+
+/// How a drive answers the speeds that are set, as a file tells it; 0 and 0 where it is silent: at once.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SpeedLoop {
+    /// Until it hears of them [s]
+    pub dead_time: f64,
+    /// Over which it smooths them [s]
+    pub lag: f64,
 }
 
 /// One sigma of each sensor's noise.
@@ -58,6 +71,19 @@ pub struct Noise {
     pub gyro: f64,
 }
 
+/// How often a drive looks at its wheel [s]
+const LOOK_S: f64 = 1e-4;
+
+/// How soon one answers that is as fast as drives are [s]
+const ANSWERS_S: f64 = 0.5e-3;
+
+/// Its integral part: over what time [s], and of the supply at the most [1]
+const INTEGRAL_S: f64 = 0.05;
+const INTEGRAL_MOST: f64 = 0.25;
+
+/// What a drive that controls speed lets flow, of what a stalled motor would take [1]
+const CURRENT_MOST: f64 = 0.8;
+
 impl RobotFile {
     /// The paper's robot on four wheels (Table 3), with wheels turned by an angle [°] from its own.
     pub fn paper(turned_deg: f64) -> Self {
@@ -74,14 +100,20 @@ impl RobotFile {
             coulomb: [1.8738, 2.2198, 0.1385],
             noise: Noise { current: 0.02, wheel_speed: 0.15, position: 0.003, heading: 0.01, gyro: 0.005 },
             supply: 12.0,
+            drive: None,
         }
     }
 
     /// A robot that is just what the file says, watched by sensors that read what is.
     pub fn setup(&self) -> Setup {
         let motor = Motor { torque_constant: self.torque_constant, ..Motor::plain(self.resistance, self.emf_constant) };
-        let wheel = |(heading, distance, radius): &(f64, f64, f64)| {
-            Wheel::paper(heading.to_radians(), *distance, *radius, self.gear_ratio, motor.clone())
+        let mut bridge = Bridge::default();
+        if self.drive.is_some() {
+            bridge.current_limit = CURRENT_MOST * self.supply / self.resistance;
+        }
+        let wheel = |(heading, distance, radius): &(f64, f64, f64)| Wheel {
+            bridge,
+            ..Wheel::paper(heading.to_radians(), *distance, *radius, self.gear_ratio, motor.clone())
         };
         let robot = Robot {
             chassis: Chassis {
@@ -95,10 +127,40 @@ impl RobotFile {
             wheels: self.wheels.iter().map(wheel).collect(),
             battery: Battery::stiff(self.supply),
             command_delay: 0.0,
+            drive: self.drive.map(|told| self.speed_drive(told)),
             surroundings: Surroundings::default(),
             oddities: Oddities::default(),
         };
         Setup { robot, sensors: Sensors::true_to(self.wheels.len()) }
+    }
+
+    /// A drive that is stiff enough to answer as the file says, tuned to the robot driving straight on.
+    fn speed_drive(&self, SpeedLoop { dead_time, lag }: SpeedLoop) -> SpeedDrive {
+        let (count, induced) = (self.wheels.len() as f64, self.gear_ratio * self.emf_constant);
+        // of N wheels, N/2 in the mean push along an axis: J = 2·M·r²/N, τ = J·R/(l²·Kt·Kv)
+        let radius = self.mean_radius();
+        let carried = 2.0 * self.mass * radius * radius / count;
+        let time = carried * self.resistance / (self.gear_ratio * self.torque_constant * induced);
+        let mut drive = SpeedDrive {
+            dead_time,
+            threshold: 0.0,
+            smoothing: lag,
+            shortfall: 0.0,
+            induced,
+            inertial: induced * time,
+            proportional: 0.0,
+            integral_time: INTEGRAL_S,
+            integral_most: INTEGRAL_MOST * self.supply,
+            most: self.supply,
+            period: LOOK_S,
+        };
+        drive.tune(ANSWERS_S);
+        drive
+    }
+
+    /// Of all wheels [m]
+    pub fn mean_radius(&self) -> f64 {
+        self.wheels.iter().map(|wheel| wheel.2).sum::<f64>() / self.wheels.len() as f64
     }
 
     /// Its text.
@@ -125,6 +187,9 @@ impl RobotFile {
         put(format_args!("position_noise_m = {position:?}\nheading_noise_rad = {heading:?}\n"));
         put(format_args!("gyro_noise_rad_s = {gyro:?}\n"));
         put(format_args!("\n[supply]\nvoltage_V = {:?}\n", self.supply));
+        if let Some(SpeedLoop { dead_time, lag }) = self.drive.filter(|told| *told != SpeedLoop::default()) {
+            put(format_args!("\n[effects.speed_loop]\ndead_time_s = {dead_time:?}\nlag_s = {lag:?}\ndroop = 0.0\n"));
+        }
         text
     }
 }

@@ -131,9 +131,9 @@ impl Simulation {
         self.state.shafts[wheel].x = speed;
     }
 
-    /// Goes on for `steps` steps with the voltages u held [V].
+    /// Goes on for `steps` steps with the voltages u held [V], or the speeds [rad/s] where a drive controls these.
     pub fn hold(&mut self, u: &[f64], steps: usize) {
-        self.commands.send(self.state.time, u, self.robot.command_delay);
+        self.commands.send(self.state.time, u, self.delay());
         for _ in 0..steps {
             self.advance();
         }
@@ -172,12 +172,19 @@ impl Simulation {
         self.state.shafts[wheel].x
     }
 
-    /// Currents [A] just after the voltages u [V] have been sent.
+    /// How long a command is on its way until it changes anything [s]
+    pub(crate) fn delay(&self) -> f64 {
+        self.robot.command_delay + self.robot.drive.map_or(0.0, |drive| drive.dead_time)
+    }
+
+    /// Currents [A] just after the voltages u [V] have been sent; of a drive that controls speed, as it last looked.
     pub fn currents(&self, u: &[f64]) -> Vec<f64> {
-        let (mut commands, delay) = (self.commands.clone(), self.robot.command_delay);
-        commands.send(self.state.time, u, delay);
-        let mut heard = vec![0.0; u.len()];
-        commands.at(self.state.time - delay, &mut heard);
+        let mut heard = self.state.driving.volts.clone();
+        if self.robot.drive.is_none() {
+            let (mut commands, delay) = (self.commands.clone(), self.delay());
+            commands.send(self.state.time, u, delay);
+            commands.at(self.state.time - delay, &mut heard);
+        }
         self.robot.oddities.hear(&self.state.memory, &mut heard);
         let mut currents = self.state.currents.clone();
         for _ in 0..READINGS {

@@ -9,6 +9,12 @@ use crate::setup::Setup;
 /// Of the typical size, the least and the most that a cause is given [1]: what is beyond is no robot that anybody drives.
 pub const BOUNDS: (f64, f64) = (0.02, 4.0);
 
+/// Of a robot with nothing hidden, a gap below this is none [1]
+const NONE: f64 = 0.3;
+
+/// Ramps to full speed that are tried, one after the other [s]
+const RAMPS: [f64; 5] = [1.5, 2.5, 4.0, 6.0, 9.0];
+
 /// A gap within this share of what was asked is what was asked [1]
 const CLOSE: f64 = 0.1;
 
@@ -37,6 +43,8 @@ pub struct Trial<'a> {
     pub seed: u64,
     /// How long it is [s]
     pub seconds: f64,
+    /// Between two rows of it [s]
+    pub row: f64,
 }
 
 impl Trial<'_> {
@@ -47,9 +55,24 @@ impl Trial<'_> {
         setup
     }
 
+    /// The same with ramps as steep as drives can follow that control speed: with nothing hidden, the model misses next to
+    /// nothing.
+    #[must_use]
+    pub fn calmed(mut self) -> Self {
+        let plain = self.truth.setup();
+        for ramp in RAMPS {
+            self.style = Style::SetPoints { ramp };
+            if self.gap(&plain) < NONE {
+                break;
+            }
+        }
+        self
+    }
+
     /// The gap that a robot with something hidden makes [1].
     pub fn gap(&self, hidden: &Setup) -> f64 {
-        gap(self.truth, hidden, &mut Driver::new(self.truth, self.voltage, self.style, self.seed), self.seconds)
+        let mut driver = Driver::new(self.truth, self.voltage, self.style, self.seed);
+        gap(self.truth, hidden, &mut driver, (self.seconds, self.row))
     }
 
     /// The size at which a cause makes a gap, or what comes closest to it within [`BOUNDS`].

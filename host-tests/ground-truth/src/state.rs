@@ -3,6 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 
 use crate::oddities::Memory;
+use crate::speed_drive::Driving;
 
 /// The state of a simulated robot; of the body, it is that of the point that is followed.
 #[derive(Debug, Default, PartialEq)]
@@ -31,6 +32,8 @@ pub struct State {
     pub given: Vector3<f64>,
     /// What the battery has lost by polarisation [V]
     pub polarisation: f64,
+    /// What drives remember that control speed.
+    pub driving: Driving,
     /// What oddities remember.
     pub memory: Memory,
 }
@@ -44,6 +47,7 @@ impl State {
             currents: vec![0.0; wheels],
             temperatures: vec![[0.0; 2]; wheels],
             strained: vec![0.0; wheels],
+            driving: Driving::at_rest(wheels),
             memory: Memory::at_rest(wheels),
             ..Self::default()
         }
@@ -73,6 +77,7 @@ impl Clone for State {
             strained,
             given,
             polarisation,
+            driving,
             memory,
         } = from;
         (self.time, self.position, self.heading) = (*time, *position, *heading);
@@ -83,6 +88,7 @@ impl Clone for State {
         self.temperatures.clone_from(temperatures);
         self.strained.clone_from(strained);
         (self.given, self.polarisation) = (*given, *polarisation);
+        self.driving.clone_from(driving);
         self.memory.clone_from(memory);
     }
 }

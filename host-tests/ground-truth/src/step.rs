@@ -7,6 +7,7 @@ use crate::holds::of_wheel;
 use crate::rotated::rotated;
 use crate::shaft::{Shaft, Twisted};
 use crate::simulation::{Middle, Simulation};
+use crate::state::State;
 use crate::surroundings::Place;
 
 /// Times that a step is looked at; in the later ones what depends on its middle is known.
@@ -21,6 +22,7 @@ const LEAST_INERTIA: f64 = 1e-10;
 impl Simulation {
     /// One step; where friction turns round in it or lets go, in parts.
     pub(crate) fn advance(&mut self) {
+        self.control();
         let Self { before, state, impulses, .. } = self;
         before.state.clone_from(state);
         before.impulses.clone_from(impulses);
@@ -41,10 +43,24 @@ impl Simulation {
         self.impulses.iter_mut().for_each(|impulse| *impulse *= PARTS);
     }
 
+    /// Lets a drive that controls speed look, where it is time for that.
+    fn control(&mut self) {
+        let (time, delay) = (self.state.time, self.delay());
+        let Some(drive) = self.robot.drive.filter(|drive| drive.looks(&self.state.driving, time)) else { return };
+        // nothing is heard of the middle of a step yet: its place is free
+        self.commands.at(time - delay, &mut self.middle.heard);
+        let State { driving, shafts, .. } = &mut self.state;
+        drive.look(driving, time, &self.middle.heard, shafts.iter().map(|shafts| shafts.x));
+    }
+
     /// Finds the velocities at the end of a step.
     fn find(&mut self) {
-        let (from, delay) = (self.state.time, self.robot.command_delay);
-        self.commands.mean((from - delay, from + self.step - delay), &mut self.middle.heard);
+        if self.robot.drive.is_some() {
+            self.middle.heard.clone_from(&self.state.driving.volts);
+        } else {
+            let (from, delay) = (self.state.time, self.delay());
+            self.commands.mean((from - delay, from + self.step - delay), &mut self.middle.heard);
+        }
         self.robot.oddities.hear(&self.state.memory, &mut self.middle.heard);
         self.middle.twist = self.state.twist + 0.5 * self.step * self.state.twist_rate;
         self.middle.shafts.clone_from(&self.state.shafts);

@@ -3,13 +3,13 @@
 use ground_truth::causes::{CAUSES, cause};
 use ground_truth::drawn_robot::DrawnRobot;
 use ground_truth::driving::{Driver, Style};
-use ground_truth::gap::{gap, predicted};
+use ground_truth::gap::{ROW_S, gap, predicted};
 use ground_truth::reading::{Pace, apart, drive};
 use ground_truth::robot_file::RobotFile;
 use ground_truth::sizing::{BOUNDS, Trial};
 
 fn trial(truth: &RobotFile) -> Trial<'_> {
-    Trial { truth, voltage: truth.supply / 1.5, style: Style::Excitation, seed: 11, seconds: 2.0 }
+    Trial { truth, voltage: truth.supply / 1.5, style: Style::Excitation, seed: 11, seconds: 2.0, row: ROW_S }
 }
 
 #[test]
@@ -27,7 +27,7 @@ fn a_bias_is_a_gap_of_its_own_size_over_its_noise() {
     let robot = RobotFile::paper(0.0);
     let mut biased = robot.setup();
     biased.sensors.gyro_bias = 7.0 * robot.noise.gyro;
-    let found = gap(&robot, &biased, &mut Driver::new(&robot, 8.0, Style::Excitation, 5), 4.0);
+    let found = gap(&robot, &biased, &mut Driver::new(&robot, 8.0, Style::Excitation, 5), (4.0, ROW_S));
     assert!((found - 7.0).abs() < 0.01, "{found}");
 }
 
@@ -39,7 +39,7 @@ fn a_prediction_begins_anew_every_half_second() {
     let mut driver = Driver::new(&robot, 8.0, Style::Excitation, 3);
     let pace = Pace { row: 5e-3, steps: 50 };
     let drawn = drive(&heavier, pace, 250, |k, moving| driver.command(k as f64 * 5e-3, moving.pose()));
-    let predicted = predicted(&robot.setup(), &drawn);
+    let predicted = predicted(&robot.setup(), &drawn, 5e-3);
     assert_eq!(predicted.len(), drawn.len());
     for k in [0, 100, 200] {
         assert!(apart(&drawn[k..=k], &predicted[k..=k], &robot.noise) < 1e-9, "row {k}");

@@ -7,6 +7,7 @@ use ground_truth::drawn::Drawn;
 use ground_truth::drawn_robot::DrawnRobot;
 use ground_truth::driving::Style;
 use ground_truth::foreign::{FOREIGN, Foreign};
+use ground_truth::gap::ROW_S;
 use ground_truth::logging::Logging;
 use ground_truth::recording::{Plan, Session};
 use ground_truth::robot_file::{Noise, RobotFile};
@@ -89,7 +90,14 @@ impl Case {
         // what only a gyro shows needs one
         plan.gyro |= causes.iter().any(|cause| cause.id == "gyro_bias");
         let seen = what_is_seen(&robot.truth, &plan, &logging);
-        let trial = Trial { truth: &seen, voltage: plan.voltage, style: plan.style, seed: self.seed, seconds: TRIED_S };
+        let trial = Trial {
+            truth: &seen,
+            voltage: plan.voltage,
+            style: plan.style,
+            seed: self.seed,
+            seconds: TRIED_S,
+            row: ROW_S,
+        };
         let mut setup = robot.truth.setup();
         let mut hidden: Vec<Hidden> = Vec::new();
         for cause in causes {
@@ -327,7 +335,7 @@ mod tests {
         let mut setup = seen.setup();
         setup.sensors.camera.heading_offset = 1.0;
         setup.sensors.gyro_bias = 1.0;
-        let trial = Trial { truth: &seen, voltage: 8.0, style: Style::Excitation, seed: 1, seconds: 1.0 };
+        let trial = Trial { truth: &seen, voltage: 8.0, style: Style::Excitation, seed: 1, seconds: 1.0, row: ROW_S };
         assert!(trial.gap(&setup) < 0.02);
     }
 
