@@ -48,6 +48,7 @@ pub mod speed_drive;
 pub mod surroundings;
 pub mod track;
 mod twist_at;
+pub mod unrest;
 
 // Its motion
 mod holds;

@@ -30,6 +30,19 @@ pub struct Logging {
     pub wheel_speeds: bool,
     /// Whether poses are.
     pub pose: bool,
+    /// By how much of a row each is written before or after its turn, at the most [1]
+    pub jitter: f64,
+    /// Whether the camera has a clock of its own, and a file; none where its frames stand in rows of the drive.
+    pub camera: Option<CameraClock>,
+}
+
+/// A camera that is recorded by a computer of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CameraClock {
+    /// Somebody has measured how its clock lies to the drive's: in all runs alike.
+    Known,
+    /// Nobody knows, and it is another in every run.
+    Unknown,
 }
 
 /// The same number for every sensor.
@@ -46,6 +59,9 @@ const MISSTATED: f64 = 2.5;
 /// The longest that noise remembers [s]
 const REMEMBERED: f64 = 0.05;
 
+/// The most by which a row is early or late, of a row [1]
+const LATEST: f64 = 0.2;
+
 /// The coarsest counts, over the stated noise of wheel speeds [1]: as noise, q/√12 = 2.3 σ
 const COARSEST: f64 = 8.0;
 
@@ -61,6 +77,8 @@ impl Logging {
             currents: true,
             wheel_speeds: true,
             pose: true,
+            jitter: 0.0,
+            camera: None,
         }
     }
 
@@ -85,6 +103,8 @@ impl Logging {
             currents: missing != 0,
             wheel_speeds: missing != 1,
             pose: missing != 2,
+            jitter: drawn.between(0.0, LATEST),
+            camera: None,
         }
     }
 }
@@ -94,6 +114,7 @@ impl Logging {
 pub struct Log<'a> {
     logging: &'a Logging,
     stated: &'a Noise,
+    sets_speed: bool,
     gyro: bool,
     /// Noise of every number of the row before, in the order in which it is drawn
     before: Vec<f64>,
@@ -110,7 +131,13 @@ impl<'a> Log<'a> {
     /// An empty one.
     pub fn new(logging: &'a Logging, stated: &'a Noise, gyro: bool, seed: u64) -> Self {
         let (noise, chance) = (Drawn::new(seed), Drawn::new(seed ^ OF_CHANCE));
-        Self { logging, stated, gyro, before: Vec::new(), time: 0.0, noise, chance }
+        Self { logging, stated, sets_speed: false, gyro, before: Vec::new(), time: 0.0, noise, chance }
+    }
+
+    /// The same of a drive that is told speeds, if it is.
+    #[must_use]
+    pub fn of_set_speeds(self, sets_speed: bool) -> Self {
+        Self { sets_speed, ..self }
     }
 
     /// The names of its columns.
@@ -118,11 +145,32 @@ impl<'a> Log<'a> {
         let of = |is: bool, name: &str, unit: &str| {
             if is { (0..wheels).map(|j| format!(",{name}{j}_{unit}")).collect::<String>() } else { String::new() }
         };
-        let Logging { currents, wheel_speeds, pose, .. } = *self.logging;
-        let (u, i, w) = (of(true, "u", "V"), of(currents, "i", "A"), of(wheel_speeds, "w", "rad_s"));
-        let pose = if pose { ",x_m,y_m,theta_rad" } else { "" };
+        let Logging { currents, wheel_speeds, .. } = *self.logging;
+        let u = if self.sets_speed { of(true, "wset", "rad_s") } else { of(true, "u", "V") };
+        let (i, w) = (of(currents, "i", "A"), of(wheel_speeds, "w", "rad_s"));
+        let pose = if self.has_pose() { ",x_m,y_m,theta_rad" } else { "" };
         let gyro = if self.gyro { ",gyro_rad_s" } else { "" };
         format!("t_s{u}{i}{w}{pose}{gyro}\n")
+    }
+
+    /// Whether poses stand in the rows of the drive.
+    fn has_pose(&self) -> bool {
+        self.logging.pose && self.logging.camera.is_none()
+    }
+
+    /// The names of the columns of a camera's own file.
+    pub fn camera_header() -> &'static str {
+        "t_s,x_m,y_m,theta_rad\n"
+    }
+
+    /// A row of it, of a pose at a time [s] that the camera's clock shows as another [s]; nothing where it is lost.
+    pub fn frame(&mut self, (time, stamp): (f64, f64), pose: [f64; 3]) -> String {
+        let elapsed = time - self.time;
+        self.time = time;
+        let mut number = 0;
+        let [x, y, heading] = self.seen(pose, &mut number, elapsed, true);
+        let lost = self.chance.between(0.0, 1.0) < self.logging.lost_rows;
+        if lost { String::new() } else { format!("{stamp:.6},{x:.6},{y:.6},{heading:.6}\n") }
     }
 
     /// A row, with a pose if the camera took a frame; nothing where it is lost.
@@ -152,19 +200,10 @@ impl<'a> Log<'a> {
                 put(Some(seen));
             }
         }
-        let elsewhere = framed && self.chance.between(0.0, 1.0) < logging.outliers;
-        let sigmas =
-            [stated.position * factor.position, stated.position * factor.position, stated.heading * factor.heading];
-        let memories = [memory.position, memory.position, memory.heading];
-        for (k, x) in reading.pose.iter().enumerate() {
-            // drawn on every row, so that a faster camera does not change all other noise
-            let mut seen = x + self.noise(&mut number, sigmas[k], memories[k], elapsed);
-            if elsewhere {
-                seen += self.chance.between(-FAR_OFF, FAR_OFF);
-            }
-            if logging.pose {
-                put(framed.then_some(seen));
-            }
+        // drawn on every row, so that a faster camera does not change all other noise
+        let seen = self.seen(reading.pose, &mut number, elapsed, framed);
+        if self.has_pose() {
+            seen.into_iter().for_each(|x| put(framed.then_some(x)));
         }
         if self.gyro {
             let sigma = stated.gyro * factor.gyro;
@@ -172,6 +211,23 @@ impl<'a> Log<'a> {
         }
         let lost = self.chance.between(0.0, 1.0) < logging.lost_rows;
         if lost { String::new() } else { line + "\n" }
+    }
+
+    /// A pose with its noise, or elsewhere.
+    fn seen(&mut self, pose: [f64; 3], number: &mut usize, elapsed: f64, framed: bool) -> [f64; 3] {
+        let (logging, stated) = (self.logging, self.stated);
+        let (factor, memory) = (&logging.noise_factor, &logging.correlation);
+        let elsewhere = framed && self.chance.between(0.0, 1.0) < logging.outliers;
+        let position = (stated.position * factor.position, memory.position);
+        let heading = (stated.heading * factor.heading, memory.heading);
+        let mut seen = pose;
+        for (x, (sigma, memory)) in seen.iter_mut().zip([position, position, heading]) {
+            *x += self.noise(number, sigma, memory, elapsed);
+            if elsewhere {
+                *x += self.chance.between(-FAR_OFF, FAR_OFF);
+            }
+        }
+        seen
     }
 
     /// The noise of the next number of a row.

@@ -1,5 +1,6 @@
 //! A drive, and what a log of it would hold without noise.
 
+use crate::drawn::Drawn;
 use crate::misread::Leaning;
 use crate::robot_file::Noise;
 use crate::sensors::follows;
@@ -14,6 +15,44 @@ pub struct Pace {
     pub row: f64,
     /// Steps of the simulator in a row.
     pub steps: usize,
+}
+
+/// When rows are written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rows {
+    /// A step of the simulator [s]
+    step: f64,
+    /// Of each row [s]
+    times: Vec<f64>,
+    /// Steps of the simulator up to each row, and up to the end.
+    steps: Vec<usize>,
+}
+
+impl Rows {
+    /// So many, one like the other.
+    pub fn even(pace: Pace, rows: usize) -> Self {
+        let times = (0..rows).map(|row| row as f64 * pace.row).collect();
+        let steps = (0..=rows).map(|row| row * pace.steps).collect();
+        Self { step: pace.row / pace.steps as f64, times, steps }
+    }
+
+    /// So many, each but the first earlier or later than its turn by up to a part of a row [1], in whole steps.
+    pub fn jittered(pace: Pace, rows: usize, part: f64, drawn: &mut Drawn) -> Self {
+        let most = (part * pace.steps as f64) as u32;
+        let mut even = Self::even(pace, rows);
+        if most > 0 {
+            for row in 1..rows {
+                even.steps[row] = even.steps[row] + drawn.below(2 * most + 1) as usize - most as usize;
+                even.times[row] = even.steps[row] as f64 * even.step;
+            }
+        }
+        even
+    }
+
+    /// Of each row [s]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
 }
 
 /// What is read on one row.
@@ -55,21 +94,30 @@ pub fn apart(a: &[Reading], b: &[Reading], noise: &Noise) -> f64 {
     groups.into_iter().fold(0.0, f64::max)
 }
 
-/// Drives a robot from rest by what `command` says of each row and time [s] and where the robot truly is, and reads it.
+/// Drives a robot from rest by what `command` says of each row and where the robot truly is, and reads it.
 pub fn drive(
     setup: &Setup,
     pace: Pace,
     rows: usize,
-    mut command: impl FnMut(usize, &Simulation) -> Vec<f64>,
+    command: impl FnMut(usize, &Simulation) -> Vec<f64>,
 ) -> Vec<Reading> {
-    let (sensors, step) = (&setup.sensors, pace.row / pace.steps as f64);
+    drive_on(setup, &Rows::even(pace, rows), command).0
+}
+
+/// The same with rows at any times; and where its marker was, of which [`Setup::seen`] makes poses.
+pub fn drive_on(
+    setup: &Setup,
+    rows: &Rows,
+    mut command: impl FnMut(usize, &Simulation) -> Vec<f64>,
+) -> (Vec<Reading>, Track) {
+    let (sensors, step) = (&setup.sensors, rows.step);
     let mut moving = Simulation::new(setup.robot.clone(), step);
     let mut followed_currents = vec![0.0; sensors.currents.len()];
     let mut followed_speeds = vec![0.0; sensors.encoders.len()];
     let mut leaning = Leaning::default();
     let mut track = Track { step, poses: vec![moving.pose()] };
-    let mut readings = Vec::with_capacity(rows);
-    for row in 0..rows {
+    let mut readings = Vec::with_capacity(rows.times.len());
+    for (row, time) in rows.times.iter().enumerate() {
         let u = command(row, &moving);
         let currents = moving.currents(&u);
         let current = |(j, now): (usize, f64)| sensors.currents[j].read(now, followed_currents[j]);
@@ -77,7 +125,7 @@ pub fn drive(
         let mut currents: Vec<f64> = currents.into_iter().enumerate().map(current).collect();
         sensors.misread.mix(&mut currents);
         readings.push(Reading {
-            time: row as f64 * pace.row,
+            time: *time,
             currents,
             wheel_speeds: followed_speeds.iter().enumerate().map(speed).collect(),
             gyro: moving.twist()[2] + sensors.gyro_bias,
@@ -86,7 +134,7 @@ pub fn drive(
             command: u.clone(),
             pose: [0.0; 3],
         });
-        for _ in 0..pace.steps {
+        for _ in rows.steps[row]..rows.steps[row + 1] {
             moving.hold(&u, 1);
             if let Some(lean) = &sensors.misread.lean {
                 leaning = leaning.after(lean, moving.acceleration(), step);
@@ -101,7 +149,49 @@ pub fn drive(
         }
     }
     for reading in &mut readings {
-        reading.pose = sensors.misread.bent(sensors.camera.read(&track, reading.time));
+        reading.pose = setup.seen(&track, reading.time);
     }
-    readings
+    (readings, track)
+}
+
+impl Setup {
+    /// The pose that the camera stamps with a time [s], of a marker that was there.
+    pub fn seen(&self, track: &Track, time: f64) -> [f64; 3] {
+        self.sensors.misread.bent(self.sensors.camera.read(track, time))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn jittered_rows_lie_within_a_part_of_a_row_of_their_turn_on_whole_steps_and_in_order() {
+        let pace = Pace { row: 8e-3, steps: 80 };
+        let rows = Rows::jittered(pace, 1000, 0.2, &mut Drawn::new(5));
+        let off: Vec<f64> = rows.times().iter().enumerate().map(|(k, t)| (t - k as f64 * 8e-3) / 8e-3).collect();
+        assert!(off.iter().all(|off| off.abs() < 0.2 + 1e-9) && off[0] == 0.0);
+        // even between −0.2 and 0.2: a variance of 0.4²/12, in 33 steps a little more
+        let variance = off.iter().map(|off| off * off).sum::<f64>() / 1000.0;
+        assert!((variance / (0.16 / 12.0) - 1.0).abs() < 0.15, "{variance}");
+        assert!(rows.steps.windows(2).all(|pair| pair[0] < pair[1]));
+        for (time, steps) in rows.times().iter().zip(&rows.steps) {
+            assert!((time - *steps as f64 * 1e-4).abs() < 1e-12);
+        }
+        assert_eq!(Rows::jittered(pace, 9, 0.0, &mut Drawn::new(5)), Rows::even(pace, 9));
+    }
+
+    #[test]
+    fn a_row_that_is_late_is_read_when_it_is_written() {
+        let setup = crate::robot_file::RobotFile::paper(0.0).setup();
+        let pace = Pace { row: 1e-2, steps: 100 };
+        let rows = Rows::jittered(pace, 60, 0.2, &mut Drawn::new(8));
+        let held = |_: usize, _: &Simulation| vec![6.0, -2.0, -6.0, 2.0];
+        let fine = drive(&setup, Pace { row: 1e-4, steps: 1 }, 6001, held);
+        for reading in drive_on(&setup, &rows, held).0 {
+            let at = &fine[(reading.time / 1e-4).round() as usize];
+            assert_eq!(reading.wheel_speeds, at.wheel_speeds);
+            assert!(reading.pose.iter().zip(at.pose).all(|(a, b)| (a - b).abs() < 1e-12));
+        }
+    }
 }

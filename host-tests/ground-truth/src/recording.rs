@@ -2,10 +2,12 @@
 
 use crate::drawn::Drawn;
 use crate::driving::{Driver, Style};
-use crate::logging::{Log, Logging};
-use crate::reading::{Pace, drive};
+use crate::logging::{CameraClock, Log, Logging};
+use crate::reading::{Pace, Reading, Rows, drive_on};
 use crate::robot_file::RobotFile;
 use crate::setup::Setup;
+use crate::track::Track;
+use crate::unrest::{Forces, Unrest};
 
 /// How recordings are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +26,8 @@ pub struct Plan {
     pub gyro: bool,
     /// How it is driven.
     pub style: Style,
+    /// Small forces of the floor.
+    pub unrest: Option<Unrest>,
 }
 
 /// What stands in a session folder.
@@ -31,7 +35,9 @@ pub struct Plan {
 pub struct Session {
     /// `robot.toml`
     pub robot: String,
-    /// `runs/NAME`, each with its text.
+    /// `columns.toml`, where runs are folders
+    pub columns: Option<String>,
+    /// `runs/NAME`, each with its text; of a run that is a folder, `runs/NAME/FILE`.
     pub runs: Vec<(String, String)>,
 }
 
@@ -41,8 +47,18 @@ const OF_NOISE: u64 = 0x5eed;
 /// What parts the time at which a run begins from its drive.
 const OF_CLOCK: u64 = 0xc10c;
 
+/// What parts the same of the floor, of when rows are written, of a camera with a clock of its own, and of that clock.
+const OF_FLOOR: u64 = 0xf100;
+const OF_ROWS: u64 = 0x7011;
+const OF_CAMERA: u64 = 0xca3e;
+const OF_OFFSET: u64 = 0x0ff5;
+
 /// Some time within this the room's clock shows when a run begins [s]
 const DAY: f64 = 120.0;
+
+/// How far a camera's clock may be from the drive's [s], where that is known and where it is not.
+const KNOWN_S: (f64, f64) = (2e-3, 5.0);
+const UNKNOWN_S: f64 = 2.0;
 
 impl Session {
     /// Recordings of a robot whose file says something else, or the same.
@@ -52,11 +68,27 @@ impl Session {
 
     /// The same, logged as it may be.
     pub fn logged((file, setup): (&RobotFile, &Setup), plan: &Plan, logging: &Logging, seed: u64) -> Self {
+        let mut of_clock = Drawn::new(seed ^ OF_OFFSET);
+        let magnitude = of_clock.log_between(KNOWN_S.0, KNOWN_S.1);
+        let known = if of_clock.below(2) == 0 { magnitude } else { -magnitude };
         let run = |k: usize| {
             let seed = seed.wrapping_mul(1000).wrapping_add(k as u64);
-            (format!("run{k}.csv"), recorded((file, setup), plan, logging, seed))
+            let run = Run::driven((file, setup), plan, logging, seed);
+            match logging.camera.filter(|_| logging.pose) {
+                None => vec![(format!("run{k}.csv"), run.rows())],
+                Some(clock) => {
+                    let offset = if clock == CameraClock::Known { known } else { run.any_offset() };
+                    let frames = (format!("run{k}/camera.csv"), run.frames(offset));
+                    vec![(format!("run{k}/drive.csv"), run.rows()), frames]
+                }
+            }
         };
-        Self { robot: file.toml(), runs: (0..plan.runs).map(run).collect() }
+        let runs = (0..plan.runs).flat_map(run).collect();
+        let columns = logging.camera.filter(|_| logging.pose).map(|clock| match clock {
+            CameraClock::Known => columns(&format!("{known:?}")),
+            CameraClock::Unknown => columns("\"estimate\""),
+        });
+        Self { robot: file.toml(), columns, runs }
     }
 
     /// Writes the folder.
@@ -67,27 +99,87 @@ impl Session {
         let runs = folder.join("runs");
         std::fs::create_dir_all(&runs)?;
         std::fs::write(folder.join("robot.toml"), &self.robot)?;
-        self.runs.iter().try_for_each(|(name, text)| std::fs::write(runs.join(name), text))
+        if let Some(columns) = &self.columns {
+            std::fs::write(folder.join("columns.toml"), columns)?;
+        }
+        self.runs.iter().try_for_each(|(name, text)| {
+            let place = runs.join(name);
+            std::fs::create_dir_all(place.parent().unwrap_or(&runs))?;
+            std::fs::write(place, text)
+        })
     }
 }
 
-/// One run, as a table.
-fn recorded((file, setup): (&RobotFile, &Setup), plan: &Plan, logging: &Logging, seed: u64) -> String {
-    let row = 1.0 / plan.rate;
-    let pace = Pace { row, steps: (row / setup.step()).ceil() as usize };
-    let mut driver = Driver::new(file, plan.voltage, plan.style, seed);
-    let rows = (plan.duration * plan.rate).round() as usize;
-    let setup = setup.clone().begun_at(Drawn::new(seed ^ OF_CLOCK).between(0.0, DAY));
-    let readings = drive(&setup, pace, rows, |k, moving| driver.command(k as f64 * row, moving.pose()));
-    let mut log = Log::new(logging, &file.noise, plan.gyro, seed ^ OF_NOISE);
-    let mut next_frame = 0.0;
-    let mut text = log.header(file.wheels.len());
-    for reading in &readings {
-        let framed = reading.time >= next_frame - 1e-9;
-        if framed {
-            next_frame += 1.0 / plan.camera_rate;
+/// The text of `columns.toml` of runs with a camera whose clock is so far from the drive's.
+fn columns(offset: &str) -> String {
+    format!("[[file]]\nname = \"drive.csv\"\n\n[[file]]\nname = \"camera.csv\"\noffset_s = {offset}\n")
+}
+
+/// A run that was driven and is still to be logged.
+struct Run<'a> {
+    file: &'a RobotFile,
+    /// The robot in this run.
+    setup: Setup,
+    plan: &'a Plan,
+    logging: &'a Logging,
+    seed: u64,
+    readings: Vec<Reading>,
+    track: Track,
+}
+
+impl<'a> Run<'a> {
+    fn driven((file, setup): (&'a RobotFile, &Setup), plan: &'a Plan, logging: &'a Logging, seed: u64) -> Self {
+        let row = 1.0 / plan.rate;
+        let pace = Pace { row, steps: (row / setup.step()).ceil() as usize };
+        let mut driver = Driver::new(file, plan.voltage, plan.style, seed);
+        let count = (plan.duration * plan.rate).round() as usize;
+        let mut setup = setup.clone().begun_at(Drawn::new(seed ^ OF_CLOCK).between(0.0, DAY));
+        if let Some(unrest) = &plan.unrest {
+            let coulomb = setup.robot.chassis.friction.coulomb;
+            let forces = Forces::drawn(unrest, coulomb, plan.duration, seed ^ OF_FLOOR);
+            setup.robot.surroundings.unrest = Some(forces);
         }
-        text += &log.row(reading, framed);
+        let rows = Rows::jittered(pace, count, logging.jitter, &mut Drawn::new(seed ^ OF_ROWS));
+        let (readings, track) = drive_on(&setup, &rows, |k, moving| driver.command(rows.times()[k], moving.pose()));
+        Self { file, setup, plan, logging, seed, readings, track }
     }
-    text
+
+    /// As a table; with the frames of the camera, where that has no clock of its own.
+    fn rows(&self) -> String {
+        let mut log = Log::new(self.logging, &self.file.noise, self.plan.gyro, self.seed ^ OF_NOISE)
+            .of_set_speeds(self.file.drive.is_some());
+        let mut next_frame = 0.0;
+        let mut text = log.header(self.file.wheels.len());
+        for reading in &self.readings {
+            let framed = self.logging.camera.is_none() && reading.time >= next_frame - 1e-9;
+            if framed {
+                next_frame += 1.0 / self.plan.camera_rate;
+            }
+            text += &log.row(reading, framed);
+        }
+        text
+    }
+
+    /// A camera's own table: frames when it takes them, stamped by a clock to which so much has to be added to get the
+    /// drive's time [s].
+    fn frames(&self, offset: f64) -> String {
+        let mut log = Log::new(self.logging, &self.file.noise, false, self.seed ^ OF_CAMERA);
+        let mut drawn = Drawn::new(self.seed ^ OF_CAMERA ^ OF_ROWS);
+        let (apart, jitter) = (1.0 / self.plan.camera_rate, self.logging.jitter);
+        let first = drawn.between(jitter, 1.0 - jitter);
+        let mut text = Log::camera_header().to_owned();
+        for frame in 0.. {
+            let time = apart * (f64::from(frame) + first + drawn.between(-jitter, jitter));
+            if time >= self.plan.duration {
+                return text;
+            }
+            text += &log.frame((time, time - offset), self.setup.seen(&self.track, time));
+        }
+        text
+    }
+
+    /// How far the clock of a camera is off in this run that nobody looks after [s].
+    fn any_offset(&self) -> f64 {
+        Drawn::new(self.seed ^ OF_OFFSET).between(-UNKNOWN_S, UNKNOWN_S)
+    }
 }

@@ -9,6 +9,7 @@ use crate::shaft::{Shaft, Twisted};
 use crate::simulation::{Middle, Simulation};
 use crate::state::State;
 use crate::surroundings::Place;
+use crate::twist_at::twist_at;
 
 /// Times that a step is looked at; in the later ones what depends on its middle is known.
 const PASSES: usize = 2;
@@ -91,7 +92,11 @@ impl Simulation {
         let damped = self.chassis.inertia + half * self.chassis.viscous;
         let kept = self.chassis.inertia - half * self.chassis.viscous;
         let place = self.place();
-        let pull = self.with_odd_forces(self.robot.surroundings.pull(&place), &place);
+        let mut pull = self.robot.surroundings.pull(&place);
+        if let Some(forces) = &self.robot.surroundings.unrest {
+            pull += twist_at(place.centre).transpose() * forces.at(self.state.time + half);
+        }
+        let pull = self.with_odd_forces(pull, &place);
         let force = pull + self.chassis.apparent(self.middle.twist);
         let v = &mut self.velocities;
         v.body_mobility = damped.try_inverse().expect("a body with mass and inertia");

@@ -4,6 +4,7 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::contact::GRAVITY;
 use crate::rotated::rotated;
+use crate::unrest::Forces;
 
 /// The floor and all that is tied to the room.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,6 +19,8 @@ pub struct Surroundings {
     pub cable: Option<Cable>,
     /// Drag of air, against the motion [N·s²/m²]
     pub drag: f64,
+    /// Small forces that come and go, on the robot's centre along its axes.
+    pub unrest: Option<Forces>,
 }
 
 /// A place where friction differs: `1 + k·e^(−|p − c|²/(2·s²))`.

@@ -2,12 +2,22 @@
 
 use ground_truth::driving::Style;
 use ground_truth::foreign::foreign;
+use ground_truth::logging::{CameraClock, Logging};
 use ground_truth::reading::{Pace, apart, drive};
 use ground_truth::recording::{Plan, Session};
-use ground_truth::robot_file::RobotFile;
+use ground_truth::robot_file::{Noise, RobotFile, SpeedLoop};
+use ground_truth::unrest::Unrest;
 
-const PLAN: Plan =
-    Plan { runs: 2, duration: 1.0, rate: 100.0, camera_rate: 25.0, voltage: 8.0, gyro: true, style: Style::Excitation };
+const PLAN: Plan = Plan {
+    runs: 2,
+    duration: 1.0,
+    rate: 100.0,
+    camera_rate: 25.0,
+    voltage: 8.0,
+    gyro: true,
+    style: Style::Excitation,
+    unrest: None,
+};
 
 fn session(seed: u64) -> Session {
     let file = RobotFile::paper(0.0);
@@ -49,6 +59,86 @@ fn a_folder_holds_the_robot_and_its_runs() {
     for (name, text) in &made.runs {
         assert_eq!(read(&format!("runs/{name}")), *text);
     }
+}
+
+/// Times and poses of a table.
+fn poses(text: &str) -> Vec<(f64, [f64; 3])> {
+    let names: Vec<&str> = text.lines().next().expect("a header").split(',').collect();
+    let at = |name: &str| names.iter().position(|column| *column == name).expect("a column");
+    let columns = ["t_s", "x_m", "y_m", "theta_rad"].map(at);
+    let row = |line: &str| {
+        let cells: Vec<Option<f64>> = line.split(',').map(|cell| cell.parse().ok()).collect();
+        let [t, x, y, heading] = columns.map(|k| cells[k]);
+        Some((t?, [x?, y?, heading?]))
+    };
+    text.lines().skip(1).filter_map(row).collect()
+}
+
+#[test]
+fn a_camera_with_a_clock_of_its_own_sees_the_same_robot_at_other_times() {
+    let file = RobotFile::paper(0.0);
+    let plan = Plan { rate: 1000.0, camera_rate: 1000.0, ..PLAN };
+    let silent = |camera| {
+        let noise_factor = Noise { current: 0.0, wheel_speed: 0.0, position: 0.0, heading: 0.0, gyro: 0.0 };
+        let logging = Logging { noise_factor, camera, ..Logging::clean() };
+        Session::logged((&file, &file.setup()), &plan, &logging, 3)
+    };
+    let together = silent(None);
+    for clock in [CameraClock::Known, CameraClock::Unknown] {
+        let apart = silent(Some(clock));
+        let names: Vec<&str> = apart.runs.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["run0/drive.csv", "run0/camera.csv", "run1/drive.csv", "run1/camera.csv"]);
+        let columns = apart.columns.expect("two files need it");
+        let told = columns.split_once("offset_s = ").expect("an offset").1.trim();
+        for run in 0..2 {
+            assert!(!apart.runs[2 * run].1.contains("x_m"));
+            let (whole, own) = (poses(&together.runs[run].1), poses(&apart.runs[2 * run + 1].1));
+            assert!((999..=1000).contains(&own.len()));
+            let offset: f64 = match clock {
+                CameraClock::Known => told.parse().expect("a number"),
+                CameraClock::Unknown => {
+                    assert_eq!(told, "\"estimate\"");
+                    // the first frame is within a millisecond of the first row
+                    -own[0].0
+                }
+            };
+            // a row at most 1 ms away, at less than 3 m/s and 15 rad/s
+            for (stamp, pose) in own {
+                let k = ((stamp + offset) / 1e-3).round() as usize;
+                let (_, near) = whole[k.min(whole.len() - 1)];
+                let off: Vec<f64> = pose.iter().zip(near).map(|(a, b)| (a - b).abs()).collect();
+                assert!(off[0] < 3e-3 && off[1] < 3e-3 && off[2] < 0.015, "{off:?} at {stamp} s of {clock:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_session_of_set_speeds_has_them_in_place_of_voltages() {
+    let file = RobotFile { drive: Some(SpeedLoop::default()), ..RobotFile::paper(0.0) };
+    let plan = Plan { style: Style::SetPoints { ramp: 1.5 }, ..PLAN };
+    let run = &Session::of(&file, &file.setup(), &plan, 3).runs[0].1;
+    assert!(run.starts_with("t_s,wset0_rad_s,wset1_rad_s,wset2_rad_s,wset3_rad_s,i0_A,"), "{run}");
+    assert!(!run.lines().next().expect("a header").contains("_V"));
+}
+
+#[test]
+fn forces_of_the_floor_move_a_robot_a_little_and_another_way_in_every_run() {
+    let file = RobotFile::paper(0.0);
+    let restless = Plan { unrest: Some(Unrest { share: 0.04, time: 0.3 }), ..PLAN };
+    let runs = |plan: &Plan| -> Vec<_> {
+        Session::of(&file, &file.setup(), plan, 3).runs.iter().map(|(_, text)| poses(text)).collect()
+    };
+    let (calm, moved) = (runs(&PLAN), runs(&restless));
+    assert_eq!(moved, runs(&restless));
+    let off = |run: usize| -> Vec<[f64; 2]> {
+        let pairs = moved[run].iter().zip(&calm[run]);
+        pairs.map(|((_, a), (_, b))| [a[0] - b[0], a[1] - b[1]]).collect()
+    };
+    let farthest = |run: usize| off(run).iter().map(|off| off[0].hypot(off[1])).fold(0.0, f64::max);
+    // within a second: σ/(M·2) of 0.08 N on 2.34 kg, if nothing held against it
+    assert!([0, 1].map(farthest).iter().all(|far| (1e-4..0.05).contains(far)));
+    assert_ne!(off(0), off(1));
 }
 
 #[test]

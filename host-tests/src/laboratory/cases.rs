@@ -23,6 +23,7 @@ pub const PLAN: Plan = Plan {
     voltage: 8.0,
     gyro: false,
     style: Style::Excitation,
+    unrest: None,
 };
 
 /// The wheel of a cause that sits on one.

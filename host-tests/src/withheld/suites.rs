@@ -247,6 +247,7 @@ fn laboratory(robot: &DrawnRobot, drawn: &mut Drawn) -> Plan {
         camera_rate: drawn.between(25.0, 90.0).round(),
         voltage: DRIVEN * robot.truth.supply,
         style: Style::Excitation,
+        unrest: None,
     }
 }
 
