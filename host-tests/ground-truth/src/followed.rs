@@ -98,7 +98,7 @@ mod tests {
     use crate::robot_file::{RobotFile, SpeedLoop};
 
     fn file(dead_time: f64, lag: f64) -> RobotFile {
-        RobotFile { drive: Some(SpeedLoop { dead_time, lag }), ..RobotFile::paper(0.0) }
+        RobotFile { drive: Some(SpeedLoop { dead_time, lag, line: 0.0 }), ..RobotFile::paper(0.0) }
     }
 
     /// Rows of 10 ms at rest, all wheels told a turn on the spot [rad/s].

@@ -60,7 +60,7 @@ impl Rows {
 pub struct Reading {
     /// Since the beginning [s]
     pub time: f64,
-    /// What is commanded from this row on [V]
+    /// What is commanded from this row on [V], or the speed that is set or demanded [rad/s]
     pub command: Vec<f64>,
     /// Just after that [A]
     pub currents: Vec<f64>,
@@ -131,7 +131,7 @@ pub fn drive_on(
             gyro: moving.twist()[2] + sensors.gyro_bias,
             twist: moving.twist(),
             wheel_angles: moving.wheel_angles(),
-            command: u.clone(),
+            command: moving.demanded(&u),
             pose: [0.0; 3],
         });
         for _ in rows.steps[row]..rows.steps[row + 1] {

@@ -54,6 +54,9 @@ pub struct SpeedLoop {
     pub dead_time: f64,
     /// Over which it smooths them [s]
     pub lag: f64,
+    /// Over which it goes to a new one along a straight line, and tells the log where it is on that [s]: a file need not
+    /// say so
+    pub line: f64,
 }
 
 /// One sigma of each sensor's noise.
@@ -78,7 +81,7 @@ const LOOK_S: f64 = 1e-4;
 const ANSWERS_S: f64 = 0.5e-3;
 
 /// Its integral part: over what time [s], and of the supply at the most [1]
-const INTEGRAL_S: f64 = 0.05;
+const INTEGRAL_S: f64 = 0.01;
 const INTEGRAL_MOST: f64 = 0.25;
 
 /// What a drive that controls speed lets flow, of what a stalled motor would take [1]
@@ -135,7 +138,7 @@ impl RobotFile {
     }
 
     /// A drive that is stiff enough to answer as the file says, tuned to the robot driving straight on.
-    fn speed_drive(&self, SpeedLoop { dead_time, lag }: SpeedLoop) -> SpeedDrive {
+    fn speed_drive(&self, SpeedLoop { dead_time, lag, line }: SpeedLoop) -> SpeedDrive {
         let (count, induced) = (self.wheels.len() as f64, self.gear_ratio * self.emf_constant);
         // of N wheels, N/2 in the mean push along an axis: J = 2·M·r²/N, τ = J·R/(l²·Kt·Kv)
         let radius = self.mean_radius();
@@ -143,6 +146,7 @@ impl RobotFile {
         let time = carried * self.resistance / (self.gear_ratio * self.torque_constant * induced);
         let mut drive = SpeedDrive {
             dead_time,
+            line,
             threshold: 0.0,
             smoothing: lag,
             shortfall: 0.0,
@@ -187,7 +191,8 @@ impl RobotFile {
         put(format_args!("position_noise_m = {position:?}\nheading_noise_rad = {heading:?}\n"));
         put(format_args!("gyro_noise_rad_s = {gyro:?}\n"));
         put(format_args!("\n[supply]\nvoltage_V = {:?}\n", self.supply));
-        if let Some(SpeedLoop { dead_time, lag }) = self.drive.filter(|told| *told != SpeedLoop::default()) {
+        let late = |told: &SpeedLoop| told.dead_time + told.lag > 0.0;
+        if let Some(SpeedLoop { dead_time, lag, .. }) = self.drive.filter(late) {
             put(format_args!("\n[effects.speed_loop]\ndead_time_s = {dead_time:?}\nlag_s = {lag:?}\ndroop = 0.0\n"));
         }
         text

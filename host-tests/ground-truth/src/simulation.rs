@@ -172,6 +172,12 @@ impl Simulation {
         self.state.shafts[wheel].x
     }
 
+    /// What a log has of commands u [V, or rad/s]: what a drive demands now, where that goes to them along a line.
+    pub fn demanded(&self, u: &[f64]) -> Vec<f64> {
+        let tells = self.robot.drive.is_some_and(|drive| drive.line > 0.0);
+        if tells { self.state.driving.demands.clone() } else { u.to_vec() }
+    }
+
     /// How long a command is on its way until it changes anything [s]
     pub(crate) fn delay(&self) -> f64 {
         self.robot.command_delay + self.robot.drive.map_or(0.0, |drive| drive.dead_time)

@@ -9,8 +9,8 @@ use crate::setup::Setup;
 /// Of the typical size, the least and the most that a cause is given [1]: what is beyond is no robot that anybody drives.
 pub const BOUNDS: (f64, f64) = (0.02, 4.0);
 
-/// Of a robot with nothing hidden, a gap below this is none [1]
-const NONE: f64 = 0.3;
+/// Of a robot with nothing hidden, a gap below this is none that thousands of rows together would show [1]
+const NONE: f64 = 0.05;
 
 /// Ramps to full speed that are tried, one after the other [s]
 const RAMPS: [f64; 5] = [1.5, 2.5, 4.0, 6.0, 9.0];

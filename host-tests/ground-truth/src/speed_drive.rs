@@ -1,8 +1,8 @@
 //! A drive that controls the speed of its wheel: what it hears, what it makes the wheel follow, and the voltages for that.
 //!
 //! ```text
-//! w_h = w_set(t − t_d) where |w_set| ≥ w₀, else 0        what it hears
-//! T_s·dr/dt = (1 − k)·w_h − r                            what it makes the wheel follow
+//! w_d: w_set(t − t_d), or a straight line to it          what it demands
+//! T_s·dr/dt = (1 − k)·w_h − r                            what it makes the wheel follow; w_h = w_d where |w_d| ≥ w₀, else 0
 //! u = K·r + A·dr/dt + P·(r − w) + I                      |u| ≤ U
 //! dI/dt = (P/T_i)·(r − w)                                |I| ≤ I_m, and only while that does not drive u further out
 //! ```
@@ -23,6 +23,9 @@
 pub struct SpeedDrive {
     /// t_d, from the speed that is set to the moment at which it is heard [s]
     pub dead_time: f64,
+    /// How long it takes to a new set speed, along a straight line [s]; 0 where it jumps. One that does tells what it demands,
+    /// and that is what is logged.
+    pub line: f64,
     /// w₀, below which a set speed is left out [rad/s]
     pub threshold: f64,
     /// T_s, over which a set speed is smoothed [s]; 0 where it is not
@@ -48,6 +51,12 @@ pub struct SpeedDrive {
 /// What drives remember, one number a wheel.
 #[derive(Debug, Default, PartialEq)]
 pub struct Driving {
+    /// What was set last [rad/s]
+    pub goals: Vec<f64>,
+    /// w_d [rad/s]
+    pub demands: Vec<f64>,
+    /// How fast that changes [rad/s²]
+    pub slopes: Vec<f64>,
     /// r [rad/s]
     pub followed: Vec<f64>,
     /// I [V]
@@ -62,7 +71,15 @@ impl Driving {
     /// At rest, of so many wheels.
     pub fn at_rest(wheels: usize) -> Self {
         let none = || vec![0.0; wheels];
-        Self { followed: none(), integrals: none(), volts: none(), next: 0.0 }
+        Self {
+            goals: none(),
+            demands: none(),
+            slopes: none(),
+            followed: none(),
+            integrals: none(),
+            volts: none(),
+            next: 0.0,
+        }
     }
 }
 
@@ -76,7 +93,10 @@ impl Clone for Driving {
     /// Without asking for memory, where there is enough: it is done every step.
     fn clone_from(&mut self, from: &Self) {
         // named one by one, so that none is forgotten
-        let Self { followed, integrals, volts, next } = from;
+        let Self { goals, demands, slopes, followed, integrals, volts, next } = from;
+        self.goals.clone_from(goals);
+        self.demands.clone_from(demands);
+        self.slopes.clone_from(slopes);
         self.followed.clone_from(followed);
         self.integrals.clone_from(integrals);
         self.volts.clone_from(volts);
@@ -111,12 +131,26 @@ impl SpeedDrive {
         time >= driving.next - ROUNDED
     }
 
+    /// Begins the way to a new set speed [rad/s] of wheel j.
+    fn demand(&self, driving: &mut Driving, j: usize, set: f64) {
+        if self.line == 0.0 {
+            driving.demands[j] = set;
+        } else if set != driving.goals[j] {
+            driving.slopes[j] = (set - driving.demands[j]) / self.line;
+        } else if driving.demands[j] == set {
+            driving.slopes[j] = 0.0;
+        }
+        driving.goals[j] = set;
+    }
+
     /// Looks at a time [s] at the speeds that were set a dead time ago and at those of the wheels [rad/s].
     pub fn look(&self, driving: &mut Driving, time: f64, set: &[f64], speeds: impl Iterator<Item = f64>) {
         driving.next = time + self.period;
         for (j, (set, speed)) in set.iter().zip(speeds).enumerate() {
-            let target = (1.0 - self.shortfall) * self.heard(*set);
-            let mut rate = 0.0;
+            self.demand(driving, j, *set);
+            let (demand, slope) = (driving.demands[j], driving.slopes[j]);
+            let target = (1.0 - self.shortfall) * self.heard(demand);
+            let mut rate = if demand.abs() < self.threshold { 0.0 } else { (1.0 - self.shortfall) * slope };
             if self.smoothing > 0.0 {
                 rate = (target - driving.followed[j]) / self.smoothing;
             } else {
@@ -130,6 +164,9 @@ impl SpeedDrive {
                 let more = self.period * self.proportional / self.integral_time * off;
                 driving.integrals[j] = (driving.integrals[j] + more).clamp(-self.integral_most, self.integral_most);
             }
+            // no further than to what is set, whatever rounding says
+            let (ends, after) = (driving.goals[j], demand + slope * self.period);
+            driving.demands[j] = if (ends - after) * slope > 0.0 { after } else { ends };
             // r is held until the next look, and goes on by an exponential
             if self.smoothing > 0.0 {
                 driving.followed[j] =
@@ -150,6 +187,7 @@ mod tests {
         let (induced, time, period) = WHEEL;
         SpeedDrive {
             dead_time: 0.0,
+            line: 0.0,
             threshold: 0.0,
             smoothing: 0.0,
             shortfall: 0.0,
@@ -220,6 +258,16 @@ mod tests {
         for (k, speed) in driven(&smooth, 20.0, 0.0, 0.3).into_iter().enumerate().step_by(500) {
             let expected = 20.0 * -libm::expm1(-(k as f64) * WHEEL.2 / 0.05);
             assert!((speed - expected).abs() < 20.0 / 0.05 * 2.0 * WHEEL.2, "{k}: {speed} against {expected}");
+        }
+    }
+
+    #[test]
+    fn a_drive_that_goes_along_a_line_is_on_it_at_every_look_and_stays_where_it_ends() {
+        let line = SpeedDrive { line: 0.05, proportional: 1.0, ..drive() };
+        for (k, speed) in driven(&line, 20.0, 0.0, 0.1).into_iter().enumerate() {
+            let expected = 20.0 * (k as f64 * WHEEL.2 / 0.05).min(1.0);
+            // half a look late, but for the corners
+            assert!((speed - expected).abs() < 20.0 / 0.05 * WHEEL.2, "{k}: {speed} against {expected}");
         }
     }
 

@@ -115,7 +115,7 @@ fn a_camera_with_a_clock_of_its_own_sees_the_same_robot_at_other_times() {
 
 #[test]
 fn a_session_of_set_speeds_has_them_in_place_of_voltages() {
-    let file = RobotFile { drive: Some(SpeedLoop::default()), ..RobotFile::paper(0.0) };
+    let file = RobotFile { drive: Some(SpeedLoop { line: 0.01, ..SpeedLoop::default() }), ..RobotFile::paper(0.0) };
     let plan = Plan { style: Style::SetPoints { ramp: 1.5 }, ..PLAN };
     let run = &Session::of(&file, &file.setup(), &plan, 3).runs[0].1;
     assert!(run.starts_with("t_s,wset0_rad_s,wset1_rad_s,wset2_rad_s,wset3_rad_s,i0_A,"), "{run}");
