@@ -140,7 +140,13 @@ fn forbidden(set: &SetFolder) -> std::io::Result<Vec<PathBuf>> {
     let mut all = vec![set.labels_folder(), set.sessions()];
     for entry in std::fs::read_dir(set.sessions())? {
         let session = entry?.path();
-        all.push(session.join("runs"));
+        let runs = session.join("runs");
+        if runs.is_dir() {
+            for run in std::fs::read_dir(&runs)? {
+                all.push(run?.path());
+            }
+        }
+        all.push(runs);
         all.push(session);
     }
     all.retain(|folder| folder.is_dir());
