@@ -17,7 +17,8 @@ fn set(folder: &Path) -> SetFolder {
     set.begin(&About { split: "tried".to_owned(), seed: 1, commit: "none".to_owned() }).expect("a new set");
     for name in ["one", "other"] {
         let session = set.session(name);
-        std::fs::create_dir_all(session.join("runs")).expect("room");
+        std::fs::create_dir_all(session.join("runs/run0")).expect("room");
+        std::fs::write(session.join("runs/run0/drive.csv"), "t_s\n").expect("room");
         std::fs::write(session.join("robot.toml"), "name = \"it\"\n").expect("room");
         let label = Label {
             session: name.to_owned(),
@@ -70,7 +71,11 @@ fn who_looks_outside_its_session_fails_and_is_told_where() {
     let folder = tempfile::tempdir().expect("a folder");
     let set = set(folder.path());
     let root = set.0.display().to_string();
-    for (name, place) in [("reads-labels", "labels/one.json"), ("reads-others", "sessions/other/robot.toml")] {
+    for (name, place) in [
+        ("reads-labels", "labels/one.json"),
+        ("reads-others", "sessions/other/robot.toml"),
+        ("reads-their-runs", "sessions/other/runs/run0/drive.csv"),
+    ] {
         let ended = tried(&set, name, &format!("cat '{root}/{place}' > \"$1/copied\"; {ANSWER}"));
         let why = ended.failed.unwrap_or_default();
         assert_eq!(why, format!("it looked at {place}"), "{name}");
