@@ -299,11 +299,11 @@ pub const CAUSES: &[Cause] = &[
 
 /// Causes that only a robot shows whose drives control speed.
 pub const DRIVE_CAUSES: &[Cause] = &[
-    // it hears late, answers softly, and counts too much
+    // it hears late, smooths what it hears, and counts too much
     on_all("speed_loop", |at, _, x| {
         if let Some(drive) = &mut at.robot.drive {
             drive.dead_time += 0.02 * x;
-            drive.tune((0.04 * x).clamp(drive.answers_in(), SOFTEST * drive.inertial / drive.induced));
+            drive.smoothing += 0.04 * x;
             drive.shortfall += 0.02 * x;
         }
     }),
@@ -315,9 +315,6 @@ pub const DRIVE_CAUSES: &[Cause] = &[
         }
     }),
 ];
-
-/// The longest time in which a drive answers, of that in which its motor gets up to speed by itself [1]
-const SOFTEST: f64 = 0.8;
 
 /// A cause by its name.
 pub fn cause(id: &str) -> Option<&'static Cause> {

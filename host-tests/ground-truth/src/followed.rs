@@ -125,7 +125,7 @@ mod tests {
         // ω = r·w/d
         let expected = 0.5 * 10.0 * 0.0325 / 0.089;
         assert!((rows[50].pose[2] - expected).abs() < 1e-12, "{:?}", rows[50].pose);
-        assert!(rows[50].pose[0].hypot(rows[50].pose[1]) < 1e-12);
+        assert!(libm::hypot(rows[50].pose[0], rows[50].pose[1]) < 1e-12);
     }
 
     #[test]

@@ -21,7 +21,7 @@ const DRIVEN: f64 = 2.0 / 3.0;
 const UNREST: [(f64, f64); 2] = [(0.01, 0.04), (0.05, 0.5)];
 
 /// The largest gap that they make [σ]: a floor that makes more is something to be told of.
-const CALM: f64 = 0.5;
+const CALM: f64 = 0.3;
 
 /// Causes that an estimated offset of the camera's clock takes with it, wholly or in part.
 const TAKEN_BY_OFFSET: [&str; 2] = ["camera_latency", "creep"];
