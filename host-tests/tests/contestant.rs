@@ -28,6 +28,8 @@ fn set(folder: &Path) -> SetFolder {
             foreign: None,
             far_off: Vec::new(),
             about: Default::default(),
+            truth: None,
+            class: Vec::new(),
         };
         set.put_label(&label).expect("room");
     }

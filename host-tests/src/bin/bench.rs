@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand, ValueEnum};
 use host_tests::golden;
+use host_tests::withheld::closed::Closed;
 use host_tests::withheld::contestant::{Contestant, Ended};
 use host_tests::withheld::set::{About, SetFolder};
 use host_tests::withheld::suites::{Case, REDUCED, WHOLE, cases};
@@ -51,6 +52,13 @@ enum Errand {
         #[arg(last = true, required = true)]
         command: Vec<String>,
     },
+    /// Drive what a contestant left over the recordings, and find how far each gap shrinks
+    Close {
+        /// Folder of the set
+        set: PathBuf,
+        /// Its name
+        name: String,
+    },
     /// Print the figures of one contestant
     Score {
         /// Folder of the set
@@ -84,6 +92,7 @@ fn main() -> ExitCode {
         Errand::Run { set, name, seconds, every, command } => {
             run(&SetFolder(set), &Contestant { name, command, most: Duration::from_secs(seconds) }, every)
         }
+        Errand::Close { set, name } => close(&SetFolder(set), &name),
         Errand::Score { set, name } => page(&SetFolder(set), &[name]).map(|page| println!("{page}")),
         Errand::Table { set, names } => page(&SetFolder(set), &names)
             .and_then(|page| golden::record("withheld.md", &page, "cargo xtask bench table SET NAME...")),
@@ -128,6 +137,16 @@ fn run(set: &SetFolder, contestant: &Contestant, every: usize) -> Result<()> {
     contestant.run(set, &sessions, &mut |session, Ended { failed, seconds, .. }| {
         println!("{session}: {} in {seconds:.1} s", failed.as_deref().unwrap_or("answered"));
     })
+}
+
+fn close(set: &SetFolder, name: &str) -> Result<()> {
+    let start = Instant::now();
+    let count = Closed::find_all(set, name, &|session, Closed { before, after, truth, .. }| {
+        let truth = truth.map_or("–".to_owned(), |truth| format!("{truth:.2}"));
+        println!("{session}: {before:.2} → {after:.2} σ, the true model {truth} σ");
+    })?;
+    println!("{count} sessions in {:.0} s", start.elapsed().as_secs_f64());
+    Ok(())
 }
 
 fn page(set: &SetFolder, names: &[String]) -> Result<String> {

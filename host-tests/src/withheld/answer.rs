@@ -1,5 +1,7 @@
 //! Answers: what a contestant leaves, read by the data contract and nothing else.
 
+use std::collections::BTreeMap;
+
 use omni_gap::report::Verdict;
 use serde::Deserialize;
 
@@ -30,6 +32,19 @@ pub struct Considered {
     /// Causes that explain the recordings as well.
     #[serde(default)]
     pub not_told_apart_from: Vec<String>,
+    /// Its numbers, by their keys in a robot file.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, Estimate>,
+}
+
+/// A number that was estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+pub struct Estimate {
+    /// In the unit of its key.
+    pub value: f64,
+    /// One sigma of it, where that is said.
+    #[serde(default)]
+    pub std: Option<f64>,
 }
 
 /// A part of the gap.

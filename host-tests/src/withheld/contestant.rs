@@ -38,6 +38,9 @@ pub struct Ended {
 /// Files of an answer that are kept.
 const KEPT: [&str; 3] = ["report.json", "corrected_robot.toml", "refitted_robot.toml"];
 
+/// What the scorer finds of an answer, beside it.
+pub(super) const CLOSED: &str = "closed.json";
+
 /// How often a command is looked at.
 const LOOK: Duration = Duration::from_millis(10);
 
@@ -55,6 +58,8 @@ impl Contestant {
                 continue;
             }
             std::fs::create_dir_all(&kept).map_err(|why| Error::output(&kept, why.to_string(), "Make room"))?;
+            // what was found of an answer that stood here before
+            std::fs::remove_file(kept.join(CLOSED)).ok();
             let ended = self.answers(set, session, &kept).map_err(|why| {
                 Error::input(
                     &set.session(session),

@@ -50,6 +50,34 @@ pub fn of_sample<X: Copy>(all: &[X], statistic: impl Fn(&[X]) -> f64) -> Option<
     Some(Figure { mean: statistic(all), within: (at(0.025), at(0.975)), count: all.len() })
 }
 
+/// The value that half of the others are above and half below.
+pub fn median(all: &[f64]) -> f64 {
+    let mut sorted = all.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let middle = sorted.len() / 2;
+    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
+}
+
+/// The same of what `each` says of the items that it says something of.
+pub fn median_of<T>(items: &[T], each: impl Fn(&T) -> Option<f64>) -> Option<Figure> {
+    let all: Vec<f64> = items.iter().filter_map(each).collect();
+    of_sample(&all, median)
+}
+
+/// The mean over kinds of the share that is so of each kind [1]: a kind that is seldom counts as much as any other.
+pub fn macro_share(all: &[(usize, bool)]) -> Option<Figure> {
+    let kinds = all.iter().map(|(kind, _)| kind + 1).max()?;
+    of_sample(all, |sample| {
+        let mut counts = vec![(0.0, 0.0); kinds];
+        for (kind, so) in sample {
+            counts[*kind].0 += f64::from(u8::from(*so));
+            counts[*kind].1 += 1.0;
+        }
+        let shares: Vec<f64> = counts.iter().filter(|(_, of)| *of > 0.0).map(|(so, of)| so / of).collect();
+        shares.iter().sum::<f64>() / shares.len() as f64
+    })
+}
+
 /// How often a score is higher where something is so than where it is not, ties by half: the area under the receiver's
 /// curve; none where all or none is so.
 pub fn auroc(scored: &[(f64, bool)]) -> Option<Figure> {
@@ -81,6 +109,11 @@ pub fn calibration_error(stated: &[(f64, bool)]) -> f64 {
     all.chunks(size).map(off).sum::<f64>() / all.len().max(1) as f64
 }
 
+/// The same with its interval.
+pub fn calibration(stated: &[(f64, bool)]) -> Option<Figure> {
+    of_sample(stated, calibration_error)
+}
+
 /// What an answerer who is calibrated perfectly gets for [`calibration_error`] with the same probabilities, in the mean.
 pub fn calibration_error_of_chance(stated: &[(f64, bool)]) -> f64 {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
@@ -105,6 +138,15 @@ mod tests {
         assert!((found.within.0 - (0.25 - 1.96 * error)).abs() < 0.2 * error, "{found:?}");
         assert!((found.within.1 - (0.25 + 1.96 * error)).abs() < 0.2 * error, "{found:?}");
         assert_eq!(figure(&all, |_| None), None);
+    }
+
+    #[test]
+    fn a_median_is_in_the_middle_and_a_seldom_kind_counts_as_much_as_any() {
+        assert_eq!([median(&[3.0, 1.0, 9.0]), median(&[4.0, 1.0, 2.0, 9.0])], [2.0 + 1.0, 3.0]);
+        // three of four of one kind, none of one of another
+        let all = [(0, true), (0, true), (0, false), (0, true), (2, false)];
+        assert_eq!(macro_share(&all).expect("some").mean, 0.375);
+        assert_eq!(macro_share(&[]), None);
     }
 
     #[test]

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::true_model::TrueModel;
+
 /// What a session is there to ask.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -111,6 +113,12 @@ pub struct Label {
     pub far_off: Vec<String>,
     /// The robot and how it was logged, for whoever looks for what is hard.
     pub about: BTreeMap<String, String>,
+    /// The robot in the words of the catalogue; none where no entry describes what is hidden.
+    #[serde(default)]
+    pub truth: Option<TrueModel>,
+    /// Causes that no log of these sensors parts from the one that is hidden.
+    #[serde(default)]
+    pub class: Vec<String>,
 }
 
 impl Label {

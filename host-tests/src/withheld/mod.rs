@@ -6,13 +6,18 @@
 //! intervals beside one another. `cargo xtask bench make | run | score | table`; the rules stand in `BENCHMARK.md`.
 
 pub mod answer;
+pub mod closed;
 pub mod contestant;
+pub mod estimates;
 pub mod figures;
+pub mod honest;
 pub mod label;
 mod logged;
 pub mod scored;
+pub mod selective;
 pub mod set;
 pub mod suites;
 pub mod table;
+pub mod true_model;
 mod turns;
 pub mod watch;

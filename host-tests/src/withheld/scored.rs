@@ -5,6 +5,7 @@ use model_core::effects::nominal::NOMINAL;
 use omni_gap::report::Verdict;
 
 use super::answer::Answer;
+use super::closed::Closed;
 use super::contestant::Ended;
 use super::label::{Label, Severity, Suite};
 
@@ -17,6 +18,8 @@ pub struct Scored {
     pub ended: Ended,
     /// What was answered.
     pub answer: Option<Answer>,
+    /// How far the scorer found the gap to shrink, if it looked.
+    pub closed: Option<Closed>,
 }
 
 /// The stage of a cause; none of one that nobody knows.
@@ -63,6 +66,36 @@ impl Scored {
         named
             && self.hidden().all(|cause| answer.causes.iter().any(|other| other == cause))
             && self.wheels_right(answer)
+    }
+
+    /// The same where causes that no log of these sensors parts count as one.
+    pub fn right_by_class(&self) -> bool {
+        let first = self.answer.as_ref().and_then(|answer| answer.causes.first());
+        self.right() || (self.asked().is_some() && first.is_some_and(|first| self.label.class.contains(first)))
+    }
+
+    /// How sure the answer is of what it says first, and whether that is right; one that failed is not sure of anything.
+    pub fn sure(&self) -> (f64, bool) {
+        let says = |answer: &Answer| match answer.verdict {
+            Verdict::NoGap => answer.probability("no_gap"),
+            Verdict::Unknown => answer.probability("unknown"),
+            _ => answer.causes.first().map_or(0.0, |first| answer.probability(first)),
+        };
+        (self.answer.as_ref().map_or(0.0, says), self.right())
+    }
+
+    /// Σ(p − y)² over all that was considered, y being one of the truth and zero of all else (Brier 1950).
+    pub fn brier(&self) -> f64 {
+        let truth = self.probability();
+        let all: f64 = self.answer.iter().flat_map(|answer| &answer.which).map(|which| which.probability.powi(2)).sum();
+        // the truth's own term is (p − 1)², not p²
+        all - 2.0 * truth + 1.0
+    }
+
+    /// The single cause that is hidden and can be seen.
+    pub fn cause(&self) -> Option<&str> {
+        self.asked()?;
+        self.hidden().next()
     }
 
     fn wheels_right(&self, answer: &Answer) -> bool {
@@ -189,9 +222,11 @@ mod tests {
             foreign: None,
             far_off: vec!["mass".to_owned()],
             about: BTreeMap::new(),
+            truth: None,
+            class: Vec::new(),
         };
         let answer = Some(Answer::parse(said).expect("a good answer"));
-        Scored { label, ended: Ended { failed: None, seconds: 1.0, megabytes: 1.0 }, answer }
+        Scored { label, ended: Ended { failed: None, seconds: 1.0, megabytes: 1.0 }, answer, closed: None }
     }
 
     const CREEP: &str = r#"{"verdict": "effect", "causes": ["creep"], "where": [{"stage": "contact", "share": 1.0}],
@@ -235,6 +270,26 @@ mod tests {
         let both = CREEP.replace("[\"creep\"]", "[\"stribeck\", \"creep\"]");
         let all = scored(&[("creep", Some(1), 5.0), ("stribeck", None, 3.0)], &both);
         assert_eq!((all.right(), all.recall(), all.in_set()), (true, Some(1.0), None));
+    }
+
+    #[test]
+    fn how_sure_an_answer_is_and_what_its_probabilities_cost() {
+        let right = scored(&[("creep", Some(1), 5.0)], CREEP);
+        assert_eq!(right.sure(), (0.8, true));
+        // (0.8 − 1)² + 0.2², and 0.8² + (0.2 − 1)² where the other one is true
+        assert!((right.brier() - 0.08).abs() < 1e-12);
+        assert!((scored(&[("stribeck", None, 5.0)], CREEP).brier() - 1.28).abs() < 1e-12);
+        assert_eq!(scored(&[("mass", None, 5.0)], NO_GAP).sure(), (1.0, false));
+        let failed = Scored { answer: None, ..right };
+        assert_eq!((failed.sure(), failed.brier()), ((0.0, false), 1.0));
+    }
+
+    #[test]
+    fn causes_that_nothing_parts_count_as_one() {
+        let mut alike = scored(&[("wheel_slip", None, 5.0)], CREEP);
+        assert!(!alike.right_by_class());
+        alike.label.class = vec!["creep".to_owned()];
+        assert!(alike.right_by_class() && !alike.right());
     }
 
     #[test]

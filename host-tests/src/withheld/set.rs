@@ -169,6 +169,8 @@ mod tests {
             foreign: None,
             far_off: Vec::new(),
             about: BTreeMap::new(),
+            truth: None,
+            class: Vec::new(),
         }
     }
 

@@ -12,6 +12,7 @@ use ground_truth::sizing::{BOUNDS, Sized, Trial};
 
 use super::label::{Hidden, Label, Severity, Suite};
 use super::logged::{Logged, about, calmed, laboratory, life, ramped, set_speed, what_is_seen};
+use super::true_model::TrueModel;
 use super::turns;
 
 /// How many sessions of each suite.
@@ -101,10 +102,11 @@ impl Case {
         }
         plan.unrest = plan.unrest.map(|unrest| calmed(unrest, &trial));
         let mut setup = robot.truth.setup();
-        let mut hidden: Vec<Hidden> = Vec::new();
+        let (mut hidden, mut put): (Vec<Hidden>, Vec<(&Cause, Option<usize>)>) = (Vec::new(), Vec::new());
         for cause in causes {
             let one = self.hidden(cause, &trial, &mut drawn);
             (cause.put)(&mut setup, one.wheel, one.times);
+            put.push((cause, one.wheel));
             hidden.push(one);
         }
         hidden.sort_by(|a, b| b.gap.total_cmp(&a.gap));
@@ -118,6 +120,7 @@ impl Case {
             about.insert("foreign_times".to_owned(), sized.times.to_string());
             about.insert("foreign_gap".to_owned(), sized.gap.to_string());
         }
+        let truth = foreign.is_none().then(|| TrueModel::of(&robot.truth, &setup, &put));
         let label = Label {
             session: self.name(),
             suite: self.suite,
@@ -126,6 +129,8 @@ impl Case {
             foreign: foreign.map(|foreign| foreign.id.to_owned()),
             far_off: robot.far_off.map_or_else(Vec::new, |key| causes_of(key).map(str::to_owned).collect()),
             about,
+            truth,
+            class: Vec::new(),
         };
         (Session::logged((&robot.file, &setup), &plan, &logging, self.seed), label)
     }

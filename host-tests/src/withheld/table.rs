@@ -2,12 +2,15 @@
 
 use std::fmt::Write;
 
+use model_core::effects::card::Stage;
 use omni_gap::error::{Error, Result};
 use omni_gap::report::num;
 
 use super::answer::Answer;
+use super::closed::Closed;
 use super::contestant::{Contestant, Ended};
-use super::figures::{Figure, auroc, calibration_error, calibration_error_of_chance, figure, share};
+use super::figures::{Figure, figure, macro_share, share};
+use super::honest::{honest, percent as as_percent};
 use super::label::{Label, Severity, Suite};
 use super::scored::{Scored, stage_of};
 use super::set::{About, SetFolder};
@@ -22,7 +25,8 @@ pub fn scored(set: &SetFolder, contestant: &str) -> Result<Vec<Scored>> {
         let report = set.answers(contestant).join(&label.session).join("report.json");
         let text = std::fs::read_to_string(report).ok();
         let answer = if ended.failed.is_some() { None } else { text.and_then(|text| Answer::parse(&text).ok()) };
-        Some(Scored { label, ended, answer })
+        let closed = Closed::of(set, contestant, &label.session);
+        Some(Scored { label, ended, answer, closed })
     };
     let all: Vec<Scored> = set.labels()?.into_iter().filter_map(of).collect();
     if all.is_empty() {
@@ -50,8 +54,10 @@ const fn plain(name: &'static str, of: fn(&[Scored]) -> Option<Figure>) -> Colum
     Column { name, of, percent: false }
 }
 
-const COLUMNS: [Column; 12] = [
+const COLUMNS: [Column; 16] = [
     percent("right", |all| share(all, |one| Some(one.right()))),
+    percent("right, classes as one", by_class),
+    percent("macro recall", macro_recall),
     percent("another named", |all| share(all, |one| Some(one.names_another()))),
     percent("in the set", |all| share(all, Scored::in_set)),
     plain("causes in it", |all| figure(all, Scored::set_size)),
@@ -63,12 +69,38 @@ const COLUMNS: [Column; 12] = [
     percent("probability of the truth", |all| figure(all, |one| Some(one.probability()))),
     percent("failed", |all| share(all, |one| Some(one.answer.is_none()))),
     plain("time [s]", |all| figure(all, |one| Some(one.ended.seconds))),
+    plain("longest [s]", |all| most(all, |one| one.ended.seconds)),
+    plain("memory [MB]", |all| most(all, |one| one.ended.megabytes)),
 ];
 
+/// Where some label has a class.
+fn by_class(all: &[Scored]) -> Option<Figure> {
+    let some = all.iter().any(|one| !one.label.class.is_empty());
+    some.then(|| share(all, |one| Some(one.right_by_class())))?
+}
+
+/// Single causes that can be seen, each cause as much as any other.
+fn macro_recall(all: &[Scored]) -> Option<Figure> {
+    let mut causes: Vec<&str> = all.iter().filter_map(Scored::cause).collect();
+    causes.sort_unstable();
+    causes.dedup();
+    let of = |one: &Scored| Some((causes.binary_search(&one.cause()?).ok()?, one.right()));
+    let pairs: Vec<(usize, bool)> = all.iter().filter_map(of).collect();
+    macro_share(&pairs)
+}
+
+/// The most of all: no draw of sessions says how much more there could be.
+fn most(all: &[Scored], of: fn(&Scored) -> f64) -> Option<Figure> {
+    let most = all.iter().map(of).max_by(f64::total_cmp)?;
+    Some(Figure { mean: most, within: (most, most), count: all.len() })
+}
+
 fn cell(column: &Column, all: &[Scored]) -> String {
-    let Some(Figure { mean, within: (low, high), .. }) = (column.of)(all) else { return "–".to_owned() };
+    let Some(Figure { mean, within: (low, high), count }) = (column.of)(all) else { return "–".to_owned() };
     if column.percent {
-        format!("{:.0} % ({:.0}–{:.0})", 100.0 * mean, 100.0 * low, 100.0 * high)
+        as_percent(Some(Figure { mean, within: (low, high), count }))
+    } else if low == high {
+        num(mean)
     } else {
         format!("{} ({}–{})", num(mean), num(low), num(high))
     }
@@ -83,7 +115,8 @@ pub fn page(about: &About, contestants: &[(String, Vec<Scored>)]) -> String {
          (`BENCHMARK.md` has the rules). Split *{}*, seed {:016x}, recorded at commit {}.\n\n\
          *Right*: the hidden cause first, on its wheel; all of several; `unknown` of what no entry describes; `no_gap` of nothing,\n\
          and of a cause that no size within bounds makes visible. *Another named*: the first cause is none of the hidden ones.\n\
-         Figures about single causes leave out the invisible ones. Intervals are those of the bootstrap, 95 of 100.\n",
+         *Macro recall*: how often single causes are right, each cause as much as any other. *Memory* and *longest* are the most\n\
+         that a session took. Figures about single causes leave out the invisible ones. Intervals are those of the bootstrap, 95 of 100.\n",
         about.split, about.seed, about.commit
     );
     let of_suites = Suite::ALL.into_iter().map(|suite| (suite.name().to_owned(), Which::Suite(suite)));
@@ -91,23 +124,13 @@ pub fn page(about: &About, contestants: &[(String, Vec<Scored>)]) -> String {
         [Severity::Invisible, Severity::Weak, Severity::Medium, Severity::Strong].into_iter().map(|severity| {
             (format!("{severity:?}").to_lowercase() + " causes of laboratory and life", Which::Severity(severity))
         });
-    for (title, which) in std::iter::once(("all".to_owned(), Which::All)).chain(of_suites).chain(of_severity) {
+    let of_stage = Stage::ALL.into_iter().map(|stage| (format!("{} causes", stage.name()), Which::Stage(stage.name())));
+    let of_sensors = SENSORS.into_iter().map(|(key, title)| (format!("life without {title}"), Which::Without(key)));
+    let all = std::iter::once(("all".to_owned(), Which::All));
+    for (title, which) in all.chain(of_suites).chain(of_severity).chain(of_stage).chain(of_sensors) {
         section(&mut text, &title, which, contestants);
     }
-    text += "\n## How sure, how honest\n\n";
-    text += "| contestant | calibration error | of which chance | `unknown` tells what no entry describes (AUROC) | \
-             log-loss of the truth |\n|---|---|---|---|---|\n";
-    for (name, all) in contestants {
-        let stated: Vec<_> = all.iter().filter_map(Scored::stated).collect();
-        let unknown: Vec<_> = all.iter().filter_map(Scored::unknown).collect();
-        let area = auroc(&unknown)
-            .map_or("–".to_owned(), |area| format!("{:.2} ({:.2}–{:.2})", area.mean, area.within.0, area.within.1));
-        // a truth that is given no chance at all costs as much as one in a thousand
-        let loss =
-            figure(all, |one| Some(-one.probability().max(1e-3).ln())).map_or("–".to_owned(), |loss| num(loss.mean));
-        let (off, chance) = (calibration_error(&stated), calibration_error_of_chance(&stated));
-        writeln!(text, "| {name} | {off:.3} | {chance:.3} | {area} | {loss} |").expect(FITS);
-    }
+    honest(&mut text, contestants);
     if let Some((name, all)) = contestants.first() {
         text += &by_cause(name, all);
     }
@@ -122,13 +145,24 @@ enum Which {
     All,
     Suite(Suite),
     Severity(Severity),
+    /// Single causes of a stage that can be seen.
+    Stage(&'static str),
+    /// Logs as robots leave them, of which these signals are missing.
+    Without(&'static str),
 }
+
+/// Signals that some logs lack: as labels call them, and as people do.
+const SENSORS: [(&str, &str); 3] = [("currents", "currents"), ("wheel_speeds", "wheel speeds"), ("pose", "pose")];
 
 impl Which {
     fn has(self, one: &Scored) -> bool {
         match self {
             Which::All => true,
             Which::Suite(suite) => one.of(suite),
+            Which::Stage(stage) => one.cause().and_then(stage_of) == Some(stage),
+            Which::Without(key) => {
+                one.of(Suite::Life) && one.label.about.get(key).is_some_and(|logged| logged == "false")
+            }
             Which::Severity(severity) => {
                 let drawn = one.of(Suite::Laboratory) || one.of(Suite::Life);
                 drawn && one.single() && one.label.severity() == Some(severity)
