@@ -7,12 +7,16 @@ use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand, ValueEnum};
 use host_tests::golden;
+use host_tests::withheld::classes::class;
 use host_tests::withheld::closed::Closed;
 use host_tests::withheld::contestant::{Contestant, Ended};
+use host_tests::withheld::picture;
+use host_tests::withheld::scored::Scored;
 use host_tests::withheld::set::{About, SetFolder};
 use host_tests::withheld::suites::{Case, REDUCED, WHOLE, cases};
 use host_tests::withheld::table;
 use omni_gap::error::{Error, Result};
+use omni_gap::log::write_whole;
 use rayon::prelude::*;
 
 /// The seed of the split that anybody may tune on.
@@ -94,8 +98,7 @@ fn main() -> ExitCode {
         }
         Errand::Close { set, name } => close(&SetFolder(set), &name),
         Errand::Score { set, name } => page(&SetFolder(set), &[name]).map(|page| println!("{page}")),
-        Errand::Table { set, names } => page(&SetFolder(set), &names)
-            .and_then(|page| golden::record("withheld.md", &page, "cargo xtask bench table SET NAME...")),
+        Errand::Table { set, names } => lay_table(&SetFolder(set), &names),
     };
     golden::exit(done.map(|()| true))
 }
@@ -112,9 +115,10 @@ fn make(set: &SetFolder, split: SplitName) -> Result<()> {
     let all = cases(&sizes, seed, matches!(split, SplitName::Fresh));
     let missing: Vec<&Case> = all.iter().filter(|case| set.label(&case.name()).is_none()).collect();
     missing.par_iter().try_for_each(|case| {
-        let (session, label) = case.made();
+        let (session, mut label) = case.made();
         let folder = set.session(&case.name());
         session.write(&folder).map_err(|why| Error::output(&folder, why.to_string(), "Make room"))?;
+        label.class = class(&folder, &label)?;
         // last, so that a session without it is made anew
         set.put_label(&label)
     })?;
@@ -149,7 +153,17 @@ fn close(set: &SetFolder, name: &str) -> Result<()> {
     Ok(())
 }
 
+fn answers(set: &SetFolder, names: &[String]) -> Result<Vec<(String, Vec<Scored>)>> {
+    names.iter().map(|name| table::scored(set, name).map(|scored| (name.clone(), scored))).collect()
+}
+
 fn page(set: &SetFolder, names: &[String]) -> Result<String> {
-    let all = names.iter().map(|name| table::scored(set, name).map(|scored| (name.clone(), scored)));
-    Ok(table::page(&set.about()?, &all.collect::<Result<Vec<_>>>()?))
+    Ok(table::page(&set.about()?, &answers(set, names)?))
+}
+
+/// The table and its pictures.
+fn lay_table(set: &SetFolder, names: &[String]) -> Result<()> {
+    let (about, all) = (set.about()?, answers(set, names)?);
+    golden::record("withheld.md", &table::page(&about, &all), "cargo xtask bench table SET NAME...")?;
+    write_whole(&golden::path("withheld.html"), picture::page(&about, &all).as_bytes())
 }

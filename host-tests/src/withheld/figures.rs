@@ -94,7 +94,7 @@ pub fn auroc(scored: &[(f64, bool)]) -> Option<Figure> {
 }
 
 /// Bins of equal numbers of answers for [`calibration_error`].
-const BINS: usize = 15;
+pub(super) const BINS: usize = 15;
 
 /// How far stated probabilities are from how often they come true, over bins of equal numbers of answers [1].
 pub fn calibration_error(stated: &[(f64, bool)]) -> f64 {

@@ -6,6 +6,7 @@
 //! intervals beside one another. `cargo xtask bench make | run | score | table`; the rules stand in `BENCHMARK.md`.
 
 pub mod answer;
+pub mod classes;
 pub mod closed;
 pub mod contestant;
 pub mod estimates;
@@ -13,6 +14,7 @@ pub mod figures;
 pub mod honest;
 pub mod label;
 mod logged;
+pub mod picture;
 pub mod scored;
 pub mod selective;
 pub mod set;

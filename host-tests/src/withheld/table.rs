@@ -12,6 +12,7 @@ use super::contestant::{Contestant, Ended};
 use super::figures::{Figure, figure, macro_share, share};
 use super::honest::{honest, percent as as_percent};
 use super::label::{Label, Severity, Suite};
+use super::picture::answered;
 use super::scored::{Scored, stage_of};
 use super::set::{About, SetFolder};
 
@@ -214,17 +215,4 @@ fn by_cause(name: &str, all: &[Scored]) -> String {
         writeln!(text, "| `{cause}` | {stage} | {} | {right} | {named} | {most} |", of.len()).expect(FITS);
     }
     text
-}
-
-/// What was answered, in a word.
-fn answered(one: &Scored) -> String {
-    match &one.answer {
-        None => "failed".to_owned(),
-        Some(answer) => answer.causes.first().cloned().unwrap_or_else(|| {
-            serde_json::to_value(answer.verdict)
-                .ok()
-                .and_then(|word| word.as_str().map(str::to_owned))
-                .unwrap_or_default()
-        }),
-    }
 }

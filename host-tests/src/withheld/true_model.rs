@@ -88,6 +88,11 @@ impl TrueModel {
 
 const FITS: &str = "a string takes any text";
 
+/// The keys of the robot file whose numbers are wrong by a cause that is nothing else.
+pub fn number_keys(cause: &str) -> &'static [&'static str] {
+    ground_truth::causes::cause(cause).map_or(&[], |cause| cause.keys)
+}
+
 /// Reads a robot file that may have any sizes of effects, and as many of them as a model has room for.
 ///
 /// # Errors
