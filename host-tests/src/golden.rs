@@ -78,7 +78,8 @@ pub fn full_commit() -> Option<String> {
     git(&["rev-parse", "HEAD"])
 }
 
-fn git(arguments: &[&str]) -> Option<String> {
+/// What git says, of this tree; none where it does not know.
+pub(crate) fn git(arguments: &[&str]) -> Option<String> {
     let done = Command::new("git").args(arguments).current_dir(env!("CARGO_MANIFEST_DIR")).output().ok()?;
     done.status.success().then(|| String::from_utf8_lossy(&done.stdout).trim().to_owned())
 }

@@ -1,5 +1,5 @@
 //! The benchmark with the effect withheld: makes a set of sessions, lets contestants answer it, scores them, and lays the
-//! table. `cargo xtask bench make|run|score|table`; `BENCHMARK.md` has the rules.
+//! table. `cargo xtask bench help`; `BENCHMARK.md` has the rules.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -10,6 +10,8 @@ use host_tests::golden;
 use host_tests::withheld::classes::class;
 use host_tests::withheld::closed::Closed;
 use host_tests::withheld::contestant::{Contestant, Ended};
+use host_tests::withheld::frozen::{Frozen, built};
+use host_tests::withheld::ledger;
 use host_tests::withheld::picture;
 use host_tests::withheld::scored::Scored;
 use host_tests::withheld::set::{About, SetFolder};
@@ -21,6 +23,9 @@ use rayon::prelude::*;
 
 /// The seed of the split that anybody may tune on.
 const TUNING_SEED: u64 = 2008;
+
+/// The most that a session may take where nothing else is said [s]
+const MOST_SECONDS: u64 = 120;
 
 #[derive(Parser)]
 #[command(name = "cargo xtask bench", about = "The benchmark with the effect withheld")]
@@ -47,7 +52,7 @@ enum Errand {
         #[arg(long)]
         name: String,
         /// The most that a session may take, in seconds
-        #[arg(long, default_value_t = 120)]
+        #[arg(long, default_value_t = MOST_SECONDS)]
         seconds: u64,
         /// Only every so many-th session
         #[arg(long, default_value_t = 1)]
@@ -70,7 +75,25 @@ enum Errand {
         /// Its name
         name: String,
     },
-    /// Lay the table of some contestants and keep it
+    /// Build the engine of a commit beside this tree, and let it answer what it has not answered yet
+    Frozen {
+        /// Folder of the set
+        set: PathBuf,
+        /// Its commit
+        commit: String,
+        /// Only every so many-th session
+        #[arg(long, default_value_t = 1)]
+        every: usize,
+    },
+    /// Add what some contestants came to on a fresh split to the ledger
+    Ledger {
+        /// Folder of the set
+        set: PathBuf,
+        /// Their names
+        #[arg(required = true)]
+        names: Vec<String>,
+    },
+    /// Lay the table of some contestants and keep it, with its pictures
     Table {
         /// Folder of the set
         set: PathBuf,
@@ -98,6 +121,11 @@ fn main() -> ExitCode {
         }
         Errand::Close { set, name } => close(&SetFolder(set), &name),
         Errand::Score { set, name } => page(&SetFolder(set), &[name]).map(|page| println!("{page}")),
+        Errand::Frozen { set, commit, every } => built(&commit).and_then(|Frozen { name, command }| {
+            println!("{name}");
+            run(&SetFolder(set), &Contestant { name, command, most: Duration::from_secs(MOST_SECONDS) }, every)
+        }),
+        Errand::Ledger { set, names } => enter(&SetFolder(set), &names),
         Errand::Table { set, names } => lay_table(&SetFolder(set), &names),
     };
     golden::exit(done.map(|()| true))
@@ -166,4 +194,14 @@ fn lay_table(set: &SetFolder, names: &[String]) -> Result<()> {
     let (about, all) = (set.about()?, answers(set, names)?);
     golden::record("withheld.md", &table::page(&about, &all), "cargo xtask bench table SET NAME...")?;
     write_whole(&golden::path("withheld.html"), picture::page(&about, &all).as_bytes())
+}
+
+/// A line more in the ledger for each of them.
+fn enter(set: &SetFolder, names: &[String]) -> Result<()> {
+    let place = golden::path("withheld-ledger.md");
+    // the first line makes the file
+    let before = std::fs::read_to_string(&place).unwrap_or_default();
+    let after = ledger::added(&before, &set.about()?, &answers(set, names)?)
+        .map_err(|why| Error::input(&place, why, "Make a fresh split of this commit: cargo xtask bench make"))?;
+    write_whole(&place, after.as_bytes())
 }

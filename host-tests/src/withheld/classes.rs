@@ -112,7 +112,7 @@ mod tests {
     fn a_class_grows_as_its_cause_gets_smaller_and_never_holds_the_cause() {
         let of = |number: usize| Case { suite: Suite::Laboratory, number, seed: 5, fresh: false };
         let (session, label) =
-            (0..).map(|number| of(number).made()).find(|(_, label)| label.hidden[0].cause == "creep").expect("a turn");
+            (11..).map(|number| of(number).made()).find(|(_, label)| label.hidden[0].cause == "creep").expect("a turn");
         let folder = tempfile::tempdir().expect("a folder");
         session.write(folder.path()).expect("room");
         let large = class(folder.path(), &label).expect("a session");

@@ -81,7 +81,7 @@ fn by_class(all: &[Scored]) -> Option<Figure> {
 }
 
 /// Single causes that can be seen, each cause as much as any other.
-fn macro_recall(all: &[Scored]) -> Option<Figure> {
+pub(super) fn macro_recall(all: &[Scored]) -> Option<Figure> {
     let mut causes: Vec<&str> = all.iter().filter_map(Scored::cause).collect();
     causes.sort_unstable();
     causes.dedup();

@@ -5,14 +5,14 @@ use std::fmt::Write;
 use super::super::figures::BINS;
 use super::super::scored::Scored;
 use super::super::selective::risks;
-use super::{FITS, escaped};
+use super::words::{FITS, escaped};
 
 /// Room to the left of and below the square, and its side [px].
 const LEFT: f64 = 44.0;
 const TOP: f64 = 26.0;
 const SIDE: f64 = 300.0;
 const BELOW: f64 = 40.0;
-const RIGHT: f64 = 16.0;
+const RIGHT: f64 = 26.0;
 
 type Named = (String, Vec<Scored>);
 
@@ -55,21 +55,36 @@ fn framed(title: &str, x: &str, y: &str, inside: &str) -> String {
     svg + inside + "</svg>\n"
 }
 
+/// Bins that state the same, to within this, are one point [1].
+const SAME: f64 = 0.01;
+
+/// What was held most likely in bins of equal numbers, how often that came true [1], and of how many.
+fn bins(all: &[Scored]) -> Vec<(f64, f64, usize)> {
+    let mut stated: Vec<(f64, bool)> = all.iter().filter_map(Scored::stated).collect();
+    stated.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut bins: Vec<(f64, f64, usize)> = Vec::new();
+    for bin in stated.chunks(stated.len().div_ceil(BINS).max(1)) {
+        let (hoped, came): (f64, usize) =
+            bin.iter().fold((0.0, 0), |(hoped, came), (p, so)| (hoped + p, came + usize::from(*so)));
+        let now = (hoped / bin.len() as f64, came as f64 / bin.len() as f64, bin.len());
+        match bins.last_mut() {
+            Some(last) if now.0 - last.0 < SAME => {
+                let (was, more) = (last.2 as f64, now.2 as f64);
+                let mean = |a: f64, b: f64| (a * was + b * more) / (was + more);
+                *last = (mean(last.0, now.0), mean(last.1, now.1), last.2 + now.2);
+            }
+            _ => bins.push(now),
+        }
+    }
+    bins
+}
+
 /// What each holds most likely, in bins of equal numbers, against how often that came true.
 pub fn reliability(contestants: &[Named]) -> String {
     let mut inside = format!("<path class=\"ideal\" d=\"{}\"/>\n", path([(0.0, 0.0), (1.0, 1.0)].into_iter()));
     // the first on top
     for (k, (name, all)) in contestants.iter().enumerate().rev() {
-        let mut stated: Vec<(f64, bool)> = all.iter().filter_map(Scored::stated).collect();
-        stated.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let bins: Vec<(f64, f64, usize)> = stated
-            .chunks(stated.len().div_ceil(BINS).max(1))
-            .map(|bin| {
-                let count = bin.len() as f64;
-                let came = bin.iter().filter(|(_, so)| *so).count() as f64 / count;
-                (bin.iter().map(|(p, _)| p).sum::<f64>() / count, came, bin.len())
-            })
-            .collect();
+        let bins = bins(all);
         let line = path(bins.iter().map(|(p, came, _)| (*p, *came)));
         writeln!(inside, "<path class=\"line l{k}\" d=\"{line}\"/>").expect(FITS);
         for (p, came, count) in bins.iter().filter(|_| k == 0) {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::super::label::Severity;
 use super::super::scored::{Scored, stage_of};
-use super::{FITS, answered, escaped};
+use super::words::{FITS, answered, escaped};
 use model_core::effects::EffectKind;
 use model_core::effects::card::Stage;
 use model_core::effects::nominal::NOMINAL;

@@ -3,14 +3,16 @@
 mod curves;
 mod matrix;
 mod recall;
+mod words;
 
 use std::fmt::Write;
 
 use super::honest::Contestants;
 use super::scored::Scored;
 use super::set::About;
+use words::{FITS, escaped};
 
-const FITS: &str = "a string takes any text";
+pub(super) use words::answered;
 
 /// How many lines can be told apart in one picture.
 const LINES: usize = 6;
@@ -55,24 +57,6 @@ fn legend(html: &mut String, contestants: &[(String, Vec<Scored>)]) {
         writeln!(html, "<li>{line}{}</li>", escaped(name)).expect(FITS);
     }
     *html += "</ul>\n";
-}
-
-/// Text as it may stand in HTML.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// What was answered first, in a word.
-pub(super) fn answered(one: &Scored) -> String {
-    match &one.answer {
-        None => "failed".to_owned(),
-        Some(answer) => answer.causes.first().cloned().unwrap_or_else(|| {
-            serde_json::to_value(answer.verdict)
-                .ok()
-                .and_then(|word| word.as_str().map(str::to_owned))
-                .unwrap_or_default()
-        }),
-    }
 }
 
 #[cfg(test)]

@@ -3,13 +3,13 @@
 use std::fmt::Write;
 
 use super::super::scored::{Scored, stage_of};
-use super::{FITS, escaped};
+use super::words::{FITS, escaped};
 use model_core::effects::card::Stage;
 
 /// A row, the room for names to the left of bars and for counts to the right, and the longest bar [px].
 const ROW: usize = 16;
-const LEFT: usize = 142;
-const BAR: usize = 190;
+const LEFT: usize = 168;
+const BAR: usize = 172;
 const RIGHT: usize = 48;
 const TOP: usize = 24;
 
