@@ -198,10 +198,14 @@ fn lay_table(set: &SetFolder, names: &[String]) -> Result<()> {
 
 /// A line more in the ledger for each of them.
 fn enter(set: &SetFolder, names: &[String]) -> Result<()> {
-    let place = golden::path("withheld-ledger.md");
-    // the first line makes the file
-    let before = std::fs::read_to_string(&place).unwrap_or_default();
-    let after = ledger::added(&before, &set.about()?, &answers(set, names)?)
+    let place = golden::path(LEDGER);
+    // the first line makes the file; below the last one stands who made it
+    let page = std::fs::read_to_string(&place).unwrap_or_default();
+    let lines = &page[..page.rfind("\n---\n").unwrap_or(page.len())];
+    let after = ledger::added(lines, &set.about()?, &answers(set, names)?)
         .map_err(|why| Error::input(&place, why, "Make a fresh split of this commit: cargo xtask bench make"))?;
-    write_whole(&place, after.as_bytes())
+    golden::record(LEDGER, &after, "cargo xtask bench ledger SET NAME...")
 }
+
+/// The page of the ledger.
+const LEDGER: &str = "withheld-ledger.md";
