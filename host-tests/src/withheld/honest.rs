@@ -115,13 +115,15 @@ fn how_far(text: &mut String, contestants: &Contestants) {
         let after = sigmas(median_of(&all, |one| Some(of(one)?.after)));
         let closed = percent(median_of(&all, |one| of(one)?.share()));
         let most = percent(share(&all, |one| Some(of(one)?.share()? >= 0.95)));
-        let claims = percent(share(&all, |one| of(one)?.claim_holds()));
+        // where no cause is named, a claim is about a re-fit, of which no file is left
+        let named = |one: &Scored| one.answer.as_ref().is_some_and(|answer| !answer.causes.is_empty());
+        let claims = percent(share(&all, |one| if named(one) { of(one)?.claim_holds() } else { None }));
         (name.clone(), vec![all.len().to_string(), before(&all), after, closed, most, claims])
     };
     let words = "Free runs of half a second, driven by the scorer itself: under the robot file that was given, under the corrected one\n\
                  (the given one where there is none), and under the true model. Medians over sessions with a hidden cause of which\n\
                  the true model closes at least 0.1 σ, causes whose law the recording simulator has of its own left out. A claim\n\
-                 is true where the report's own `closed` is within five points of what was found.";
+                 of a report that names a cause is true where its own `closed` is within five points of what was found.";
     let heads =
         ["sessions", "before [σ]", "after [σ]", "of what the true model closes", "95 of 100 or more", "claims true"];
     table(text, "How far the gap shrinks", words, &heads, oracle.into_iter().chain(contestants.iter().map(row)));
@@ -177,4 +179,76 @@ pub fn paired<'a>(ours: &'a [Scored], theirs: &'a [Scored]) -> Vec<(&'a Scored, 
 pub fn difference(pairs: &[(&Scored, &Scored)], of: impl Fn(&Scored) -> Option<f64>) -> Option<Figure> {
     let all: Vec<f64> = pairs.iter().filter_map(|(a, b)| Some(of(b)? - of(a)?)).collect();
     of_sample(&all, |sample| sample.iter().sum::<f64>() / sample.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::super::answer::Answer;
+    use super::super::closed::Closed;
+    use super::super::contestant::Ended;
+    use super::super::label::{Hidden, Label, Suite};
+    use super::super::true_model::TrueModel;
+    use super::*;
+
+    /// A session that hides `creep`, answered with a probability of it, and a gap of 5 σ of which 1 σ is left at the best.
+    fn scored(session: &str, probability: f64, after: f64, own_laws: &[&str]) -> Scored {
+        let own_laws = own_laws.iter().map(|id| (*id).to_owned()).collect();
+        let label = Label {
+            session: session.to_owned(),
+            suite: Suite::Laboratory,
+            seed: 0,
+            hidden: vec![Hidden { cause: "creep".to_owned(), wheel: None, times: 1.0, gap: 5.0 }],
+            foreign: None,
+            far_off: Vec::new(),
+            about: BTreeMap::new(),
+            truth: Some(TrueModel { robot: String::new(), own_laws, out_of_bounds: Vec::new() }),
+            class: Vec::new(),
+        };
+        let (first, rest) = (if probability > 0.5 { "creep" } else { "backlash" }, 1.0 - probability);
+        let said = format!(
+            r#"{{"verdict": "effect", "causes": ["{first}"], "which": [{{"cause": "creep", "probability": {probability}}},
+            {{"cause": "backlash", "probability": {rest}}}]}}"#
+        );
+        let closed = Closed { runs: 1, before: 5.0, after, truth: Some(1.0), claimed: Some(0.75), note: None };
+        Scored {
+            label,
+            ended: Ended { failed: None, seconds: 1.0, megabytes: 1.0 },
+            answer: Some(Answer::parse(&said).expect("a good answer")),
+            closed: Some(closed),
+        }
+    }
+
+    #[test]
+    fn contestants_are_compared_on_what_both_were_asked() {
+        let ours = [scored("a", 0.9, 2.0, &[]), scored("b", 0.2, 5.0, &[]), scored("c", 0.9, 1.0, &[])];
+        let theirs = [scored("b", 0.8, 1.0, &[]), scored("a", 0.6, 1.0, &[]), scored("d", 0.1, 1.0, &[])];
+        let pairs = paired(&ours, &theirs);
+        assert_eq!(pairs.len(), 2);
+        // −0.3 of a, +0.6 of b
+        let found = difference(&pairs, |one| Some(one.probability())).expect("pairs");
+        assert!((found.mean - 0.15).abs() < 1e-12 && found.count == 2, "{found:?}");
+        let right = difference(&pairs, |one| Some(f64::from(u8::from(one.right())))).expect("pairs");
+        assert_eq!((right.mean, right.within), (0.5, (0.0, 1.0)));
+    }
+
+    #[test]
+    fn what_is_closed_is_a_median_of_what_the_true_model_could() {
+        // three quarters, nothing, all, and one of another law
+        let all = [
+            scored("a", 0.9, 2.0, &[]),
+            scored("b", 0.9, 5.0, &[]),
+            scored("c", 0.9, 1.0, &[]),
+            scored("d", 0.9, 0.5, &["creep"]),
+        ];
+        assert_eq!(closable(&all).len(), 3);
+        let mut text = String::new();
+        how_far(&mut text, &[("us".to_owned(), all.to_vec())]);
+        let row = text.lines().find(|line| line.starts_with("| us")).expect("a row");
+        assert!(
+            row.starts_with("| us | 3 | 5.00") && row.contains("| 75 % (0–100) | 33 % (0–100) | 33 % (0–100) |"),
+            "{row}"
+        );
+    }
 }
