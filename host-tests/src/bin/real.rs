@@ -10,11 +10,10 @@ use host_tests::golden::record;
 use host_tests::real::page::{page, warning};
 use host_tests::real::sessions::SESSIONS;
 use omni_gap::report::terminal;
-use omni_gap::{Diagnosis, Error, Options};
 
 fn main() -> ExitCode {
     let Some(folder) = std::env::args_os().nth(1).map(PathBuf::from) else {
-        eprintln!("no folder of recordings: name the one that holds robotino/ and ssl2018/");
+        eprintln!("no folder of recordings: name the one that holds robotino/, ssl2018/ and kiwi2026/");
         return ExitCode::from(2);
     };
     match diagnosed(&folder) {
@@ -26,16 +25,12 @@ fn main() -> ExitCode {
     }
 }
 
-fn diagnosed(folder: &Path) -> Result<(), Error> {
+fn diagnosed(folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
     let mut answered = Vec::new();
     for real in SESSIONS {
         println!("{}: {}", real.title, real.recorded);
-        let session = real.session(folder)?;
         let start = Instant::now();
-        let mut report = Diagnosis::of(&session, &Options::default()).report;
-        // where the recordings lie on this machine is nobody's business
-        let place = format!("{}/", folder.display());
-        report.notices.iter_mut().for_each(|notice| *notice = notice.replace(&place, ""));
+        let report = real.answered(folder)?.report;
         println!("{}{:.1} s", terminal(&report, None), start.elapsed().as_secs_f64());
         if let Some(warning) = warning(&real, &report) {
             println!("warning: {warning}");
@@ -43,5 +38,6 @@ fn diagnosed(folder: &Path) -> Result<(), Error> {
         println!();
         answered.push((real, report));
     }
-    record("real.md", &page(&answered), "cargo xtask real FOLDER")
+    record("real.md", &page(&answered)?, "cargo xtask real FOLDER")?;
+    Ok(())
 }

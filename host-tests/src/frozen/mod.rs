@@ -14,7 +14,7 @@ use omni_gap::{Diagnosis, Options, Report, Session};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use crate::real::sessions::SESSIONS;
+use crate::real::sessions::{Answered, RealSession, SESSIONS};
 use recordings::FrozenCase;
 
 /// The file of the recordings that are made here.
@@ -43,12 +43,10 @@ pub fn answers(recordings: &[FrozenCase]) -> Result<Vec<Value>> {
 /// # Errors
 /// Where one of them is not there or not sound.
 pub fn real_answers(folder: &std::path::Path) -> Result<Vec<Value>> {
-    // where the recordings lie on this machine is nobody's business
-    let place = format!("{}/", folder.display());
-    let answered = |real: &crate::real::sessions::RealSession| -> Result<Value> {
-        let mut session = real.session(folder)?;
-        session.notices.iter_mut().for_each(|notice| *notice = notice.replace(&place, ""));
-        Ok(answer(real.title, &session))
+    let answered = |real: &RealSession| -> Result<Value> {
+        let Answered { report, corrected_robot } = real.answered(folder)?;
+        let report = Report { engine: None, ..report };
+        Ok(json!({ "recording": real.title, "report": report, "corrected_robot": corrected_robot }))
     };
     SESSIONS.par_iter().map(answered).collect()
 }

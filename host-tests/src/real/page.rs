@@ -4,6 +4,8 @@ use std::fmt::Write;
 
 use omni_gap::report::{Report, Which, estimate, num, percent};
 
+use super::known::Known;
+use super::score::{Score, row, scored};
 use super::sessions::{RealSession, judged};
 use crate::catalogue::page::{plain, word};
 
@@ -15,17 +17,50 @@ const TOO_SMALL: &str = ": at its typical size";
 
 const OPENING: &str = "# What the diagnosis says of real robots
 
-Two public recordings, both under the Apache licence 2.0: a Festo Robotino v2 with three omni wheels
-(github.com/BrOleg5/research-wheel-slippage) and a small-size robot of RoboJackets with four
-(github.com/RoboJackets/robocup-firmware-data). They are read through the robot files and mappings in `examples/`; no code
-was made for them. Nobody knows the truth of a real robot, so below each answer stands whether it is to be believed.
+Public recordings of three robots: a Festo Robotino v2 with three omni wheels (github.com/BrOleg5/research-wheel-slippage,
+Apache licence 2.0), a small-size robot of RoboJackets with four (github.com/RoboJackets/robocup-firmware-data, Apache licence
+2.0), and a kiwi robot built for a thesis (github.com/MaverickST/mobile-robot-estimation-suite, MIT licence). They are read
+through the robot files and mappings in `examples/`; no code was made for them.
 
-`cargo xtask real FOLDER` makes this page again, where FOLDER holds the recordings as `robotino/` and `ssl2018/`.
+Nobody knows the truth of a real robot. But some of it was published by those who recorded it, and some can be measured in the
+recordings without any model: that was written down (`host-tests/src/real/known/`, each line with its source) before an answer
+was looked at, and every answer is scored by it. *Right*: a verdict, causes and a stage that may be, with all that have to be
+there. *Partly*: some of that, and nothing impossible for sure. *Wrong*: the rest. Below each answer stands what a person
+thinks of it.
+
+Three robots prove little: this is an anecdote, told because the rest of the proof is of simulated robots.
+
+`cargo xtask real FOLDER` makes this page again, where FOLDER holds the recordings as `robotino/`, `ssl2018/` and `kiwi2026/`.
+";
+
+const TABLE: &str = "
+| recordings | answer | its probability | score | what speaks against it |
+|---|---|---|---|---|
 ";
 
 /// The whole page, of sessions and their answers.
-pub fn page(answered: &[(RealSession, Report)]) -> String {
-    answered.iter().fold(OPENING.to_owned(), |text, (real, report)| text + &section(real, report))
+///
+/// # Errors
+/// Where a file of what is known is not sound.
+pub fn page(answered: &[(RealSession, Report)]) -> Result<String, String> {
+    let mut table = TABLE.to_owned();
+    let mut counts = [0; 3];
+    let mut sure = 0;
+    for (real, report) in answered {
+        let scored = scored(&Known::read(real.known)?, report);
+        counts[scored.score as usize] += 1;
+        sure += usize::from(scored.is_wrong_and_sure());
+        let [score, confidence, against] = row(&scored);
+        let answer = answer(report);
+        let _ = writeln!(table, "| {} | {answer} | {} | {score} | {against} |", real.title, plain(&confidence));
+    }
+    let [right, partly, wrong] = [Score::Right, Score::Partly, Score::Wrong].map(|score| counts[score as usize]);
+    let _ = writeln!(table, "\n{right} right, {partly} partly, {wrong} wrong, of these {sure} sure of it.");
+    let mut text = OPENING.to_owned() + &table;
+    for (real, report) in answered {
+        text += &section(real, report, &Known::read(real.known)?);
+    }
+    Ok(text)
 }
 
 /// The answer in a line, as a judgement names it: the verdict with its causes, or with the cause that came closest.
@@ -45,12 +80,14 @@ pub fn warning(real: &RealSession, report: &Report) -> Option<String> {
     (of != is).then(|| format!("This was written of the answer \"{of}\"; the answer is now \"{is}\": judge it again."))
 }
 
-fn section(real: &RealSession, report: &Report) -> String {
+fn section(real: &RealSession, report: &Report, known: &Known) -> String {
     let mut text = format!("\n## {}\n\n", real.title);
     let mut line = |label: &str, said: &str| {
         let _ = writeln!(text, "- **{label}**: {}", plain(said));
     };
     line("recorded", &format!("{} (`{}`)", real.recorded, real.folder));
+    known.known.iter().for_each(|fact| line("known", &format!("{} ({})", fact.what, fact.source)));
+    known.changed.iter().for_each(|why| line("known, changed since", why));
     line("verdict", &format!("`{}`", word(report.verdict)));
     for place in &report.where_ {
         let wheel = place.wheel.map_or(String::new(), |wheel| format!(", wheel {wheel}"));

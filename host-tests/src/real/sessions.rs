@@ -2,13 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
+use omni_gap::engine::Findings;
 use omni_gap::error::Result;
-use omni_gap::known_effects;
 use omni_gap::log::Session;
+use omni_gap::report::{About, Fault};
+use omni_gap::{Diagnosis, Error, Options, Report, known_effects};
+
+mod list;
+pub use list::SESSIONS;
 
 /// A session made of real recordings.
 #[derive(Clone, Copy, Debug)]
 pub struct RealSession {
+    /// Its name for programs: that of its file in `known/`.
+    pub key: &'static str,
     /// Its name.
     pub title: &'static str,
     /// What was recorded, in a line.
@@ -19,86 +26,89 @@ pub struct RealSession {
     pub folder: &'static str,
     /// The recordings, in the order of the session's runs.
     pub files: &'static [&'static str],
+    /// What another clock recorded of each run, from the same folder: a run is then a folder of two files. Or nothing.
+    pub beside: &'static [&'static str],
+    /// What is known of it from elsewhere: a file that [`Known`](super::known::Known) reads.
+    pub known: &'static str,
     /// What a person thinks of the answer. The first line says of which answer: [`judged`].
     pub judgement: &'static str,
 }
 
-/// One run every 45 degrees of travel.
-const EVERY_45_DEGREES: &[&str] =
-    &["exp00.csv", "exp09.csv", "exp18.csv", "exp27.csv", "exp36.csv", "exp45.csv", "exp54.csv", "exp63.csv"];
-
-/// All sessions.
-pub const SESSIONS: [RealSession; 5] = [
-    RealSession {
-        title: "Robotino on a table",
-        recorded: "three wheels, a drive that controls speed, 0.1 m/s on a hard table, 8 runs, one every 45 degrees",
-        example: "robotino",
-        folder: "robotino/table",
-        files: EVERY_45_DEGREES,
-        judgement: include_str!("../../golden/real-judgement/robotino-table.md"),
-    },
-    RealSession {
-        title: "Robotino on carpet, slow",
-        recorded: "the same robot at 0.1 m/s on grey carpet, 8 runs, one every 45 degrees",
-        example: "robotino",
-        folder: "robotino/gray_0.1",
-        files: EVERY_45_DEGREES,
-        judgement: include_str!("../../golden/real-judgement/robotino-carpet-slow.md"),
-    },
-    RealSession {
-        title: "Robotino on carpet, fast",
-        recorded: "the same robot at 0.3 m/s on grey carpet, 12 runs, one every 30 degrees",
-        example: "robotino",
-        folder: "robotino/gray_0.3",
-        files: &[
-            "exp144.csv",
-            "exp150.csv",
-            "exp156.csv",
-            "exp162.csv",
-            "exp168.csv",
-            "exp174.csv",
-            "exp180.csv",
-            "exp186.csv",
-            "exp192.csv",
-            "exp198.csv",
-            "exp204.csv",
-            "exp210.csv",
-        ],
-        judgement: include_str!("../../golden/real-judgement/robotino-carpet-fast.md"),
-    },
-    RealSession {
-        title: "Robotino with its wheels lifted",
-        recorded: "the same robot on a stand, set speeds in stairs, 3 runs, no camera",
-        example: "robotino",
-        folder: "robotino/motors",
-        files: &[
-            "data_for_identification_with_integral.csv",
-            "data_for_identification_without_integral.csv",
-            "validation_data.csv",
-        ],
-        judgement: include_str!("../../golden/real-judgement/robotino-motors.md"),
-    },
-    RealSession {
-        title: "RoboJackets 2018",
-        recorded: "four wheels, brushless motors driven by open-loop duty, 3 runs, wheel speeds only",
-        example: "ssl2018",
-        folder: "ssl2018",
-        files: &["excite_1", "excite_2", "excite_3_vely"],
-        judgement: include_str!("../../golden/real-judgement/ssl2018.md"),
-    },
-];
+/// An answer to a session.
+#[derive(Clone, Debug)]
+pub struct Answered {
+    /// The report.
+    pub report: Report,
+    /// The robot file with the causes written in; none where the recordings were refused.
+    pub corrected_robot: Option<String>,
+}
 
 impl RealSession {
-    /// Reads it from a folder of recordings.
+    /// Diagnoses it from a folder of recordings. Recordings that cannot be read are answered as a person sees it who is told
+    /// why: the verdict is `unfit_data`.
     ///
     /// # Errors
-    /// Where a file is not there or not sound.
-    pub fn session(&self, recordings: &Path) -> Result<Session> {
-        let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples").join(self.example);
-        let runs: Vec<PathBuf> = self.files.iter().map(|file| recordings.join(self.folder).join(file)).collect();
-        let (robot, columns) = (example.join("robot.toml"), example.join("columns.toml"));
-        Session::load_from(&robot, Some(&columns), &runs, &known_effects())
+    /// Where a file is not there.
+    pub fn answered(&self, recordings: &Path) -> Result<Answered> {
+        let folder = recordings.join(self.folder);
+        let runs: Vec<PathBuf> = self.files.iter().map(|file| folder.join(file)).collect();
+        let beside: Vec<PathBuf> = self.beside.iter().map(|file| folder.join(file)).collect();
+        if let Some(missing) = runs.iter().chain(&beside).find(|path| !path.is_file()) {
+            return Err(Error::input(missing, "there is no such recording", "Name the folder that holds it"));
+        }
+        let not_written =
+            |why: std::io::Error| Error::output(&std::env::temp_dir(), why.to_string(), "Make room there");
+        let together = tempfile::tempdir().map_err(not_written)?;
+        let (read_from, runs) = match beside.is_empty() {
+            true => (recordings, runs),
+            false => (together.path(), laid_together(together.path(), &runs, &beside).map_err(not_written)?),
+        };
+        let answered = match self.session(&runs) {
+            Ok(session) => {
+                let Diagnosis { report, corrected_robot, .. } = Diagnosis::of(&session, &Options::default());
+                Answered { report, corrected_robot: Some(corrected_robot) }
+            }
+            Err(why) => Answered { report: refused(&why), corrected_robot: None },
+        };
+        Ok(Answered { report: without_place(answered.report, read_from), ..answered })
     }
+
+    fn session(&self, runs: &[PathBuf]) -> Result<Session> {
+        let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples").join(self.example);
+        let (robot, columns) = (example.join("robot.toml"), example.join("columns.toml"));
+        Session::load_from(&robot, Some(&columns), runs, &known_effects())
+    }
+}
+
+/// A folder for each run with its files in it.
+fn laid_together(into: &Path, runs: &[PathBuf], beside: &[PathBuf]) -> std::io::Result<Vec<PathBuf>> {
+    let mut folders = Vec::new();
+    for files in runs.iter().zip(beside) {
+        let folder = into.join(files.0.file_stem().unwrap_or_default());
+        std::fs::create_dir(&folder)?;
+        for file in [files.0, files.1] {
+            std::fs::copy(file, folder.join(file.file_name().unwrap_or_default()))?;
+        }
+        folders.push(folder);
+    }
+    Ok(folders)
+}
+
+/// What a person is told of recordings that cannot be read.
+fn refused(why: &Error) -> Report {
+    let (Error::Input { fix, .. } | Error::Faulty { fix, .. } | Error::Output { fix, .. }) = why;
+    let said = why.to_string();
+    let what = said.strip_suffix(fix.as_str()).unwrap_or(&said).trim_end_matches(['.', ' ']).to_owned();
+    let fault = Fault { code: "not_read".to_owned(), what, fix: fix.clone(), ..Fault::default() };
+    Report::of(&Findings::unfit(), About { faults: vec![fault], ..About::default() })
+}
+
+/// The same without where the recordings lie on this machine, which is nobody's business.
+fn without_place(mut report: Report, recordings: &Path) -> Report {
+    let place = format!("{}/", recordings.display());
+    let faults = report.faults.iter_mut().flat_map(|fault| [Some(&mut fault.what), fault.file.as_mut()]);
+    report.notices.iter_mut().chain(faults.flatten()).for_each(|said| *said = said.replace(&place, ""));
+    report
 }
 
 /// A judgement taken apart: the answer that it speaks of, and what it says.
@@ -109,11 +119,43 @@ pub fn judged(judgement: &str) -> (&str, &str) {
     (first.strip_prefix("Judged:").unwrap_or("").trim(), rest.trim())
 }
 
-#[test]
-fn every_judgement_says_of_which_answer_it_speaks() {
-    for real in SESSIONS {
-        let (answer, text) = judged(real.judgement);
-        assert!(!answer.is_empty() && !text.is_empty(), "{}", real.title);
+#[cfg(test)]
+mod tests {
+    use omni_gap::Verdict;
+
+    use super::*;
+
+    #[test]
+    fn every_judgement_says_of_which_answer_it_speaks() {
+        for real in SESSIONS {
+            let (answer, text) = judged(real.judgement);
+            assert!(!answer.is_empty() && !text.is_empty(), "{}", real.title);
+        }
+        assert_eq!(judged("Judged: effect: creep\n\nYes.\n"), ("effect: creep", "Yes."));
     }
-    assert_eq!(judged("Judged: effect: creep\n\nYes.\n"), ("effect: creep", "Yes."));
+
+    #[test]
+    fn a_run_has_one_file_beside_it_or_none_has() {
+        for real in SESSIONS {
+            assert!(real.beside.is_empty() || real.beside.len() == real.files.len(), "{}", real.title);
+        }
+    }
+
+    #[test]
+    fn a_recording_that_is_not_there_is_told_and_one_that_cannot_be_read_is_an_answer() {
+        let folder = tempfile::tempdir().unwrap();
+        let real = SESSIONS.iter().find(|real| real.key == "kiwi2026-exp7").unwrap();
+        let told = real.answered(folder.path()).unwrap_err().to_string();
+        assert!(told.contains("exp7.txt") && told.contains("no such recording"), "{told}");
+
+        let runs = folder.path().join(real.folder);
+        std::fs::create_dir_all(&runs).unwrap();
+        let rows = "t, w1, w2, w3, u1, u2, u3\n0.01, 0, 0, 0, 1, 1, 1\n0.01, 0, 0, 0, 1, 1, 1\n";
+        std::fs::write(runs.join(real.files[0]), rows).unwrap();
+        let report = real.answered(folder.path()).unwrap().report;
+        let said = &report.faults[0].what;
+        assert_eq!(report.verdict, Verdict::UnfitData);
+        assert!(said.contains("repeated time") && !said.contains(&*folder.path().to_string_lossy()), "{said}");
+        assert!(report.faults[0].fix.starts_with("Sort the rows") && !said.contains("Sort"), "{said}");
+    }
 }
