@@ -120,7 +120,7 @@ One sound session (the four-wheel robot, 3 runs of 3 s at 200 rows a second) spo
 
 const FOOT: &str = "\nWhat is left to the diagnosis: encoders that are late by some milliseconds or tens of them. A filter of the speed does\n\
 that, and so does a drive that answers late with respect to the log; both are effects of a robot, no faults of a recording.\n\
-A wheel speed that drops to zero for one row is left too: real drives lose a telegram now and then, and a diagnosis stands it.\n";
+Single samples that jump away and back are told, set aside, and the diagnosis goes on.\n";
 
 #[test]
 fn everything_that_is_spoiled_is_told_at_the_door_and_work_follows_from_the_rows() {

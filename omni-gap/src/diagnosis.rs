@@ -3,7 +3,7 @@
 //! `log → check → simulate → identify → localise → engine → report`. [`diagnose`] is the whole of it for a program that
 //! wants the answer; [`Diagnosis::of`] also keeps what the report's files are made of.
 
-use crate::check::check;
+use crate::check::checked;
 use crate::engine::evidence::Unfit;
 use crate::engine::{Engine, Evidence, Findings, Knobs, Stepwise};
 use crate::log::{Session, corrected};
@@ -77,7 +77,8 @@ impl Diagnosis {
     pub fn by(engine: &dyn Engine, session: &Session, options: &Options) -> Self {
         let Options { session: name, knobs, progress } = options;
         progress("checking the recordings");
-        let faults = check(session);
+        let (faults, session) = checked(session);
+        let session = &*session;
         let sound = !faults.iter().any(|f| f.fatal);
         let (findings, why, notices) = match sound.then(|| Evidence::of(session, &knobs.layout)) {
             None => (Findings::unfit(), None, Vec::new()),

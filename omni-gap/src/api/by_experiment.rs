@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::identify::refuse_faulty;
+use super::identify::sound;
 use crate::error::{Error, InputKind, Result};
 use crate::identify::{Answer, Asked, Refused, answer};
 use crate::log::Session;
@@ -16,7 +16,7 @@ use crate::simulate::{AlignedRun, Experiment, drivable};
 /// is asked, or nothing in the runs can drive the model or be compared with it.
 pub fn identify_by_experiment(asked: Asked, session: &Session, place: &Path) -> Result<Answer> {
     refuse_without_runs(asked, session, place)?;
-    refuse_faulty(session)?;
+    let session = &*sound(session)?;
     match session.robot.wheel.len() {
         3 => answered::<3>(asked, session, place),
         _ => answered::<4>(asked, session, place),

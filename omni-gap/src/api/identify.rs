@@ -1,9 +1,11 @@
 //! Identify: the best numbers of a robot file, those of the effects that it carries among them, and how sure they are.
 
+use std::borrow::Cow;
+
 use model_core::effects::card::Role;
 use serde::Serialize;
 
-use crate::check::check;
+use crate::check::checked;
 use crate::error::{Error, InputKind, Result};
 use crate::identify::{
     Fit, FitSettings, Free, Prior, Shots, WINDOW_S, Windows, effect_free, fit_with_dispersion, nominal_free, told,
@@ -106,16 +108,17 @@ pub struct Identification {
 /// [`Error::Faulty`] where the recordings have a fault that spoils any fit, [`Error::Input`] where nothing in them can
 /// drive the model.
 pub fn identify(session: &Session) -> Result<Identification> {
-    refuse_faulty(session)?;
+    let session = &*sound(session)?;
     match session.robot.wheel.len() {
         3 => identified::<3>(session),
         _ => identified::<4>(session),
     }
 }
 
-/// Refuses recordings with a fault that spoils any fit.
-pub(super) fn refuse_faulty(session: &Session) -> Result<()> {
-    let Some(fault) = check(session).into_iter().find(|fault| fault.fatal) else { return Ok(()) };
+/// The session as it is to be used; recordings with a fault that spoils any fit are refused.
+pub(super) fn sound(session: &Session) -> Result<Cow<'_, Session>> {
+    let (faults, session) = checked(session);
+    let Some(fault) = faults.into_iter().find(|fault| fault.fatal) else { return Ok(session) };
     let problem = format!("{}: {}", fault.lines_in_words(), fault.sentence);
     Err(Error::Faulty { code: fault.code, file: fault.file, problem, fix: fault.fix })
 }

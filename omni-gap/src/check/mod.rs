@@ -5,7 +5,7 @@
 //! beyond what wrong parameters or unmodelled effects can make.
 //!
 //! Reading order: [`Fault`]; `rows` with one file per idea about a single run: `absurd`, `time`, `time_unit`, `frozen`,
-//! `saturated`, `glitch`, `repeated`, `held`, `rectified`, `bunched`, `pushed`; then the relations, judged on all runs of a
+//! `saturated`, `outliers`, `repeated`, `held`, `rectified`, `bunched`, `pushed`; then the relations, judged on all runs of a
 //! session (`agree`): `motor` (volts, currents and speeds of each wheel, from the sums in `gram`; `duty`) and `pose` (wheels
 //! against the pose, over `windows`, with the guesses of `frame`; `quaternion`); then the session as a whole: `same` and
 //! `enough`; `grouped` tells once what many runs share. A run of files with a clock each is looked at as `clocks` has it. `order` lists the ways in which wheels can have changed places,
@@ -24,12 +24,12 @@ mod enough;
 mod fault;
 mod frame;
 mod frozen;
-mod glitch;
 mod gram;
 mod grouped;
 mod held;
 mod motor;
 mod order;
+mod outliers;
 mod pose;
 mod pushed;
 mod quaternion;
@@ -49,6 +49,8 @@ mod synthetic;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_outliers;
+#[cfg(test)]
 mod tests_relations;
 #[cfg(test)]
 mod tests_rows;
@@ -64,6 +66,17 @@ use crate::log::{RobotFile, Run, Session};
 /// Wheels, signs and units are judged on all runs together, and on one alone where it differs from the others. A fault
 /// that several runs share is told once, at the first of them.
 pub fn check(session: &Session) -> Vec<Fault> {
+    faults_of(&outliers::set_aside_in(session))
+}
+
+/// The same, and the session as it is to be used: without single samples that jump away and back
+/// ([`Missing::Outlier`](crate::log::Missing::Outlier)).
+pub fn checked(session: &Session) -> (Vec<Fault>, Cow<'_, Session>) {
+    let session = outliers::set_aside_in(session);
+    (faults_of(&session), session)
+}
+
+fn faults_of(session: &Session) -> Vec<Fault> {
     let runs: Vec<&Run> = session.runs.iter().chain(&session.heldout).collect();
     let one_clock: Vec<Cow<Run>> = runs.iter().map(|run| clocks::on_one_clock(run)).collect();
     let one_clock: Vec<&Run> = one_clock.iter().map(AsRef::as_ref).collect();
@@ -81,6 +94,7 @@ pub fn check(session: &Session) -> Vec<Fault> {
 
 /// All faults of one run; whether there is enough to tell anything is a matter of the session.
 pub fn check_run(run: &Run, robot: &RobotFile) -> Vec<Fault> {
+    let run = &*outliers::set_aside(run, robot);
     clocks::told_by_file(check_runs(&[&clocks::on_one_clock(run)], robot), &[run], robot)
 }
 

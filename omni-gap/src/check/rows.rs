@@ -1,6 +1,6 @@
 //! The checks that look at one run, row by row.
 
-use super::{Fault, absurd, bunched, frozen, glitch, held, pushed, rectified, repeated, saturated, time, time_unit};
+use super::{Fault, absurd, bunched, frozen, held, outliers, pushed, rectified, repeated, saturated, time, time_unit};
 use crate::log::{RobotFile, Run};
 
 pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
@@ -11,13 +11,11 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
     if clock || run.rows() < 10 || faults.iter().any(|fault| fault.fatal && fault.code != "time_gap") {
         return faults;
     }
-    let glitches = glitch::check(run, robot);
-    let jumps = |signal: &str| glitches.iter().any(|fault| fault.signal == signal);
     let saturated = saturated::check(run, robot);
-    let others = |fault: &Fault| saturated.iter().all(|known| known.signal != fault.signal) && !jumps(&fault.signal);
+    let others = |fault: &Fault| saturated.iter().all(|known| known.signal != fault.signal);
     faults.extend(frozen::check(run, robot).into_iter().filter(others));
-    faults.extend(saturated.into_iter().filter(|fault| !jumps(&fault.signal)));
-    faults.extend(glitches);
+    faults.extend(saturated);
+    faults.extend(outliers::told(run));
     faults.extend(repeated::check(run, robot));
     faults.extend(held::check(run, robot));
     faults.extend(rectified::check(run, robot));

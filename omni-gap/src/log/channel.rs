@@ -21,9 +21,11 @@ pub enum Missing {
     NotDue,
     /// The wheel's bridge was open, or was opened within the row: no voltage was applied throughout.
     Open,
+    /// A number was there, and it jumped away from its neighbours and back: it was set aside.
+    Outlier,
 }
 
-const REASONS: [Missing; 7] = [
+const REASONS: [Missing; 8] = [
     Missing::Blank,
     Missing::Lost,
     Missing::Saturated,
@@ -31,6 +33,7 @@ const REASONS: [Missing; 7] = [
     Missing::BadCrc,
     Missing::NotDue,
     Missing::Open,
+    Missing::Outlier,
 ];
 
 /// One signal over the rows of a run. Values are finite; a hole has a reason.
