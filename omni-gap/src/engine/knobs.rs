@@ -27,6 +27,8 @@ pub struct Knobs {
     pub screen: ScreenKnobs,
     /// Which causes a corrected model takes up, and which cannot be told apart.
     pub search: SearchKnobs,
+    /// What noise is believed where the recordings show another than is stated.
+    pub noise: NoiseKnobs,
     /// When causes explain a gap, and when there is none.
     pub outcome: OutcomeKnobs,
     /// How scores become probabilities.
@@ -134,6 +136,25 @@ pub struct SearchKnobs {
     pub tie_errors: f64,
     /// Standard errors by which an effect's size has to be away from absent [1]: 99.7 %.
     pub size_errors: f64,
+}
+
+/// What noise is believed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct NoiseKnobs {
+    /// Noise that differs from what is stated by less than this factor is as stated [1]: a fit's own errors are as large.
+    pub as_stated: f64,
+    /// Of the stated sigma, the most and the least that are believed [1]: what is larger is a gap. Data sheets, and people
+    /// who look at a robot at rest, are wrong by two or three times.
+    pub most: f64,
+    /// The same for wheel speeds [1]: coarse counts of an encoder make more.
+    pub most_of_speeds: f64,
+    /// The least [1].
+    pub least: f64,
+    /// The longest that noise is believed to remember itself [s]: filters of sensors are faster than robots.
+    pub longest_s: f64,
+    /// A memory of less than this many samples' time is none [1].
+    pub shortest_rows: f64,
 }
 
 /// When causes explain a gap.
@@ -267,6 +288,7 @@ impl Default for Knobs {
             fit: FitSettings::default(),
             screen: ScreenKnobs::default(),
             search: SearchKnobs::default(),
+            noise: NoiseKnobs::default(),
             outcome: OutcomeKnobs::default(),
             probability: ProbabilityKnobs::default(),
             measure: MeasureKnobs::default(),
@@ -324,6 +346,12 @@ impl Default for SearchKnobs {
             tie_errors: 2.0,
             size_errors: 3.0,
         }
+    }
+}
+
+impl Default for NoiseKnobs {
+    fn default() -> Self {
+        Self { as_stated: 1.2, most: 3.0, most_of_speeds: 4.5, least: 1.0 / 3.0, longest_s: 0.06, shortest_rows: 0.5 }
     }
 }
 

@@ -11,6 +11,8 @@
 //! parameters that all windows share take too little to count. The noise of the other groups, which the starts carry
 //! over, is taken off at its own estimate, in turns.
 
+use std::borrow::Cow;
+
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 
@@ -58,6 +60,9 @@ fn group(wheels: usize, channel: usize) -> usize {
 }
 
 impl Noise {
+    /// As the runs have it.
+    pub const AS_STATED: Self = Self { scale: [1.0; GROUPS], correlation_time: [0.0; GROUPS] };
+
     /// The run with this noise stated in place of its own.
     pub fn applied<const N: usize>(&self, run: &AlignedRun<N>) -> AlignedRun<N> {
         let mut run = run.clone();
@@ -73,9 +78,8 @@ impl Noise {
 /// Estimates the noise from what a fit leaves over of the runs that it was made to. Scales are over the runs' sigma; what
 /// the runs say of correlation is not looked at.
 pub fn noise_of<const N: usize>(fit: &Fit<N>, shots: Shots<'_, N>) -> Noise {
-    let white = Noise { scale: [1.0; GROUPS], correlation_time: [0.0; GROUPS] };
-    let runs: Vec<AlignedRun<N>> = shots.runs.iter().map(|run| white.applied(run)).collect();
-    let runs: Vec<&AlignedRun<N>> = runs.iter().collect();
+    let runs: Vec<Cow<'_, AlignedRun<N>>> = shots.runs.iter().map(|run| white(run)).collect();
+    let runs: Vec<&AlignedRun<N>> = runs.iter().map(AsRef::as_ref).collect();
     let shots = Shots { runs: &runs, windows: shots.windows };
     let linear = linearise(&fit.model, shots, &fit.starts, &[], true);
     let (mut lefts, mut lengths) = (Vec::new(), 0.0);
@@ -89,6 +93,12 @@ pub fn noise_of<const N: usize>(fit: &Fit<N>, shots: Shots<'_, N>) -> Noise {
     }
     let longest = LONGEST * lengths / lefts.len().max(1) as f64;
     solve(&lefts, longest)
+}
+
+/// The run without what it says of correlation.
+fn white<const N: usize>(run: &AlignedRun<N>) -> Cow<'_, AlignedRun<N>> {
+    let is_white = run.correlation_time.iter().all(|tau| *tau == 0.0);
+    if is_white { Cow::Borrowed(run) } else { Cow::Owned(Noise::AS_STATED.applied(run)) }
 }
 
 type Vec6 = SVector<f64, START>;
@@ -206,7 +216,7 @@ fn ratio(made: &[Made]) -> f64 {
 
 /// The groups in turn, each with what the others make taken off.
 fn solve(lefts: &[Left], longest: f64) -> Noise {
-    let mut noise = Noise { scale: [1.0; GROUPS], correlation_time: [0.0; GROUPS] };
+    let mut noise = Noise::AS_STATED;
     let mut made: [Vec<Made>; GROUPS] = std::array::from_fn(|g| made_by(lefts, g, 0.0));
     let white = made.clone();
     let total = |of: &dyn Fn(&Left) -> f64| lefts.iter().map(of).sum::<f64>();

@@ -86,6 +86,7 @@ mod tests {
             has: Vec::new(),
             turned: Vec::new(),
             losses: Losses::default(),
+            stated: [1.0; MAX_CHANNELS],
             sigma: [1.0; MAX_CHANNELS],
             correlation_time: [tau; MAX_CHANNELS],
             unsigned_current: false,

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use crate::simulate::{AlignedRun, HORIZON_S, PerGroup, SignalGroup, free_run, predict};
+use crate::simulate::{AlignedRun, HORIZON_S, MAX_CHANNELS, PerGroup, Row, SignalGroup, free_run, predict};
 
 /// Lengths between restarts of the horizon curves [s]
 pub const HORIZONS_S: [f64; 5] = [0.1, 0.25, HORIZON_S, 1.0, 2.0];
@@ -69,7 +69,8 @@ pub fn measure<const N: usize>(plant: &Plant<N, f64>, runs: &[&AlignedRun<N>], h
                 }
                 for c in (0..channels.count()).filter(|c| run.saw(row, *c)) {
                     let group = &mut windows[window][channels.group(c) as usize];
-                    *group = (group.0 + run.error(row, c, predicted[c]).powi(2), group.1 + 1.0);
+                    let error = run.error(row, c, predicted[c]) * (run.sigma[c] / run.stated[c]);
+                    *group = (group.0 + error.powi(2), group.1 + 1.0);
                 }
             }
             windows
@@ -95,7 +96,12 @@ pub(super) fn replayed<const N: usize>(
     runs.par_iter().enumerate().map(|(k, run)| replay(plant, run, seed.wrapping_add(k as u64))).collect()
 }
 
-/// A run of the same input and the same holes, simulated from the model with white noise of the sensors' sigma.
+/// A run of the same input and the same holes, simulated from the model with the sensors' noise: of its sigma, and with its
+/// memory.
+///
+/// ```text
+/// n_k = ρ·n_{k−1} + σ·√(1 − ρ²)·e_k,  ρ = e^(−Δt/τ)
+/// ```
 fn replay<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, seed: u64) -> AlignedRun<N> {
     // a stream for each channel: one more of them changes nothing of the others
     let stream = |channel: usize| {
@@ -105,6 +111,7 @@ fn replay<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, seed: u64)
     };
     let mut random: Vec<ChaCha8Rng> = (0..AlignedRun::<N>::channels().count()).map(stream).collect();
     let mut replayed = run.clone();
+    let mut noise: Option<Row> = None;
     free_run(
         plant,
         run,
@@ -112,10 +119,19 @@ fn replay<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, seed: u64)
         |row| run.input(row),
         |row, passed| {
             let mut says = run.row_of(passed);
-            for ((x, sigma), random) in says.iter_mut().zip(run.sigma).zip(&mut random) {
-                let noise: f64 = StandardNormal.sample(random);
-                *x += sigma * noise;
+            let mut now = [0.0; MAX_CHANNELS];
+            for (c, random) in random.iter_mut().enumerate() {
+                let fresh: f64 = StandardNormal.sample(random);
+                now[c] = match noise {
+                    Some(before) if run.correlation_time[c] > 0.0 => {
+                        let ratio = (run.t[row] - run.t[row - 1]) / run.correlation_time[c];
+                        (-ratio).exp() * before[c] + (-(-2.0 * ratio).exp_m1()).sqrt() * fresh
+                    }
+                    _ => fresh,
+                };
+                says[c] += run.sigma[c] * now[c];
             }
+            noise = Some(now);
             replayed.measured[row] = says;
         },
     );

@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::check;
-use crate::engine::findings::{Corrected, EngineRecord, Findings, Gap, NextExperiment, Shrink, Where, Which};
+use crate::engine::findings::{
+    ChannelNoise, Corrected, EngineRecord, Findings, Gap, NextExperiment, Shrink, Where, Which,
+};
 use crate::vocabulary::Verdict;
 
 /// The version of the form of `report.json` that this program writes.
@@ -31,6 +33,9 @@ pub struct Report {
     pub causes: Vec<String>,
     /// How far the causes close the gap.
     pub shrink: Shrink,
+    /// The noise of each sensor that was compared, as stated and as found.
+    #[serde(default)]
+    pub noise: Vec<ChannelNoise>,
     /// Parameters of the robot file, before and after.
     #[serde(default)]
     pub parameters: Vec<Corrected>,
@@ -77,6 +82,7 @@ impl Report {
             which: found.which,
             causes: found.causes,
             shrink: found.shrink,
+            noise: found.noise,
             parameters: found.parameters,
             not_seen: found.not_seen,
             next_experiment: found.next_experiment,

@@ -47,6 +47,7 @@ pub fn effect() -> Report {
             Which { title: None, ..cause("no_gap", "", None, 0.001) },
         ],
         causes: vec!["wheel_slip".into()],
+        noise: Vec::new(),
         shrink: Shrink {
             before: Some(3.4),
             after: Some(1.08),
@@ -100,6 +101,7 @@ pub fn parameter() -> Report {
             },
         ],
         causes: vec!["mass".into(), "resistance".into()],
+        noise: Vec::new(),
         shrink: Shrink {
             before: Some(1.92),
             after: Some(1.02),
@@ -126,6 +128,7 @@ pub fn unknown() -> Report {
             cause("backlash", "Backlash", Some(Kind::Effect), 0.11),
             cause("stribeck", "Stribeck friction", Some(Kind::Effect), 0.06),
         ],
+        noise: Vec::new(),
         shrink: Shrink {
             before: Some(3.1),
             after: Some(2.7),
@@ -152,6 +155,7 @@ pub fn no_gap() -> Report {
             Which { title: None, ..cause("no_gap", "", None, 0.97) },
             cause("creep", "Creep of the rollers", Some(Kind::Effect), 0.03),
         ],
+        noise: Vec::new(),
         shrink: Shrink {
             before: Some(1.01),
             after: Some(1.01),
@@ -167,6 +171,7 @@ pub fn no_gap() -> Report {
 /// The log is broken.
 pub fn unfit_data() -> Report {
     Report {
+        noise: Vec::new(),
         shrink: Shrink { reason: Some("the log is not fit to measure a gap".into()), ..Shrink::default() },
         faults: vec![
             Fault {

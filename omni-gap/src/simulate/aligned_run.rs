@@ -54,7 +54,9 @@ pub struct AlignedRun<const N: usize> {
     pub turned: Vec<[f64; N]>,
     /// How the telegrams with the driving signal fared
     pub losses: Losses<N>,
-    /// One-sigma noise of each channel, by the robot file
+    /// One-sigma noise of each channel by the robot file: the unit in which gaps are told
+    pub stated: Row,
+    /// One-sigma noise of each channel that models are weighed by: what is stated, or what the recordings show
     pub sigma: Row,
     /// How long the noise of each channel remembers itself [s], as an Ornstein–Uhlenbeck process; zero is white
     pub correlation_time: Row,
@@ -208,6 +210,7 @@ impl<const N: usize> AlignedRun<N> {
             has,
             turned,
             losses: Losses::default(),
+            stated: sigma,
             sigma,
             correlation_time: [0.0; MAX_CHANNELS],
             unsigned_current: run.i.as_ref().is_some_and(|g| g.unsigned),

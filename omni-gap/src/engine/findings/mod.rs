@@ -8,6 +8,7 @@ mod changes;
 mod confusion;
 mod considered;
 mod gap;
+mod noise;
 mod place;
 mod selftest;
 mod traces;
@@ -19,6 +20,7 @@ pub use changes::{EffectChange, FileChanges, NumberChange};
 pub use confusion::{ConfusedCause, Confusion};
 pub use considered::{ConsideredCause, EstimatedBy, EstimatedNumber};
 pub use gap::{Gap, HorizonError, Shrink, SignalGap};
+pub use noise::ChannelNoise;
 pub use place::{Regime, Where};
 pub use selftest::{Imitating, Rival, SeenCause, SelfTest, ShownThere, VerifiedSize, WithSensor};
 pub use traces::{SignalTrace, Traces};
@@ -57,6 +59,8 @@ pub struct Findings {
     pub gap: Gap,
     /// How far the causes close the gap.
     pub shrink: Shrink,
+    /// The noise of each sensor that was compared, as stated and as found.
+    pub noise: Vec<ChannelNoise>,
     /// Numbers of the robot file and of its effects, before and after.
     pub parameters: Vec<Corrected>,
     /// What these recordings could not have shown, each with its reason.
@@ -83,6 +87,7 @@ impl Findings {
             where_: Vec::new(),
             gap: Gap::default(),
             shrink: Shrink { reason: Some("the recordings cannot be used".to_owned()), ..Shrink::default() },
+            noise: Vec::new(),
             parameters: Vec::new(),
             not_seen: Vec::new(),
             next_experiment: None,

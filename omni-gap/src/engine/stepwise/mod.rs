@@ -10,6 +10,7 @@ mod accept;
 mod candidate;
 mod considered;
 mod distances;
+mod noise;
 mod not_seen;
 mod numbers;
 mod places;
@@ -59,8 +60,21 @@ impl Engine for Stepwise {
 fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, progress: Progress<'_>) -> Findings {
     let robot = &evidence.robot;
     let nominal = Model::<N>::nominal(robot, supply_seen(runs.fit.iter().chain(&runs.held)));
-    let data = Data::of(runs, &evidence.prior, knobs);
-    let search = search::search(&data, &nominal, progress);
+    let stated = Data::of(runs, &evidence.prior, knobs);
+    let first = search::search(&stated, &nominal, progress);
+    let seen = noise::noise_seen(&first.corrected.fit, &stated);
+    let as_seen = seen.map(|seen| (seen.beyond_belief, runs.with_noise(&seen.noise)));
+    let (data, search) = match &as_seen {
+        None => (stated, first),
+        Some((beyond_belief, as_seen)) => {
+            progress("once more with the noise that the recordings show");
+            let data = Data::of(as_seen, &evidence.prior, knobs);
+            let search = search::search(&data, &nominal, progress);
+            // what is larger than any noise is no proof that there is no gap
+            let no_proof = *beyond_belief && search.outcome == Outcome::NoGap;
+            if no_proof { (stated, first) } else { (data, search) }
+        }
+    };
     progress("writing the report");
 
     let plants = Plants {
@@ -80,6 +94,7 @@ fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, 
         where_: places::places(&search, &nominal, &data),
         gap,
         shrink,
+        noise: noise::told(&data),
         parameters: numbers::parameters(&search, robot),
         not_seen: not_seen::not_seen(&search, &data),
         next_experiment: settle::next_experiment(&which, &causes),
