@@ -8,7 +8,7 @@ use super::scored::Data;
 use crate::engine::evidence::Runs;
 use crate::engine::findings::ChannelNoise;
 use crate::identify::{Fit, Noise, noise_of};
-use crate::simulate::AlignedRun;
+use crate::simulate::{AlignedRun, SignalGroup};
 
 /// Noise that a model's left-overs show.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,8 @@ pub(super) fn noise_seen<const N: usize>(fit: &Fit<N>, data: &Data<'_, N>) -> Op
     let mut noise = noise_of(fit, few.shots());
     let (mut as_stated, mut beyond_belief) = (true, false);
     for (sensor, (scale, memory)) in noise.scale.iter_mut().zip(&mut noise.correlation_time).enumerate() {
-        let most = if sensor == WHEEL_SPEED { knobs.most_of_speeds } else { knobs.most };
+        let group = AlignedRun::<N>::channels().group(sensors::<N>()[sensor].2);
+        let most = if group == SignalGroup::WheelSpeed { knobs.most_of_speeds } else { knobs.most };
         beyond_belief |= *scale > most;
         *scale = scale.clamp(knobs.least, most);
         *memory = memory.min(knobs.longest_s);
@@ -41,9 +42,6 @@ pub(super) fn noise_seen<const N: usize>(fit: &Fit<N>, data: &Data<'_, N>) -> Op
     }
     (!as_stated).then_some(SeenNoise { noise, beyond_belief })
 }
-
-/// The place of wheel speeds among sensors.
-const WHEEL_SPEED: usize = 1;
 
 /// The sensors in the order of [`Noise`], and a channel of each.
 fn sensors<const N: usize>() -> [(&'static str, &'static str, usize); 6] {
@@ -101,7 +99,6 @@ pub(super) fn told<const N: usize>(data: &Data<'_, N>) -> Vec<ChannelNoise> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::SignalGroup;
 
     #[test]
     fn sensors_stand_in_the_order_of_their_groups() {
@@ -109,6 +106,5 @@ mod tests {
         let pose = SignalGroup::Pose;
         let expected = [SignalGroup::Current, SignalGroup::WheelSpeed, pose, pose, SignalGroup::Gyro];
         assert_eq!((&groups[..5], groups[5]), (&expected[..], SignalGroup::Battery));
-        assert_eq!(groups[WHEEL_SPEED], SignalGroup::WheelSpeed);
     }
 }
