@@ -59,6 +59,7 @@ fn head(m: &mut Markup, report: &Report) {
             .into_iter()
             .chain(phrases::change(report))
             .chain(phrases::left_beside(report))
+            .chain(phrases::noise(report).map(|noise| format!("Noise by the recordings: {noise}.")))
             .chain(alike)
             .collect::<Vec<_>>()
             .join(" ");

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use super::model::Report;
-use super::number::{num, percent};
-use crate::engine::findings::{SignalGap, Where, Which};
+use super::number::{NBSP, num, percent};
+use crate::engine::findings::{ChannelNoise, SignalGap, Where, Which};
 use crate::simulate::SignalGroup;
 use crate::vocabulary::{Axis, Kind, Stage, Verdict};
 
@@ -32,6 +32,19 @@ pub fn headline(report: &Report) -> String {
             n => format!("This log is not fit for a diagnosis: mend {n} faults first."),
         },
     }
+}
+
+/// Which sensors are noisier, quieter or slower than is stated, in one sentence; none where all are as stated.
+pub fn noise(report: &Report) -> Option<String> {
+    let differs = |n: &&ChannelNoise| n.found != n.stated || n.correlation_time_s > 0.0;
+    let of = |n: &ChannelNoise| {
+        let memory = n.correlation_time_s;
+        let alike = if memory > 0.0 { format!(", alike over {} ms", num(1e3 * memory)) } else { String::new() };
+        let sensor = n.sensor.replace('_', " ");
+        format!("{sensor} {}{NBSP}{} (file: {}{NBSP}{}){alike}", num(n.found), n.unit, num(n.stated), n.unit)
+    };
+    let all: Vec<String> = report.noise.iter().filter(differs).map(of).collect();
+    (!all.is_empty()).then(|| all.join("; "))
 }
 
 /// Which signals beside the totals the answer leaves a gap in, as one sentence each.
@@ -196,6 +209,22 @@ mod tests {
     fn a_headline_names_the_cause_and_its_place() {
         assert_eq!(headline(&sample::effect()), "Missing from the simulator: Wheel slip at wheel\u{a0}2.");
         assert_eq!(headline(&sample::parameter()), "Wrong in the robot file: Mass and Winding resistance.");
+    }
+
+    #[test]
+    fn noise_is_told_where_it_is_not_as_stated() {
+        let of = |sensor: &str, found: f64, correlation_time_s: f64| ChannelNoise {
+            sensor: sensor.to_owned(),
+            group: "i".to_owned(),
+            unit: "A".to_owned(),
+            stated: 0.02,
+            found,
+            correlation_time_s,
+        };
+        let with = |noise| Report { noise, ..sample::effect() };
+        let said = noise(&with(vec![of("current", 0.05, 0.0125), of("wheel_speed", 0.02, 0.0)]));
+        assert_eq!(said.as_deref(), Some("current 0.0500\u{a0}A (file: 0.0200\u{a0}A), alike over 12.5 ms"));
+        assert_eq!(noise(&with(vec![of("current", 0.02, 0.0)])), None);
     }
 
     #[test]

@@ -23,6 +23,7 @@ pub fn terminal(report: &Report, files: Option<&Written>) -> String {
     where_(&mut page, report);
     which(&mut page, report);
     how_far(&mut page, report);
+    phrases::noise(report).iter().for_each(|noise| page.line("noise", noise));
     if let [first, rest @ ..] = report.not_seen.as_slice() {
         let more = if rest.is_empty() { String::new() } else { format!(" (and {} more, see the report)", rest.len()) };
         page.line("not seen", &format!("{first}{more}"));
