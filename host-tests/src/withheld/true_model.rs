@@ -149,11 +149,24 @@ fn polar(of: Vector2<f64>, [size, direction]: [&'static str; 2]) -> Numbers {
 /// What a robot file says of an effect that is in a setup, on a wheel.
 fn numbers(id: &str, truth: &RobotFile, setup: &Setup, on: usize) -> Numbers {
     let wheel = &setup.robot.wheels[on];
-    drive(id, truth, wheel)
+    set_speed(id, setup)
+        .or_else(|| drive(id, truth, wheel))
         .or_else(|| wheel_and_floor(id, truth, setup, on))
         .or_else(|| body(id, setup))
         .or_else(|| sensing(id, setup, on))
         .unwrap_or_default()
+}
+
+/// From the speed that is set to the one that is followed.
+fn set_speed(id: &str, setup: &Setup) -> Option<Numbers> {
+    let drive = setup.robot.drive.as_ref()?;
+    Some(match id {
+        "speed_loop" => {
+            vec![("dead_time_s", drive.dead_time), ("lag_s", drive.smoothing), ("droop", drive.shortfall)]
+        }
+        "command_deadband" => vec![("threshold_rad_s", drive.threshold)],
+        _ => return None,
+    })
 }
 
 /// From the command to the current.
