@@ -56,6 +56,7 @@ pub const STEPS: &[Step] = &[
         env: &[],
     },
     Step { name: "tests", command: "cargo test --workspace", env: &[] },
+    Step { name: "withheld", command: "cargo run --release -p host-tests --bin bench -- check", env: &[] },
     Step { name: "emulated images", command: EMULATED_IMAGES, env: &[] },
     Step { name: "board image", command: BOARD_IMAGE, env: &[] },
     Step {

@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -13,6 +14,7 @@ use host_tests::withheld::contestant::{Contestant, Ended};
 use host_tests::withheld::frozen::{Frozen, built};
 use host_tests::withheld::ledger;
 use host_tests::withheld::picture;
+use host_tests::withheld::reduced::{self, REDUCED_SEED};
 use host_tests::withheld::scored::Scored;
 use host_tests::withheld::set::{About, SetFolder};
 use host_tests::withheld::suites::{Case, REDUCED, WHOLE, cases};
@@ -68,6 +70,8 @@ enum Errand {
         /// Its name
         name: String,
     },
+    /// Record the reduced split, let the product answer it, and hold what is right to what was reached before
+    Check,
     /// Print the figures of one contestant
     Score {
         /// Folder of the set
@@ -115,6 +119,7 @@ enum SplitName {
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().errand {
+        Errand::Check => return golden::exit(check()),
         Errand::Make { set, split } => make(&SetFolder(set), split),
         Errand::Run { set, name, seconds, every, command } => {
             run(&SetFolder(set), &Contestant { name, command, most: Duration::from_secs(seconds) }, every)
@@ -136,7 +141,7 @@ fn make(set: &SetFolder, split: SplitName) -> Result<()> {
     let (name, seed, sizes) = match split {
         SplitName::Tuning => ("tuning", TUNING_SEED, WHOLE),
         SplitName::Fresh => ("fresh", seed_of(&commit)?, WHOLE),
-        SplitName::Reduced => ("reduced", TUNING_SEED + 1, REDUCED),
+        SplitName::Reduced => ("reduced", REDUCED_SEED, REDUCED),
     };
     set.begin(&About { split: name.to_owned(), seed, commit })?;
     let start = Instant::now();
@@ -153,6 +158,20 @@ fn make(set: &SetFolder, split: SplitName) -> Result<()> {
     set.seal()?;
     println!("{} sessions, {} of them new, in {:.0} s", all.len(), missing.len(), start.elapsed().as_secs_f64());
     Ok(())
+}
+
+fn check() -> Result<bool> {
+    let (start, most) = (Instant::now(), Mutex::new(0.0_f64));
+    let all = reduced::answered(&|one| {
+        println!("{}", reduced::line(one));
+        let mut most = most.lock().unwrap_or_else(PoisonError::into_inner);
+        *most = most.max(one.ended.seconds);
+    })?;
+    let (lines, holds) = reduced::held(&all);
+    lines.iter().for_each(|line| println!("{line}"));
+    let most = most.into_inner().unwrap_or_else(PoisonError::into_inner);
+    println!("{} sessions in {:.0} s, the longest answer {most:.1} s", all.len(), start.elapsed().as_secs_f64());
+    Ok(holds)
 }
 
 /// The first 64 bits of a commit's hash; of a tree with changes there is none.

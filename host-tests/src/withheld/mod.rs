@@ -5,7 +5,7 @@
 //! nothing else, and [`watch`]ed; [`scored`] holds each [`answer`] to its [`label`], [`closed`] drives what was left over the
 //! recordings beside the [`true_model`], [`estimates`] holds its numbers to what was put in, and [`table`], [`honest`] and
 //! [`picture`] put [`figures`] with their intervals beside one another. An engine of an old commit is [`frozen`], and what was
-//! scored on fresh splits stands in a [`ledger`]. `cargo xtask bench help`; the rules stand in `BENCHMARK.md`.
+//! scored on fresh splits stands in a [`ledger`]. `cargo xtask bench help`; the test command asks the product the [`reduced`] split; the rules stand in `BENCHMARK.md`.
 
 pub mod answer;
 pub mod classes;
@@ -19,6 +19,7 @@ pub mod label;
 pub mod ledger;
 mod logged;
 pub mod picture;
+pub mod reduced;
 pub mod scored;
 pub mod selective;
 pub mod set;
