@@ -5,7 +5,7 @@ use ground_truth::drawn_robot::DrawnRobot;
 use ground_truth::driving::Style;
 use ground_truth::logging::Logging;
 use ground_truth::recording::{Plan, Session};
-use ground_truth::robot_file::Noise;
+use ground_truth::robot_file::{Noise, SpeedLoop};
 use omni_gap::localise::measure;
 use omni_gap::simulate::{AlignedRun, Model, supply_seen};
 use rayon::prelude::*;
@@ -20,6 +20,7 @@ const PLAN: Plan = Plan {
     voltage: 8.0,
     gyro: true,
     style: Style::Excitation,
+    unrest: None,
 };
 
 /// So that no delay is a whole number of rows, and a command comes just when one is read.
@@ -115,4 +116,24 @@ fn every_effect_has_its_numbers_and_numbers_are_those_of_the_robot() {
 
 fn omni_gap_numbers(truth: &RobotFile) -> Read {
     read(&truth.toml(), Path::new("robot.toml")).expect("a robot file")
+}
+
+#[test]
+fn drives_that_are_late_or_leave_small_speeds_out_are_told_by_their_numbers() {
+    for (id, expected) in [
+        ("speed_loop", &[("dead_time_s", 0.04), ("lag_s", 0.08), ("droop", 0.04)][..]),
+        ("command_deadband", &[("threshold_rad_s", 0.0)]),
+    ] {
+        let cause = ground_truth::causes::cause(id).expect("one of its causes");
+        let truth = RobotFile { drive: Some(SpeedLoop::default()), ..heavy().truth };
+        let mut setup = truth.setup();
+        (cause.put)(&mut setup, None, 2.0);
+        let read = TrueModel::of(&truth, &setup, &[(cause, None)]).read().expect("a robot file");
+        let params = &read.effects[0].params;
+        for (key, value) in expected {
+            let drive = setup.robot.drive.as_ref().expect("it controls speed");
+            let value = if *key == "threshold_rad_s" { drive.threshold } else { *value };
+            assert!((params[*key] - value).abs() < 1e-12 && value > 0.0, "{id}: {params:?}");
+        }
+    }
 }
