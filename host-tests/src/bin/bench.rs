@@ -26,7 +26,7 @@ use rayon::prelude::*;
 /// The seed of the split that anybody may tune on.
 const TUNING_SEED: u64 = 2008;
 
-/// The most that a session may take where nothing else is said [s]
+/// The most that a session may take where nothing else is said, in seconds
 const MOST_SECONDS: u64 = 120;
 
 #[derive(Parser)]
