@@ -80,7 +80,7 @@ fn only_loses<const N: usize>(robot: Robot<N, f64>, input: Input<N, f64>) {
             let first = energy(&run, inertia);
             let mut last = first;
             // heavy wheels roll on for some seconds
-            for step in 0..if inertia > 0.0 { 8000 } else { 1500 } {
+            for step in 0..if inertia > 0.0 { 16_000 } else { 1500 } {
                 run.step(&input, 1e-3);
                 let now = energy(&run, inertia);
                 // rounding of the first energy; a body at rest keeps 1e-6 m/s where sweeps over budgets stop

@@ -45,12 +45,13 @@ fn run<const N: usize, T: Bits>(plant: Plant<N, T>) -> Vec<Vec<u64>> {
     all
 }
 
-/// Parameters at which there is no effect: all absent, and only those that size it, with the others typical.
+/// Parameters at which there is no effect: all absent, and only those that size it, if any do, with the others typical.
 fn ways_to_be_absent(card: &model_core::effects::card::Card) -> Vec<Vec<f64>> {
     use model_core::effects::card::Role;
     let shaped: Vec<f64> =
         card.params.iter().map(|p| if p.role == Role::Shape { p.typical } else { p.absent }).collect();
-    vec![absent(card), shaped]
+    let sized = card.params.iter().any(|p| p.role == Role::Size);
+    std::iter::once(absent(card)).chain(sized.then_some(shaped)).collect()
 }
 
 /// The plain model as [`run`] drives one whose drives control the speed.

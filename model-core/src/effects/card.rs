@@ -139,7 +139,8 @@ pub struct Param {
 pub enum Role {
     /// It sizes the effect: at `absent` there is none. Fitted; must stand in `robot.toml`.
     Size,
-    /// It shapes the effect. Fitted from `typical`; `typical` where `robot.toml` leaves it out.
+    /// It shapes the effect. Fitted from `typical`; `typical` where `robot.toml` leaves it out. Of an effect without a size, which is
+    /// there or not, a shape that is `absent` does nothing either.
     Shape,
     /// It shapes the effect too weakly to be found in a recording. Held at `typical`, which is also its default.
     Fixed,

@@ -45,7 +45,7 @@ pub const CARD: Card = Card {
             unit: "N",
             absent: 0.0,
             typical: 0.3,
-            within: (0.0, 5.0),
+            within: (0.0, 50.0),
             role: Role::Size,
         },
         Param {

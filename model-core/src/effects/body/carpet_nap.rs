@@ -50,7 +50,7 @@ pub const CARD: Card = Card {
             unit: "N",
             absent: 0.0,
             typical: 0.2,
-            within: (0.0, 2.0),
+            within: (0.0, 20.0),
             role: Role::Size,
         },
         Param {

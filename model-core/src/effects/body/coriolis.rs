@@ -10,16 +10,18 @@
 //! these terms out; they vanish in runs along one axis and are the largest error of all in curves.
 //!
 //! symbol  code      unit  meaning
-//! ------  --------  ----  ---------------------------------
-//! k       `factor`  1     1 in nature, 0 in the paper's model
+//! ------  --------  ----  ------------------------------------------------
+//! k       `factor`  1     share of the mass that turns, 0 in the paper's model
 //!
-//! Physics leaves nothing to choose: the factor is held at 1 and no parameter is fitted. A fit that frees it to see
-//! whether 1 comes out proves that frames and signs of a recording are right.
+//! Of a mass that turns with the robot physics leaves nothing to choose: k = 1. A mass that was found by driving along an axis,
+//! as in the paper, holds what wheels and rotors add to it by their own inertia, J·n/r²; that does not turn with the robot, and
+//! k is the turning mass over the whole. A fit begins at 1, and that 1 comes out of a weighed robot proves that frames and signs
+//! of its recordings are right.
 //!
 //! Fails when: the centre of mass is not in the middle: then terms in ω² and dω/dt join.
 //! How to measure it: drive a curve at constant heading speed: v and vn swing in quadrature.
-//! Source: Derivative of a vector in a turning frame: Goldstein, Classical Mechanics, ch. 4; no free size, 1 by
-//! derivation.
+//! Source: Derivative of a vector in a turning frame: Goldstein, Classical Mechanics, ch. 4; 1 by
+//! derivation for the mass that turns.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, BodyMotion, EffectContext};
@@ -34,7 +36,7 @@ pub const CARD: Card = Card {
     title: "Coriolis terms",
     summary: "A robot that turns while it moves carries its velocity round, which the paper's equations leave out.",
     equation: "dv/dt += k·ω·vn,  dvn/dt −= k·ω·v",
-    source: "derivative of a vector in a turning frame: Goldstein, Classical Mechanics, ch. 4; no free size, 1 by derivation",
+    source: "derivative of a vector in a turning frame: Goldstein, Classical Mechanics, ch. 4; 1 by derivation for the mass that turns",
     seams: &[Seam::Body],
     scope: Scope::Robot,
     params: &[Param {
@@ -44,7 +46,7 @@ pub const CARD: Card = Card {
         absent: 0.0,
         typical: 1.0,
         within: (0.0, 2.0),
-        role: Role::Fixed,
+        role: Role::Shape,
     }],
     needs_current: false,
     shows: Shows {

@@ -43,7 +43,7 @@ pub const CARD: Card = Card {
         unit: "N·s²/m²",
         absent: 0.0,
         typical: 0.05,
-        within: (0.0, 2.0),
+        within: (0.0, 10.0),
         role: Role::Size,
     }],
     needs_current: false,

@@ -48,7 +48,7 @@ pub const CARD: Card = Card {
             unit: "N",
             absent: 0.0,
             typical: 0.15,
-            within: (0.0, 5.0),
+            within: (0.0, 20.0),
             role: Role::Size,
         },
         Param {

@@ -44,7 +44,7 @@ pub const CARD: Card = Card {
         unit: "N·m",
         absent: 0.0,
         typical: 0.02,
-        within: (-0.3, 0.3),
+        within: (-2.0, 2.0),
         role: Role::Size,
     }],
     needs_current: false,

@@ -61,7 +61,7 @@ pub const CARD: Card = Card {
             unit: "N·m/rad",
             absent: 200.0,
             typical: 200.0,
-            within: (10.0, 2000.0),
+            within: (10.0, 20_000.0),
             role: Role::Fixed,
         },
         springs::DAMPING_TIME,

@@ -44,7 +44,7 @@ pub const CARD: Card = Card {
         unit: "kg·m²",
         absent: 0.0,
         typical: 7.5e-5,
-        within: (0.0, 2e-3),
+        within: (0.0, 5e-3),
         role: Role::Size,
     }],
     needs_current: false,

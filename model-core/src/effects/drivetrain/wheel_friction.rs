@@ -44,7 +44,7 @@ pub const CARD: Card = Card {
             unit: "N·m",
             absent: 0.0,
             typical: 0.02,
-            within: (0.0, 0.5),
+            within: (0.0, 3.0),
             role: Role::Size,
         },
         Param {
@@ -53,7 +53,7 @@ pub const CARD: Card = Card {
             unit: "N·m·s",
             absent: 0.0,
             typical: 1e-4,
-            within: (0.0, 0.01),
+            within: (0.0, 0.1),
             role: Role::Size,
         },
     ],

@@ -54,7 +54,7 @@ pub const CARD: Card = Card {
             unit: "N·m",
             absent: 0.0,
             typical: 0.008,
-            within: (-0.2, 0.2),
+            within: (-1.0, 1.0),
             role: Role::Size,
         },
         Param {
@@ -63,7 +63,7 @@ pub const CARD: Card = Card {
             unit: "N·m",
             absent: 0.0,
             typical: 0.006,
-            within: (-0.2, 0.2),
+            within: (-1.0, 1.0),
             role: Role::Size,
         },
         Param {

@@ -45,7 +45,7 @@ pub const CARD: Card = Card {
             unit: "V",
             absent: 0.0,
             typical: 0.3,
-            within: (0.0, 1.5),
+            within: (0.0, 5.0),
             role: Role::Size,
         },
         bridges::SMOOTHING_CURRENT,

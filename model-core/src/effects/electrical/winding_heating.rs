@@ -58,7 +58,7 @@ pub const CARD: Card = Card {
             unit: "K/W",
             absent: 0.0,
             typical: 15.0,
-            within: (0.0, 60.0),
+            within: (0.0, 200.0),
             role: Role::Size,
         },
         Param {

@@ -45,7 +45,7 @@ pub const CARD: Card = Card {
         unit: "s",
         absent: 0.0,
         typical: 0.040,
-        within: (0.0, 0.15),
+        within: (0.0, 0.3),
         role: Role::Size,
     }],
     needs_current: false,

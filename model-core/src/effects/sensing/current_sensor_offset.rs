@@ -36,7 +36,7 @@ pub const CARD: Card = Card {
         unit: "A",
         absent: 0.0,
         typical: 0.05,
-        within: (-0.5, 0.5),
+        within: (-3.0, 3.0),
         role: Role::Size,
     }],
     needs_current: false,

@@ -47,7 +47,7 @@ pub const CARD: Card = Card {
             unit: "m",
             absent: 0.0,
             typical: 0.010,
-            within: (-0.1, 0.1),
+            within: (-0.3, 0.3),
             role: Role::Size,
         },
         Param {
@@ -56,7 +56,7 @@ pub const CARD: Card = Card {
             unit: "m",
             absent: 0.0,
             typical: 0.005,
-            within: (-0.1, 0.1),
+            within: (-0.3, 0.3),
             role: Role::Size,
         },
     ],
