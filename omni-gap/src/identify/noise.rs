@@ -32,6 +32,8 @@ const SIGNIFICANT: f64 = 3.0;
 const LONGEST: f64 = 0.25;
 /// The shortest correlation time that is looked for, as a share of the sampling interval.
 const SHORTEST: f64 = 0.1;
+/// Windows that noise is estimated from, at the least.
+const LEAST_WINDOWS: usize = 8;
 /// Halvings of the interval of ln τ.
 const HALVINGS: usize = 14;
 /// No sensor is believed to be this much better than its file says.
@@ -78,6 +80,12 @@ impl Noise {
 /// Estimates the noise from what a fit leaves over of the runs that it was made to. Scales are over the runs' sigma; what
 /// the runs say of correlation is not looked at.
 pub fn noise_of<const N: usize>(fit: &Fit<N>, shots: Shots<'_, N>) -> Noise {
+    noise_where_quiet(fit, shots, 1.0)
+}
+
+/// The same from that share of the windows in which least is left over: noise is the same everywhere, and what a model lacks is
+/// not.
+pub fn noise_where_quiet<const N: usize>(fit: &Fit<N>, shots: Shots<'_, N>, share: f64) -> Noise {
     let runs: Vec<Cow<'_, AlignedRun<N>>> = shots.runs.iter().map(|run| white(run)).collect();
     let runs: Vec<&AlignedRun<N>> = runs.iter().map(AsRef::as_ref).collect();
     let shots = Shots { runs: &runs, windows: shots.windows };
@@ -92,7 +100,27 @@ pub fn noise_of<const N: usize>(fit: &Fit<N>, shots: Shots<'_, N>) -> Noise {
         }
     }
     let longest = LONGEST * lengths / lefts.len().max(1) as f64;
-    solve(&lefts, longest)
+    solve(&quietest(lefts, share), longest)
+}
+
+/// The share of the windows in which the group that stands out most over what it leaves in its own quietest share does so least.
+fn quietest(mut lefts: Vec<Left>, share: f64) -> Vec<Left> {
+    let keep = ((share * lefts.len() as f64).ceil() as usize).max(LEAST_WINDOWS);
+    if keep >= lefts.len() {
+        return lefts;
+    }
+    let per_number = |left: &Left, g: usize| left.seen[g][0] / left.count[g][0].max(1.0);
+    let usual: [f64; GROUPS] = std::array::from_fn(|g| {
+        let mut all: Vec<f64> =
+            lefts.iter().filter(|left| left.count[g][0] > 0.0).map(|left| per_number(left, g)).collect();
+        let at = (share * all.len() as f64) as usize;
+        if all.is_empty() { 1.0 } else { *all.select_nth_unstable_by(at, f64::total_cmp).1 }
+    });
+    let loud =
+        |left: &Left| (0..GROUPS).map(|g| per_number(left, g) / usual[g].max(f64::MIN_POSITIVE)).fold(0.0, f64::max);
+    lefts.sort_by(|a, b| loud(a).total_cmp(&loud(b)));
+    lefts.truncate(keep);
+    lefts
 }
 
 /// The run without what it says of correlation.

@@ -24,6 +24,30 @@ fn found(how: &Staging, window: f64) -> Noise {
     noise_of(&fitted, shots)
 }
 
+#[test]
+fn noise_is_taken_from_where_a_model_that_lacks_something_does_not_show_it() {
+    let model = Model::<4>::nominal(&robot(), 12.0);
+    let mut runs = staged(&model, &Staging { runs: 6, ..Staging::default() });
+    // half of every run has a wave in the wheel speeds that no model knows
+    for run in &mut runs {
+        let (half, step) = (run.rows() / 2, 0.2);
+        for row in 0..half {
+            for wheel in 0..4 {
+                let channel = AlignedRun::<4>::channels().wheel_speed(wheel);
+                run.measured[row][channel] += 20.0 * run.sigma[channel] * (step * row as f64).sin();
+            }
+        }
+    }
+    let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, 0.5)).collect();
+    let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
+    let shots = Shots { runs: &runs, windows: &windows };
+    let options =
+        FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: false };
+    let fitted = fit(model, shots, None, options);
+    let [everywhere, quiet] = [1.0, 0.3].map(|share| noise_where_quiet(&fitted, shots, share).scale[1]);
+    assert!(everywhere > 5.0 && (quiet - 1.0).abs() < 0.15, "everywhere {everywhere}, where it is quiet {quiet}");
+}
+
 /// Channels of a group with one value, all others with another.
 fn only(which: usize, inside: f64, outside: f64) -> [f64; MAX_CHANNELS] {
     std::array::from_fn(|c| if group(4, c) == which { inside } else { outside })

@@ -7,7 +7,7 @@
 use super::scored::Data;
 use crate::engine::evidence::Runs;
 use crate::engine::findings::ChannelNoise;
-use crate::identify::{Fit, Noise, noise_of};
+use crate::identify::{Fit, Noise, noise_where_quiet};
 use crate::simulate::{AlignedRun, SignalGroup};
 
 /// Noise that a model's left-overs show.
@@ -23,13 +23,17 @@ pub(super) struct SeenNoise {
 pub(super) fn noise_seen<const N: usize>(fit: &Fit<N>, data: &Data<'_, N>) -> Option<SeenNoise> {
     let (screen, knobs) = (&data.knobs.screen, &data.knobs.noise);
     let few = data.to_fit().beginning(screen.runs, screen.least_s).shortened(screen.most_s, screen.most_rows);
-    let mut noise = noise_of(fit, few.shots());
-    let (mut as_stated, mut beyond_belief) = (true, false);
+    let most: [f64; 6] = sensors::<N>().map(|(_, _, channel)| match AlignedRun::<N>::channels().group(channel) {
+        SignalGroup::WheelSpeed => knobs.most_of_speeds,
+        _ => knobs.most,
+    });
+    let everywhere = noise_where_quiet(fit, few.shots(), 1.0);
+    let beyond_belief = everywhere.scale.iter().zip(&most).any(|(scale, most)| scale > most);
+    // noise is the same everywhere; what a model lacks is not
+    let mut noise = if beyond_belief { noise_where_quiet(fit, few.shots(), knobs.quiet) } else { everywhere };
+    let mut as_stated = true;
     for (sensor, (scale, memory)) in noise.scale.iter_mut().zip(&mut noise.correlation_time).enumerate() {
-        let group = AlignedRun::<N>::channels().group(sensors::<N>()[sensor].2);
-        let most = if group == SignalGroup::WheelSpeed { knobs.most_of_speeds } else { knobs.most };
-        beyond_belief |= *scale > most;
-        *scale = scale.clamp(knobs.least, most);
+        *scale = scale.clamp(knobs.least, most[sensor]);
         *memory = memory.min(knobs.longest_s);
         let step = median_step(&data.fit, sensor);
         if *memory < knobs.shortest_rows * step {

@@ -106,8 +106,12 @@ impl Looked {
         let gain = |trial: &Trial| self.gain_of(trial);
         let best = first_best(&self.tried, gain).unwrap_or(&self.tried[0]);
         let numbers = one_step(self.candidate.card, &self.tried, best, gain);
-        let (gain, from) = (gain(best), scaled(&self.candidate, &best.effect, best.amplitude, knobs.start_between));
-        Screened { candidate: self.candidate, gain, visible, from, numbers }
+        // a straight line far beyond what was tried is not believed: a fit starts where least of it is needed
+        let near =
+            |trial: &Trial| if gain(trial) > 0.0 { trial.gain_within(knobs.start_between) } else { f64::NEG_INFINITY };
+        let start = first_best(&self.tried, near).unwrap_or(best);
+        let from = scaled(&self.candidate, &start.effect, start.amplitude, knobs.start_between);
+        Screened { gain: gain(best), candidate: self.candidate, visible, from, numbers }
     }
 }
 
@@ -122,6 +126,14 @@ struct Trial {
     size: f64,
     /// Whether that is more than rounding
     determined: bool,
+}
+
+impl Trial {
+    /// Drop of Σ error² that its signature brings at the multiple between two that is nearest to the best [σ²].
+    fn gain_within(&self, (least, most): (f64, f64)) -> f64 {
+        let by = self.amplitude.signum() * self.amplitude.abs().clamp(least, most);
+        by * (2.0 * self.amplitude - by) * self.size.powi(2)
+    }
 }
 
 /// The first of those that gain most.
