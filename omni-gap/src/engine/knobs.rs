@@ -4,10 +4,12 @@
 //! the knobs that it was made with, so that an answer can be made again, and a benchmark can say what each one is worth.
 //! "By trial" as a reason means: the counts of the benchmark were reached with it, and no better reason is known.
 
+mod probability;
 mod selftest;
 
 use serde::{Deserialize, Serialize};
 
+pub use probability::{CalibrationKnobs, LogitLine, ProbabilityKnobs, logit};
 pub use selftest::SelftestKnobs;
 
 use crate::identify::{FitSettings, WINDOW_S};
@@ -15,7 +17,7 @@ use crate::localise::{HORIZONS_S, RegimeSettings};
 use crate::simulate::HORIZON_S;
 
 /// The version of the knobs' names and meanings that this program writes; a new value of a knob is no new version.
-pub const KNOBS_VERSION: u32 = 1;
+pub const KNOBS_VERSION: u32 = 2;
 
 /// All thresholds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,6 +75,8 @@ pub struct ScreenKnobs {
     pub without: Vec<String>,
     /// A promise below this is not worth a fit [σ²]: three sigma of one number.
     pub promising: f64,
+    /// The same of a number of the robot file [1]: what the search asks of it at the least.
+    pub promising_number: f64,
     /// Beyond the best `always_fitted`, a promise below this share of the best is not worth a fit [1]. By trial.
     pub worth_a_fit: f64,
     /// Share of a promise that is worth a fit below which, at its typical size, an effect is not looked at more closely, at
@@ -116,9 +120,11 @@ pub struct ScreenKnobs {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SearchKnobs {
-    /// Causes that one corrected model may need, at the most [causes]: a limit of time. More than 3 counts as 3: a model has
+    /// Effects that one corrected model may need, at the most [effects]: a limit of time. More than 3 counts as 3: a model has
     /// no room for more beside the effects of its robot file.
     pub most_causes: usize,
+    /// Wrong numbers of the robot file beside them, at the most [numbers]: six of fifteen is another robot's file.
+    pub most_numbers: usize,
     /// What each free number of a cause costs in the score [1]: as in Akaike's criterion.
     pub price_of_freedom: f64,
     /// Σ error² per number below which nothing relevant can be left [σ²]: the relevant further effect takes more.
@@ -128,6 +134,11 @@ pub struct SearchKnobs {
     /// … and by as much again for each free number or statement that it adds [1]; one number: a chance of 1 in 2,000 when
     /// nothing is there.
     pub convincing_each: f64,
+    /// The same as `convincing` of a number of the robot file [1]: with what each costs, 2.75 stated sigmas. One of fifteen numbers
+    /// of a file that states its own errors rightly is that far off in one robot of eleven.
+    pub convincing_number: f64,
+    /// The same where another number is known to be wrong [1]: 2.5 stated sigmas; then one in four is believed to be of such a file.
+    pub convincing_further_number: f64,
     /// An effect has to take this share off Σ error² of one channel [1]: a significant but tiny improvement explains nothing.
     /// Of one channel, since what shows in the poses alone, or on one wheel, is not made smaller by what else was logged. What a
     /// record shows event by event need not: it was counted.
@@ -148,6 +159,10 @@ pub struct SearchKnobs {
 pub struct NoiseKnobs {
     /// Noise that differs from what is stated by less than this factor is as stated [1]: a fit's own errors are as large.
     pub as_stated: f64,
+    /// The share of the windows, those in which least is left over, that noise is taken from where it would be beyond belief [1]:
+    /// all. With 0.3 the noise of what is missing does not count, and floors are truer; but of the effects that a board undoes in the
+    /// loop one is then named wrongly (`gap`).
+    pub quiet: f64,
     /// Of the stated sigma, the most and the least that are believed [1]: what is larger is a gap. Data sheets, and people
     /// who look at a robot at rest, are wrong by two or three times.
     pub most: f64,
@@ -171,23 +186,6 @@ pub struct OutcomeKnobs {
     pub inadequate: f64,
     /// The same for a model with wrong parameters corrected [1]: twice as far, a parameter need not explain all.
     pub inadequate_parameters: f64,
-}
-
-/// How scores become probabilities.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct ProbabilityKnobs {
-    /// Score differences are divided by this [1]: they are worth less than their face, models are never quite right.
-    pub temperature: f64,
-    /// What the plain model is given, in score, against any one of many causes [1]: about 2·ln of their number, and as
-    /// much again for what was tried of each.
-    pub head_start: f64,
-    /// How likely an unknown cause is where there is no gap [1].
-    pub unknown_without_gap: f64,
-    /// Width over which `unknown` fades as more than the least share is closed [1]: where causes explain the gap.
-    pub unknown_width_explained: f64,
-    /// The same where they do not [1]. By trial, as the one before.
-    pub unknown_width_unknown: f64,
 }
 
 /// How the gap is measured.
@@ -260,6 +258,7 @@ impl Default for ScreenKnobs {
             most_rows: 20_000,
             without: Vec::new(),
             promising: 9.0,
+            promising_number: 6.0,
             worth_a_fit: 0.25,
             closer_look: 0.1,
             always_fitted: 2,
@@ -268,7 +267,7 @@ impl Default for ScreenKnobs {
             fitted_parameters: 3,
             single_wheel_share: 0.6,
             alike_share: 0.5,
-            size_multiples: vec![0.5, 2.0],
+            size_multiples: vec![0.03, 0.5, 2.0],
             shape_multiples: vec![0.33, 2.0, 4.0],
             shape_turns: vec![0.25, 0.5, 0.75],
             shape_away: 0.05,
@@ -284,10 +283,13 @@ impl Default for SearchKnobs {
     fn default() -> Self {
         Self {
             most_causes: 3,
+            most_numbers: 6,
             price_of_freedom: 2.0,
             enough: 1.03,
             convincing: 8.0,
             convincing_each: 2.0,
+            convincing_number: 3.6,
+            convincing_further_number: 2.3,
             relevant: 0.01,
             relevant_further: 0.05,
             tie: 8.0,
@@ -299,25 +301,21 @@ impl Default for SearchKnobs {
 
 impl Default for NoiseKnobs {
     fn default() -> Self {
-        Self { as_stated: 1.2, most: 3.0, most_of_speeds: 4.5, least: 1.0 / 3.0, longest_s: 0.06, shortest_rows: 0.5 }
+        Self {
+            as_stated: 1.2,
+            quiet: 1.0,
+            most: 3.0,
+            most_of_speeds: 4.5,
+            least: 1.0 / 3.0,
+            longest_s: 0.06,
+            shortest_rows: 0.5,
+        }
     }
 }
 
 impl Default for OutcomeKnobs {
     fn default() -> Self {
         Self { least_closed: 0.6, inadequate: 1.15, inadequate_parameters: 2.3 }
-    }
-}
-
-impl Default for ProbabilityKnobs {
-    fn default() -> Self {
-        Self {
-            temperature: 3.0,
-            head_start: 12.0,
-            unknown_without_gap: 0.01,
-            unknown_width_explained: 0.08,
-            unknown_width_unknown: 0.1,
-        }
     }
 }
 

@@ -3,36 +3,63 @@
 use model_core::effects::card::Role;
 
 use super::candidate::Cause;
+use super::found::Found;
 use super::round::{Ranked, Ranking};
 use crate::engine::knobs::SearchKnobs;
 use crate::identify::Prior;
 use crate::simulate::Slot;
 
+/// What stands in a model beside a cause.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside {
+    /// Any cause.
+    pub causes: bool,
+    /// Numbers of the robot file alone: of a file that is wrong once, another is believed sooner.
+    pub numbers_alone: bool,
+}
+
+impl Beside {
+    /// These causes.
+    pub fn these<'a>(causes: impl IntoIterator<Item = &'a Found>) -> Self {
+        let mut causes = causes.into_iter().peekable();
+        let any = causes.peek().is_some();
+        Self { causes: any, numbers_alone: any && causes.all(Found::is_parameter) }
+    }
+}
+
 /// True if a cause is worth taking up: better by enough, relevant, and of a size that is not zero.
 pub(super) fn convincing<const N: usize>(
     best: &Ranked<N>,
     ranking: &Ranking<N>,
-    further: bool,
+    beside: Beside,
     prior: &Prior,
     knobs: &SearchKnobs,
 ) -> bool {
     let (base, scale) = (&ranking.base, ranking.scale);
     let numbers = best.cause.freedom(prior);
     let (gain, _) = best.scored.better_than(base, scale);
-    if gain < knobs.convincing + knobs.convincing_each * numbers as f64 {
+    if gain < asked_of(&best.cause, numbers, beside, knobs) {
         return false;
     }
-    let taken = best.scored.share_taken(base);
-    match best.cause {
-        // what was stated is data too: a parameter need not predict better, only be more believable
-        Cause::Parameter(_) => !further || taken > knobs.relevant,
-        Cause::Effect(card, _) => {
-            let least = if further { knobs.relevant_further } else { knobs.relevant };
-            (taken > least || card.shows_event_by_event())
-                && best.scored.surely_better_than(base, scale, knobs)
-                && has_size(best, prior, knobs.size_errors)
-        }
-    }
+    let Cause::Effect(card, _) = best.cause else {
+        // what was stated is data too: where no effect is known, a parameter need not predict better, only be more believable
+        return !beside.causes || beside.numbers_alone || best.scored.share_taken(base) > knobs.relevant;
+    };
+    let least = if beside.causes { knobs.relevant_further } else { knobs.relevant };
+    (best.scored.share_taken(base) > least || card.shows_event_by_event())
+        && best.scored.surely_better_than(base, scale, knobs)
+        && has_size(best, prior, knobs.size_errors)
+}
+
+/// By how much a cause has to better the score.
+pub(super) fn asked_of(cause: &Cause, numbers: usize, beside: Beside, knobs: &SearchKnobs) -> f64 {
+    let once = match cause {
+        Cause::Parameter(_) if beside.numbers_alone => knobs.convincing_further_number,
+        Cause::Parameter(_) if !beside.causes => knobs.convincing_number,
+        // what an effect is not quite right about is put on numbers beside it
+        _ => knobs.convincing,
+    };
+    once + knobs.convincing_each * numbers as f64
 }
 
 /// True if a size of the effect is away from absent by more than so many of its standard errors, its shapes held: of an effect

@@ -59,6 +59,11 @@ impl Cause {
         }
     }
 
+    /// True if both are the same cause at the same place.
+    pub fn is(&self, other: &Cause) -> bool {
+        self.same_id(other) && self.wheel() == other.wheel() && self.axis() == other.axis()
+    }
+
     /// True if both name the same cause, wherever it sits.
     pub fn same_id(&self, other: &Cause) -> bool {
         self.id() == other.id()

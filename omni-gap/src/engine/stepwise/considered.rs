@@ -21,22 +21,17 @@ pub(super) fn considered<const N: usize>(search: &Search<N>, robot: &RobotFile) 
         let parameters = ranking.released.iter().map(|r| parameter(r, ranking, robot));
         for (cause, mut considered) in effects.chain(parameters) {
             considered.round = round;
-            considered.taken_up = search.found.iter().any(|f| f.round == round && same(&f.cause, &cause));
+            considered.taken_up = search.found.iter().any(|f| f.round == round && f.cause.is(&cause));
             all.push(considered);
         }
     }
     all
 }
 
-/// True for the same cause at the same place.
-fn same(a: &Cause, b: &Cause) -> bool {
-    a.same_id(b) && a.wheel() == b.wheel() && a.axis() == b.axis()
-}
-
 fn effect<const N: usize>(screened: &Screened, ranking: &Ranking<N>) -> (Cause, ConsideredCause) {
     let card = screened.candidate.card;
     let cause = Cause::Effect(card, screened.candidate.wheel);
-    let fitted = ranking.ranked.iter().find(|r| same(&r.cause, &cause));
+    let fitted = ranking.ranked.iter().find(|r| r.cause.is(&cause));
     let numbers = match fitted {
         Some(ranked) => fitted_effect(card, ranked),
         None => screened.numbers.clone(),
@@ -65,7 +60,7 @@ fn parameter<const N: usize>(
     robot: &RobotFile,
 ) -> (Cause, ConsideredCause) {
     let cause = Cause::Parameter(screened.release);
-    let fitted = ranking.ranked.iter().find(|r| same(&r.cause, &cause));
+    let fitted = ranking.ranked.iter().find(|r| r.cause.is(&cause));
     let numbers = own_keys(screened.release).map(|key| {
         let (factor, std) = match fitted {
             Some(Ranked { scored, .. }) => (Some(key.factor(&scored.fit.model.factor)), scored.fit.relative_std(key)),

@@ -4,12 +4,16 @@
 //! [`screen`] asks how much of what the plain model leaves over each could explain once the parameters and the windows'
 //! starts have taken their share. The best are fitted, and judged by how well they predict whole runs that no fit has
 //! seen, plus what they cost by the robot file's own uncertainty and by their freedom ([`scored`]); that is one
-//! [`round`]. The best that convinces ([`accept`]) is taken up, and the next round goes on from there ([`search`]).
+//! [`round`]. The best that convinces ([`accept`]) is taken up, and the next round goes on from there ([`search`]): effects
+//! until nothing relevant is left, numbers of the robot file as long as another one is not to be believed. Then each cause has to
+//! earn its place beside the others ([`earned`]).
 
 mod accept;
 mod candidate;
 mod considered;
 mod distances;
+mod earned;
+mod found;
 mod noise;
 mod not_seen;
 mod numbers;

@@ -103,10 +103,7 @@ fn stage_weights<const N: usize>(search: &Search<N>, data: &Data<'_, N>) -> [f64
         }
     }
     for found in &search.found {
-        let ranking = &search.rounds[found.round];
-        let gain =
-            ranking.base.score(ranking.scale) - ranking.ranked.first().map_or(0.0, |r| r.scored.score(ranking.scale));
-        weights[at(stage_of(found.cause.id()))] += gain.max(0.0);
+        weights[at(stage_of(found.cause.id()))] += found.earns.max(0.0);
     }
     weights
 }

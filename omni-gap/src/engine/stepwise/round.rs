@@ -58,19 +58,22 @@ fn worth_a_fit<'a>(screened: &'a [Screened], knobs: &ScreenKnobs) -> Vec<&'a Scr
     worth
 }
 
-/// Tries every cause on top of a fitted model. `released` are the statements already struck out.
-pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prior) -> Ranking<N> {
+/// What is tried in a round.
+#[derive(Clone, Copy, Debug)]
+pub struct Tried {
+    /// Effects of the catalogue.
+    pub effects: bool,
+    /// Numbers of the robot file.
+    pub numbers: bool,
+}
+
+/// Tries every cause on top of a fitted model. `prior` is without the statements already struck out.
+pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prior, tried: Tried) -> Ranking<N> {
     let knobs = &data.knobs.screen;
-    let shortened = data.to_fit().beginning(knobs.runs, knobs.least_s).shortened(knobs.most_s, knobs.most_rows);
-    let few = shortened.shots();
-    let linear = base.fit.linearised(few);
     let considered = |id: &str| !knobs.without.iter().any(|without| without == id);
-    let mut all = candidates::<N>(&base.fit.model.effects, data.fit[0].chain, knobs);
-    all.retain(|candidate| considered(candidate.card.id));
-    let mut screened = screen(&base.fit, &linear, prior, few, all, knobs);
+    let mut screened = if tried.effects { screened(data, &base, prior, &considered) } else { Vec::new() };
     screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    drop(linear);
-    let mut releases = freed_priors();
+    let mut releases = if tried.numbers { freed_priors() } else { Vec::new() };
     releases.retain(|release| considered(release.cause));
     let mut released = screen_releases(&base.fit, prior, &releases, &data.knobs.fit);
     released.sort_by(|a, b| b.gain.total_cmp(&a.gain));
@@ -78,10 +81,11 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
     let effects = worth_a_fit(&screened, knobs)
         .into_iter()
         .map(|s| (Cause::Effect(s.candidate.card, s.candidate.wheel), Some(s.from.clone()), prior.clone(), s.gain));
-    let parameters = released.iter().filter(|r| r.gain > knobs.promising).take(knobs.fitted_parameters).map(|r| {
-        let without = prior.without(r.release, data.knobs.fit.released_sigma);
-        (Cause::Parameter(r.release), None, without, r.gain)
-    });
+    let parameters =
+        released.iter().filter(|r| r.gain > knobs.promising_number).take(knobs.fitted_parameters).map(|r| {
+            let without = prior.without(r.release, data.knobs.fit.released_sigma);
+            (Cause::Parameter(r.release), None, without, r.gain)
+        });
     let mut jobs: Vec<(Cause, Option<EffectInstance>, Prior, f64)> = effects.chain(parameters).collect();
     jobs.sort_by(|a, b| b.3.total_cmp(&a.3));
     let fitted = |(cause, effect, prior, _): (Cause, Option<EffectInstance>, Prior, f64)| {
@@ -113,4 +117,20 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
         .max(1.0);
     ranked.sort_by(|a, b| a.scored.score(scale).total_cmp(&b.scored.score(scale)));
     Ranking { base, ranked, screened, released, scale }
+}
+
+/// Every effect with its promise.
+fn screened<const N: usize>(
+    data: &Data<'_, N>,
+    base: &Scored<N>,
+    prior: &Prior,
+    considered: &dyn Fn(&str) -> bool,
+) -> Vec<Screened> {
+    let knobs = &data.knobs.screen;
+    let shortened = data.to_fit().beginning(knobs.runs, knobs.least_s).shortened(knobs.most_s, knobs.most_rows);
+    let few = shortened.shots();
+    let linear = base.fit.linearised(few);
+    let mut all = candidates::<N>(&base.fit.model.effects, data.fit[0].chain, knobs);
+    all.retain(|candidate| considered(candidate.card.id));
+    screen(&base.fit, &linear, prior, few, all, knobs)
 }

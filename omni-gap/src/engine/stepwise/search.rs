@@ -1,24 +1,16 @@
 //! The search: causes are taken up one by one (forward stepwise selection), and what is left decides the outcome.
 
-use super::accept::{convincing, look_alikes};
+use super::accept::{Beside, convincing, look_alikes};
 use super::candidate::Cause;
-use super::round::{Ranking, explain};
+use super::earned::earning_their_place;
+use super::found::Found;
+use super::round::{Ranked, Ranking, Tried, explain};
 use super::scored::{Data, Scored};
-use crate::engine::knobs::OutcomeKnobs;
+use crate::engine::knobs::{OutcomeKnobs, SearchKnobs};
+use crate::identify::Prior;
 use crate::localise::{Measured, floor, measure};
 use crate::simulate::{Model, ROOM_FOR_CAUSES, SignalGroup};
 use crate::vocabulary::Progress;
-
-/// A cause of the corrected model.
-#[derive(Clone, Debug)]
-pub struct Found {
-    /// The cause.
-    pub cause: Cause,
-    /// Causes that the data cannot tell from it.
-    pub not_told_apart_from: Vec<Cause>,
-    /// The round in which it was found.
-    pub round: usize,
-}
 
 /// What the data say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +41,8 @@ pub struct Search<const N: usize> {
     /// Share of the gap that the causes close: over the re-fitted plain model for effects, over the nominal one for
     /// parameters alone.
     pub closed: f64,
+    /// How far what the corrected model misses is on its way from noise (zero) to where it is no longer adequate (one).
+    pub inadequate: f64,
 }
 
 impl<const N: usize> Search<N> {
@@ -61,7 +55,7 @@ impl<const N: usize> Search<N> {
     }
 }
 
-/// Searches causes one by one, until a further one explains no more.
+/// Searches causes one by one, until a further one explains no more; then each has to earn its place beside the others.
 pub fn search<const N: usize>(data: &Data<'_, N>, nominal: &Model<N>, progress: Progress<'_>) -> Search<N> {
     progress("fitting the plain model within its stated uncertainty");
     let knobs = &data.knobs.search;
@@ -71,35 +65,50 @@ pub fn search<const N: usize>(data: &Data<'_, N>, nominal: &Model<N>, progress: 
     let mut found: Vec<Found> = Vec::new();
     let mut rounds: Vec<Ranking<N>> = Vec::new();
     loop {
-        // what is left may be too little for any further cause to be relevant
-        if !found.is_empty() && current.held() < knobs.enough * current.freedom {
+        // what is left may be too little for any further effect to be relevant; a number may still be unbelievable
+        let nothing_left = !found.is_empty() && current.held() < knobs.enough * current.freedom;
+        let room = room_for(&found, nothing_left, knobs);
+        if !room.effects && !room.numbers {
             break;
         }
         progress(match found.len() {
             0 => "trying every cause",
             _ => "trying what is left after the causes found",
         });
-        rounds.push(explain(data, current.clone(), &prior));
+        rounds.push(explain(data, current.clone(), &prior, room));
         let ranking = &rounds[rounds.len() - 1];
-        // of causes that score alike, the first that convinces: a friction wrong on one axis may stand behind all three
-        let least = ranking.ranked.first().map_or(0.0, |r| r.scored.score(ranking.scale));
-        let best = ranking
-            .ranked
-            .iter()
-            .filter(|_| found.len() < knobs.most_causes.min(ROOM_FOR_CAUSES - 1))
-            .take_while(|r| r.scored.score(ranking.scale) - least < knobs.tie)
-            .find(|r| convincing(r, ranking, !found.is_empty(), &prior, knobs));
-        let Some(best) = best else { break };
+        let Some(best) = first_convincing(ranking, &found, &prior, knobs) else { break };
+        let earns = ranking.base.score(ranking.scale) - best.scored.score(ranking.scale);
         if let Cause::Parameter(release) = best.cause {
             prior = prior.without(release, data.knobs.fit.released_sigma);
         }
         current = best.scored.clone();
         let not_told_apart_from = look_alikes(best, ranking, knobs);
-        found.push(Found { cause: best.cause, not_told_apart_from, round: rounds.len() - 1 });
+        found.push(Found { cause: best.cause, not_told_apart_from, round: rounds.len() - 1, earns });
     }
+    let (found, current) = earning_their_place(data, found, current, &refitted);
     progress("measuring the gap");
-    let Judged { outcome, beside, closed } = judged(data, nominal, &refitted, &current, &found);
-    Search { outcome, beside, found, corrected: current, refitted, rounds, closed }
+    let Judged { outcome, beside, closed, inadequate } = judged(data, nominal, &refitted, &current, &found);
+    Search { outcome, beside, found, corrected: current, refitted, rounds, closed, inadequate }
+}
+
+/// What a model with these causes has room for.
+fn room_for(found: &[Found], nothing_left: bool, knobs: &SearchKnobs) -> Tried {
+    let numbers = found.iter().filter(|found| found.is_parameter()).count();
+    let most_effects = knobs.most_causes.min(ROOM_FOR_CAUSES - 1);
+    Tried { effects: !nothing_left && found.len() - numbers < most_effects, numbers: numbers < knobs.most_numbers }
+}
+
+/// Of causes that score alike, the first that convinces: a friction wrong on one axis may stand behind all three.
+fn first_convincing<'a, const N: usize>(
+    ranking: &'a Ranking<N>,
+    found: &[Found],
+    prior: &Prior,
+    knobs: &SearchKnobs,
+) -> Option<&'a Ranked<N>> {
+    let least = ranking.ranked.first().map_or(0.0, |r| r.scored.score(ranking.scale));
+    let alike = ranking.ranked.iter().take_while(|r| r.scored.score(ranking.scale) - least < knobs.tie);
+    alike.into_iter().find(|r| convincing(r, ranking, Beside::these(found), prior, knobs))
 }
 
 /// What the causes found come to.
@@ -107,6 +116,7 @@ struct Judged {
     outcome: Outcome,
     beside: Option<SignalGroup>,
     closed: f64,
+    inadequate: f64,
 }
 
 /// Whether the causes found explain the gap, and which share of it they close.
@@ -126,22 +136,21 @@ fn judged<const N: usize>(
     let of =
         |error: &Measured| beside.map_or_else(|| error.total(), |group| error.groups()[group as usize].unwrap_or(0.0));
     let (after, least) = (of(&after), of(&least));
-    let parameters_only = !found.is_empty() && found.iter().all(|f| matches!(f.cause, Cause::Parameter(_)));
+    let parameters_only = !found.is_empty() && found.iter().all(Found::is_parameter);
     // a re-fit within what was stated already leans towards a wrong parameter's true value
     let from = if parameters_only { of(&error(nominal)) } else { of(&before) };
     // a quotient of less than that would be noise
     let worth_dividing_by = from - least > data.knobs.measure.smallest_room_sigma;
     let closed = if worth_dividing_by { ((from - after) / (from - least)).clamp(0.0, 1.0) } else { 1.0 };
-    let outcome = if found.is_empty() {
-        if after > inadequate * least { Outcome::Unknown } else { Outcome::NoGap }
-    } else if parameters_only {
-        if after > inadequate_parameters * least { Outcome::Unknown } else { Outcome::Explained }
-    } else if closed < least_closed && after > inadequate * least {
-        Outcome::Unknown
-    } else {
-        Outcome::Explained
+    let most = if parameters_only { inadequate_parameters } else { inadequate };
+    let adequate = after <= most * least;
+    let outcome = match (found.is_empty(), adequate) {
+        (true, true) => Outcome::NoGap,
+        (false, true) => Outcome::Explained,
+        (false, false) if !parameters_only && closed >= least_closed => Outcome::Explained,
+        (_, false) => Outcome::Unknown,
     };
-    Judged { outcome, beside, closed }
+    Judged { outcome, beside, closed, inadequate: (after / least - 1.0) / (most - 1.0) }
 }
 
 /// Where the plain model leaves no gap in the totals, the group beside them in which it leaves the largest, if any.

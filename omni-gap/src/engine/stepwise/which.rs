@@ -3,75 +3,132 @@
 use std::collections::BTreeMap;
 
 use super::candidate::Cause;
+use super::found::Found;
 use super::numbers::of_cause;
-use super::round::Ranked;
+use super::round::{Ranked, Ranking};
 use super::search::{Outcome, Search};
 use super::settle::settle_by;
 use crate::engine::findings::Which;
-use crate::engine::knobs::{Knobs, ProbabilityKnobs};
+use crate::engine::knobs::{Knobs, LogitLine, ProbabilityKnobs};
 use crate::identify::Fit;
 use crate::log::RobotFile;
 
-/// Every cause considered, most probable first, with the pseudo-causes.
+/// Every cause considered, most probable first, with the pseudo-causes: how probable it is that it is what explains most of the
+/// gap.
+///
+/// ```text
+/// p = (1 − p_unknown)·Σ_k s_k·p_k        p_k: among all that was tried where the k-th cause was found
+///                                        s_k ∝ √(what the k-th cause earns), which grows as its size does
+/// ```
+///
+/// What the answer says first is then as probable as answers of its kind turned out to be, and all else shares the rest.
 pub(super) fn which<const N: usize>(search: &Search<N>, robot: &RobotFile, knobs: &Knobs) -> Vec<Which> {
-    let ProbabilityKnobs { temperature, head_start, .. } = knobs.probability;
-    let ranking = &search.rounds[0];
-    let scale = ranking.scale;
-    let base = ranking.base.score(scale);
-    // (entry, score); of an effect tried on several wheels only the best one
-    let mut entries: Vec<(Which, f64)> = Vec::new();
-    for r in &ranking.ranked {
-        if entries.iter().any(|(w, _)| w.cause == r.cause.id()) {
-            continue;
-        }
-        let found = search.found.iter().find(|f| f.cause.same_id(&r.cause));
-        // the final model knows a found cause best
-        let fit = if found.is_some() { &search.corrected.fit } else { &r.scored.fit };
-        let mut entry = fitted(&r.cause, fit, robot);
-        if let Some(found) = found {
-            entry.not_told_apart_from = found.not_told_apart_from.iter().map(|c| c.id().to_owned()).collect();
-            entry.settle_by = settle_by(&found.cause, &found.not_told_apart_from);
-        }
-        entries.push((entry, r.scored.score(scale)));
+    let known = 1.0 - unknown(search, knobs);
+    let mut all: Vec<Which> = Vec::new();
+    let mut add = |entry: Which, probability: f64| match all.iter_mut().find(|other| other.cause == entry.cause) {
+        Some(other) => other.probability += probability,
+        None => all.push(Which { probability, ..entry }),
+    };
+    for found in &search.found {
+        add(of_found(found, search, robot), 0.0);
     }
-    for found in search.found.iter().skip(1) {
-        if !entries.iter().any(|(w, _)| w.cause == found.cause.id()) {
-            entries.push((fitted(&found.cause, &search.corrected.fit, robot), base));
+    let size = |found: &Found| found.earns.max(0.0).sqrt();
+    let all_sizes: f64 = search.found.iter().map(size).sum();
+    let places: Vec<(usize, f64)> = match &search.found[..] {
+        several @ [_, _, ..] if all_sizes > 0.0 => several.iter().map(|f| (f.round, size(f) / all_sizes)).collect(),
+        first => vec![(first.first().map_or(0, |found| found.round), 1.0)],
+    };
+    for (round, share) in places {
+        let found = search.found.iter().find(|found| found.round == round);
+        for (entry, probability) in entries(&search.rounds[round], found, robot, knobs) {
+            add(entry, known * share * probability);
+        }
+    }
+    add(pseudo("unknown"), 1.0 - known);
+    let calibration = &knobs.probability.calibration;
+    let (said, line) = match (search.outcome, search.found.first()) {
+        (Outcome::NoGap, _) => ("no_gap", &calibration.no_gap),
+        (Outcome::Explained, Some(first)) => (first.cause.id(), &calibration.named),
+        (Outcome::Unknown, _) | (Outcome::Explained, None) => ("unknown", &calibration.unknown),
+    };
+    calibrate(&mut all, said, line);
+    // of equals, what is said stands first
+    all.sort_by_key(|entry| entry.cause != said);
+    all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    all
+}
+
+/// Makes what is said as probable as a line says, but no less so than anything else, and gives all others the rest.
+fn calibrate(all: &mut [Which], said: &str, line: &LogitLine) {
+    let before = all.iter().find(|entry| entry.cause == said).map_or(0.0, |entry| entry.probability);
+    let others: f64 = all.iter().filter(|entry| entry.cause != said).map(|entry| entry.probability).sum();
+    if others <= 0.0 {
+        return;
+    }
+    let largest = all.iter().filter(|entry| entry.cause != said).map(|entry| entry.probability).fold(0.0, f64::max);
+    // at the least what the largest of the others has once these have the rest, p = l·(1 − p)/Σ
+    let after = line.of(before).max(largest / (others + largest) + f64::EPSILON);
+    for entry in all.iter_mut() {
+        entry.probability = if entry.cause == said { after } else { entry.probability * (1.0 - after) / others };
+    }
+}
+
+/// A cause that was found, with its numbers by the model with all of them.
+fn of_found<const N: usize>(found: &Found, search: &Search<N>, robot: &RobotFile) -> Which {
+    let alike = &found.not_told_apart_from;
+    Which {
+        not_told_apart_from: alike.iter().map(|c| c.id().to_owned()).collect(),
+        settle_by: settle_by(&found.cause, alike),
+        ..fitted(&found.cause, &search.corrected.fit, robot)
+    }
+}
+
+/// All that was tried in one round with its probability; of an effect tried on several wheels only the best one. What did not
+/// convince, though its score is better, counts no more than what did, or than what would just not have convinced.
+fn entries<const N: usize>(
+    ranking: &Ranking<N>,
+    found: Option<&Found>,
+    robot: &RobotFile,
+    knobs: &Knobs,
+) -> Vec<(Which, f64)> {
+    let (scale, base) = (ranking.scale, ranking.base.score(ranking.scale));
+    let ProbabilityKnobs { temperature, head_start, .. } = knobs.probability;
+    let of_found = found.and_then(|found| ranking.ranked.iter().find(|r| r.cause.is(&found.cause)));
+    let best = of_found.map_or(base - knobs.search.convincing, |r| r.scored.score(scale));
+    let mut scored: Vec<(Which, f64)> = Vec::new();
+    let is_new = |scored: &[(Which, f64)], id: &str| !scored.iter().any(|(entry, _)| entry.cause == id);
+    for r in &ranking.ranked {
+        if is_new(&scored, r.cause.id()) {
+            scored.push((fitted(&r.cause, &r.scored.fit, robot), r.scored.score(scale).max(best)));
         }
     }
     for s in &ranking.screened {
-        if !entries.iter().any(|(w, _)| w.cause == s.candidate.card.id) {
+        if is_new(&scored, s.candidate.card.id) {
             let cause = Cause::Effect(s.candidate.card, s.candidate.wheel);
-            entries.push((bare(&cause), base - s.gain.min(base) / scale + head_start));
+            scored.push((bare(&cause), (base - s.gain.min(base) / scale + head_start).max(best)));
         }
     }
-    entries.push((pseudo("no_gap"), base - head_start));
-    let least = entries.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
+    // on top of a cause that was found, none is no answer
+    if ranking.base.extra == 0 {
+        scored.push((pseudo("no_gap"), base - head_start));
+    }
+    let least = scored.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
     let weigh = |score: f64| (-(score - least) / (2.0 * temperature)).exp();
-    let total: f64 = entries.iter().map(|e| weigh(e.1)).sum();
-    let unknown = unknown(search, knobs);
-    let mut which: Vec<Which> = entries
-        .into_iter()
-        .map(|(mut w, score)| {
-            w.probability = (1.0 - unknown) * weigh(score) / total;
-            w
-        })
-        .collect();
-    which.push(Which { probability: unknown, ..pseudo("unknown") });
-    which.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-    which
+    let total: f64 = scored.iter().map(|e| weigh(e.1)).sum();
+    scored.into_iter().map(|(entry, score)| (entry, weigh(score) / total)).collect()
 }
 
-/// How likely it is that nothing in the catalogue is the cause: by how little the best model closes.
+/// How likely it is that nothing in the catalogue is the cause: by how little the best model closes, and by how much more than
+/// noise it misses; whichever speaks more for it.
 fn unknown<const N: usize>(search: &Search<N>, knobs: &Knobs) -> f64 {
-    let ProbabilityKnobs { unknown_without_gap, unknown_width_explained, unknown_width_unknown, .. } =
-        knobs.probability;
-    let beyond = search.closed - knobs.outcome.least_closed;
-    match search.outcome {
-        Outcome::NoGap => unknown_without_gap,
-        Outcome::Unknown => 1.0 / (1.0 + (beyond / unknown_width_unknown).min(0.0).exp()).min(2.0),
-        Outcome::Explained => 1.0 / (1.0 + (beyond / unknown_width_explained).exp()),
+    let ProbabilityKnobs { unknown_without_gap, unknown_width, adequate, .. } = knobs.probability;
+    if search.outcome == Outcome::NoGap {
+        return unknown_without_gap;
     }
+    let by_closed = (search.closed - knobs.outcome.least_closed) / unknown_width;
+    let by_left = adequate * (1.0 - search.inadequate);
+    let by_both = if search.found.iter().all(Found::is_parameter) { by_left } else { by_closed.max(by_left) };
+    1.0 / (1.0 + by_both.exp())
 }
 
 fn pseudo(id: &str) -> Which {
@@ -108,4 +165,34 @@ pub(super) fn runner_up<const N: usize>(search: &Search<N>) -> Option<&Ranked<N>
         .ranked
         .iter()
         .find(|r| !r.cause.same_id(&first.cause) && !first.not_told_apart_from.iter().any(|c| c.same_id(&r.cause)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn list(all: &[(&str, f64)]) -> Vec<Which> {
+        all.iter().map(|(id, probability)| Which { probability: *probability, ..pseudo(id) }).collect()
+    }
+
+    fn of(all: &[Which], id: &str) -> f64 {
+        all.iter().find(|entry| entry.cause == id).expect("it was there").probability
+    }
+
+    #[test]
+    fn what_is_said_is_as_probable_as_answers_like_it_were_right() {
+        let mut all = list(&[("creep", 0.9), ("wheel_slip", 0.06), ("unknown", 0.04)]);
+        calibrate(&mut all, "creep", &LogitLine { slope: 0.5, offset: 0.0 });
+        assert!((of(&all, "creep") - 0.75).abs() < 1e-12);
+        assert!((all.iter().map(|entry| entry.probability).sum::<f64>() - 1.0).abs() < 1e-12);
+        assert!((of(&all, "wheel_slip") / of(&all, "unknown") - 1.5).abs() < 1e-12, "the others keep their order");
+    }
+
+    #[test]
+    fn nothing_is_more_probable_than_what_is_said() {
+        let mut all = list(&[("no_gap", 0.1), ("creep", 0.8), ("unknown", 0.1)]);
+        calibrate(&mut all, "no_gap", &LogitLine::AS_IT_IS);
+        assert!(of(&all, "no_gap") >= of(&all, "creep") - 1e-12);
+        assert!((all.iter().map(|entry| entry.probability).sum::<f64>() - 1.0).abs() < 1e-12);
+    }
 }

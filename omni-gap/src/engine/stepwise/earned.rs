@@ -1,0 +1,55 @@
+//! Causes have to earn their place: each is taken out of the corrected model again, and does not come back if that hardly
+//! matters. Those that stay are put in the order of what they earn.
+
+use rayon::prelude::*;
+
+use super::accept::{Beside, asked_of};
+use super::candidate::Cause;
+use super::found::Found;
+use super::scored::{Data, Scored};
+use crate::identify::Prior;
+
+/// The causes that earn their place, the one that earns most first, and the model with them.
+pub(super) fn earning_their_place<const N: usize>(
+    data: &Data<'_, N>,
+    mut found: Vec<Found>,
+    mut corrected: Scored<N>,
+    refitted: &Scored<N>,
+) -> (Vec<Found>, Scored<N>) {
+    while found.len() > 1 {
+        let without: Vec<Scored<N>> =
+            (0..found.len()).into_par_iter().map(|left_out| without(data, &found, left_out, &corrected)).collect();
+        let per_number = |scored: &Scored<N>| scored.held() / scored.freedom;
+        let scale = without.iter().chain([&corrected, refitted]).map(per_number).fold(f64::INFINITY, f64::min).max(1.0);
+        for (found, without) in found.iter_mut().zip(&without) {
+            found.earns = without.score(scale) - corrected.score(scale);
+        }
+        let lacks = |k: usize| {
+            let beside =
+                Beside::these(found.iter().enumerate().filter(|(other, _)| *other != k).map(|(_, found)| found));
+            let Found { cause, earns, .. } = &found[k];
+            asked_of(cause, cause.freedom(data.prior), beside, &data.knobs.search) - earns
+        };
+        let worst = (0..found.len()).max_by(|a, b| lacks(*a).total_cmp(&lacks(*b)));
+        let Some(worst) = worst.filter(|worst| lacks(*worst) > 0.0) else { break };
+        corrected = without[worst].clone();
+        found.remove(worst);
+    }
+    found.sort_by(|a, b| b.earns.total_cmp(&a.earns));
+    (found, corrected)
+}
+
+/// The corrected model fitted again without one of its causes.
+fn without<const N: usize>(data: &Data<'_, N>, found: &[Found], left_out: usize, corrected: &Scored<N>) -> Scored<N> {
+    let mut model = corrected.fit.model.clone();
+    if let Cause::Effect(card, wheel) = found[left_out].cause {
+        model.effects.retain(|effect| !(effect.id == card.id && effect.wheel == wheel));
+    }
+    let others = found.iter().enumerate().filter(|(k, _)| *k != left_out).map(|(_, found)| &found.cause);
+    let prior = others.fold(data.prior.clone(), |prior: Prior, cause| match cause {
+        Cause::Parameter(release) => prior.without(*release, data.knobs.fit.released_sigma),
+        Cause::Effect(..) => prior,
+    });
+    let extra = corrected.extra - found[left_out].cause.freedom(data.prior);
+    data.judge(model, Some(corrected), &prior, extra)
+}
