@@ -5,6 +5,7 @@
 
 use crate::check::checked;
 use crate::engine::evidence::Unfit;
+use crate::engine::findings::FileChanges;
 use crate::engine::{Engine, Evidence, Findings, Knobs, Stepwise};
 use crate::log::{Session, corrected};
 use crate::report::{About, Fault, Pictures, Report};
@@ -42,8 +43,10 @@ pub struct Diagnosis {
     pub findings: Findings,
     /// Signals measured, by the nominal and by the corrected model.
     pub pictures: Pictures,
-    /// The robot file with the causes written in.
-    pub corrected_robot: String,
+    /// The robot file with its numbers re-fitted within their stated uncertainty; none where no model was fitted.
+    pub refitted_robot: Option<String>,
+    /// The robot file with the causes written in; none where none was named.
+    pub corrected_robot: Option<String>,
 }
 
 /// Diagnoses a session: where the gap lies, which cause it has, how far it shrinks once the cause is in the model.
@@ -91,11 +94,12 @@ impl Diagnosis {
             faults: why.map(fault).into_iter().chain(faults.iter().map(Fault::from)).collect(),
             notices: session.notices.iter().cloned().chain(notices).chain(left_out(&knobs.screen.without)).collect(),
         };
-        let changes = findings.corrected.changes();
+        let with = |changes: &FileChanges| corrected(&session.robot_text, &changes.changes()).ok();
         Self {
             report: Report::of(&findings, about),
             pictures: findings.traces.as_ref().map(Pictures::of).unwrap_or_default(),
-            corrected_robot: corrected(&session.robot_text, &changes).unwrap_or_else(|_| session.robot_text.clone()),
+            refitted_robot: findings.traces.as_ref().and_then(|_| with(&findings.refitted)),
+            corrected_robot: (!findings.causes.is_empty()).then(|| with(&findings.corrected)).flatten(),
             findings,
         }
     }

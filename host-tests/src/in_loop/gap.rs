@@ -127,7 +127,7 @@ pub fn close_gap<B: BoardProgram, const N: usize>(
     let session = Session::load(folder, None, &known_effects()).expect("a session that was just recorded");
     let diagnosis = Diagnosis::of(&session, &Options::default());
     let corrected_path = folder.join("corrected_robot.toml");
-    write(&corrected_path, &diagnosis.corrected_robot);
+    write(&corrected_path, diagnosis.corrected_robot.as_deref().unwrap_or(nominal));
     let corrected = RobotFile::load(&corrected_path, &known_effects()).expect("a corrected robot file is a robot file");
     let undone = export(&corrected, &corrected_path).expect("a corrected robot file can be exported").undone;
     let (after, _) = drive(robot, hidden, &corrected_path, SCRIPTS[0], 0, program()?)?;

@@ -39,7 +39,7 @@ pub struct RealSession {
 pub struct Answered {
     /// The report.
     pub report: Report,
-    /// The robot file with the causes written in; none where the recordings were refused.
+    /// The robot file with the causes written in; none where none was named.
     pub corrected_robot: Option<String>,
 }
 
@@ -66,7 +66,7 @@ impl RealSession {
         let answered = match self.session(&runs) {
             Ok(session) => {
                 let Diagnosis { report, corrected_robot, .. } = Diagnosis::of(&session, &Options::default());
-                Answered { report, corrected_robot: Some(corrected_robot) }
+                Answered { report, corrected_robot }
             }
             Err(why) => Answered { report: refused(&why), corrected_robot: None },
         };

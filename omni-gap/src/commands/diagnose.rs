@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use omni_gap::engine::Knobs;
-use omni_gap::report::{self, Written};
+use omni_gap::report::{self, RobotFiles, Written};
 use omni_gap::simulate::HORIZON_S;
 use omni_gap::{Diagnosis, Options, Report, Session};
 
@@ -20,7 +20,7 @@ pub struct Diagnose {
     #[command(flatten)]
     session: GivenSession,
 
-    /// Folder for report.json, report.html and corrected_robot.toml; made if need be
+    /// Folder for report.json, report.html, refitted_robot.toml and, where a cause is named, corrected_robot.toml; made if need be
     #[arg(long, value_name = "DIR", default_value = "omni-gap-report")]
     out: PathBuf,
 
@@ -38,7 +38,7 @@ pub struct Diagnose {
 }
 
 /// The files of a report.
-pub const FILES: [&str; 3] = ["report.json", "report.html", "corrected_robot.toml"];
+pub const FILES: [&str; 4] = ["report.json", "report.html", "refitted_robot.toml", "corrected_robot.toml"];
 
 impl Diagnose {
     /// Does it.
@@ -67,7 +67,9 @@ pub fn diagnosed(
         Diagnosis::of(session, &Options { session: name, knobs, progress: &|phrase| console.phase(phrase) });
     let page = report::html(&diagnosis.report, &diagnosis.pictures);
     let folder = NewFolder::make(out)?;
-    let written = report::write(out, &diagnosis.report, &page, &diagnosis.corrected_robot)?;
+    let robots =
+        RobotFiles { refitted: diagnosis.refitted_robot.as_deref(), corrected: diagnosis.corrected_robot.as_deref() };
+    let written = report::write(out, &diagnosis.report, &page, robots)?;
     folder.keep();
     console.end_phase();
     Ok((diagnosis.report, written))

@@ -99,8 +99,9 @@ fn foot(m: &mut Markup) {
     m.leaf(
         "footer",
         &[],
-        "Every number on this page stands in report.json beside it; corrected_robot.toml is the robot file with the \
-         causes written in.",
+        "Every number on this page stands in report.json beside it; refitted_robot.toml is the robot file with its \
+         numbers re-fitted within their stated uncertainty, and corrected_robot.toml, where causes are named, the one \
+         with these written in.",
     );
 }
 

@@ -41,7 +41,7 @@ pub use selftest::{selftest_html, selftest_json, selftest_terminal, write_selfte
 pub use sensitivity::{sensitivity_html, sensitivity_terminal, write_sensitivity};
 pub use shown_in::shown_in;
 pub use terminal::terminal;
-pub use write::{Written, write};
+pub use write::{RobotFiles, Written, write};
 
 pub use crate::engine::findings::{
     Corrected, Estimate, Gap, HorizonError, NextExperiment, Regime, Shrink, SignalGap, Where, Which,

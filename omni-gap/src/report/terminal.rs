@@ -38,7 +38,9 @@ pub fn terminal(report: &Report, files: Option<&Written>) -> String {
     if let Some(files) = files {
         page.line("files", &files.html.display().to_string());
         page.line("", &files.json.display().to_string());
-        page.line("", &files.robot.display().to_string());
+        for robot in [&files.refitted, &files.corrected].into_iter().flatten() {
+            page.line("", &robot.display().to_string());
+        }
     }
     page.0.replace(NBSP, " ")
 }
@@ -166,7 +168,8 @@ mod tests {
 
     fn files() -> Written {
         let at = |name: &str| PathBuf::from("out").join(name);
-        Written { json: at("report.json"), html: at("report.html"), robot: at("corrected_robot.toml") }
+        let [refitted, corrected] = ["refitted_robot.toml", "corrected_robot.toml"].map(|name| Some(at(name)));
+        Written { json: at("report.json"), html: at("report.html"), refitted, corrected }
     }
 
     #[test]

@@ -16,34 +16,62 @@ pub struct Written {
     pub json: PathBuf,
     /// `report.html`.
     pub html: PathBuf,
-    /// `corrected_robot.toml`.
-    pub robot: PathBuf,
+    /// `refitted_robot.toml`, where a model was fitted.
+    pub refitted: Option<PathBuf>,
+    /// `corrected_robot.toml`, where causes were named.
+    pub corrected: Option<PathBuf>,
 }
 
-/// Puts `report.json`, `report.html` and `corrected_robot.toml` into the folder, which is made where it is not there.
+/// The robot files beside a report.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RobotFiles<'a> {
+    /// With its numbers re-fitted within their stated uncertainty; none where no model was fitted.
+    pub refitted: Option<&'a str>,
+    /// With the causes written in; none where none was named.
+    pub corrected: Option<&'a str>,
+}
+
+/// Puts `report.json`, `report.html` and the robot files that there are into the folder, which is made where it is not there. A
+/// robot file of an older report that this one does not have is taken away.
 ///
 /// An error says which path, why, and how to mend it.
-pub fn write(dir: &Path, report: &Report, html: &str, corrected_robot_toml: &str) -> Result<Written> {
+pub fn write(dir: &Path, report: &Report, html: &str, robots: RobotFiles<'_>) -> Result<Written> {
     let json = report.to_json().map_err(|why| unwritable(&why.into(), &dir.join("report.json")))?;
-    let files = [("report.json", json.as_str()), ("report.html", html), ("corrected_robot.toml", corrected_robot_toml)];
-    let [json, html, robot] = put(dir, files)?;
-    Ok(Written { json, html, robot })
+    let own = [("refitted_robot.toml", robots.refitted), ("corrected_robot.toml", robots.corrected)];
+    let there = own.iter().filter_map(|(name, text)| text.map(|text| (*name, text)));
+    let files: Vec<(&str, &str)> =
+        [("report.json", json.as_str()), ("report.html", html)].into_iter().chain(there).collect();
+    put_all(dir, &files)?;
+    let place = |name: &str| dir.join(name);
+    for (name, _) in own.iter().filter(|(_, text)| text.is_none()) {
+        match std::fs::remove_file(place(name)) {
+            Err(why) if why.kind() != io::ErrorKind::NotFound => return Err(unwritable(&why, &place(name))),
+            _ => {}
+        }
+    }
+    let [refitted, corrected] = own.map(|(name, text)| text.map(|_| place(name)));
+    Ok(Written { json: place("report.json"), html: place("report.html"), refitted, corrected })
 }
 
-/// Puts files into the folder, which is made where it is not there; the error is as for [`write()`].
+/// Puts files into the folder, which is made where it is not there, and says where they stand; the error is as for [`write()`].
 pub(super) fn put<const COUNT: usize>(dir: &Path, files: [(&str, &str); COUNT]) -> Result<[PathBuf; COUNT]> {
+    put_all(dir, &files)?;
+    Ok(files.map(|(name, _)| dir.join(name)))
+}
+
+fn put_all(dir: &Path, files: &[(&str, &str)]) -> Result<()> {
     std::fs::create_dir_all(dir).map_err(|why| match dir.is_file() {
         true => Error::output(dir, "it is a file, and the report needs a folder", NAME_ANOTHER),
         false => Error::output(dir, why.to_string(), ROOM),
     })?;
-    let places = files.map(|(name, _)| dir.join(name));
+    let places: Vec<PathBuf> = files.iter().map(|(name, _)| dir.join(name)).collect();
     // All are staged before the first is put in place: a full disk then leaves an older report as it was.
     let staged: Vec<_> =
         places.iter().zip(files).map(|(path, (_, text))| stage(dir, path, text)).collect::<Result<_>>()?;
     for (path, file) in places.iter().zip(staged) {
         file.persist(path).map_err(|e| unwritable(&e.error, path))?;
     }
-    Ok(places)
+    Ok(())
 }
 
 /// The text in a file of the same folder that nobody reads yet.
@@ -80,11 +108,13 @@ mod tests {
     }
 
     #[test]
-    fn three_files_stand_in_a_folder_that_was_not_there() {
+    fn four_files_stand_in_a_folder_that_was_not_there() {
         let root = tempfile::tempdir().unwrap();
         let dir = root.path().join("deep/out");
-        let written = write(&dir, &sample::effect(), "<html></html>", "name = \"x\"\n").unwrap();
-        assert_eq!(names(&dir), ["corrected_robot.toml", "report.html", "report.json"]);
+        let robots = RobotFiles { refitted: Some("name = \"y\"\n"), corrected: Some("name = \"x\"\n") };
+        let written = write(&dir, &sample::effect(), "<html></html>", robots).unwrap();
+        assert_eq!(names(&dir), ["corrected_robot.toml", "refitted_robot.toml", "report.html", "report.json"]);
+        assert_eq!(std::fs::read_to_string(written.corrected.unwrap()).unwrap(), "name = \"x\"\n");
         let back: Report = serde_json::from_str(&std::fs::read_to_string(written.json).unwrap()).unwrap();
         assert_eq!(back, sample::effect());
     }
@@ -92,10 +122,14 @@ mod tests {
     #[test]
     fn a_second_report_replaces_the_first() {
         let root = tempfile::tempdir().unwrap();
-        write(root.path(), &sample::effect(), "one", "one").unwrap();
-        write(root.path(), &sample::no_gap(), "two", "two").unwrap();
+        let [one, two] = [Some("one"), None].map(|corrected| RobotFiles { refitted: Some("same"), corrected });
+        write(root.path(), &sample::effect(), "one", one).unwrap();
+        std::fs::write(root.path().join("notes.txt"), "mine").unwrap();
+        let written = write(root.path(), &sample::no_gap(), "two", two).unwrap();
         assert_eq!(std::fs::read_to_string(root.path().join("report.html")).unwrap(), "two");
-        assert_eq!(names(root.path()).len(), 3);
+        // nothing was corrected this time, and what is not of a report stays
+        assert_eq!(names(root.path()), ["notes.txt", "refitted_robot.toml", "report.html", "report.json"]);
+        assert_eq!(written.corrected, None);
     }
 
     #[test]
@@ -103,7 +137,7 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let path = root.path().join("out");
         std::fs::write(&path, "mine").unwrap();
-        let error = write(&path, &sample::effect(), "", "").unwrap_err().to_string();
+        let error = write(&path, &sample::effect(), "", RobotFiles::default()).unwrap_err().to_string();
         assert!(error.starts_with(path.to_str().unwrap()) && error.contains("is a file") && error.contains("--out"));
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
     }
@@ -112,7 +146,7 @@ mod tests {
     fn a_name_that_is_taken_by_a_folder_leaves_nothing_behind() {
         let root = tempfile::tempdir().unwrap();
         std::fs::create_dir(root.path().join("report.json")).unwrap();
-        let error = write(root.path(), &sample::effect(), "", "").unwrap_err().to_string();
+        let error = write(root.path(), &sample::effect(), "", RobotFiles::default()).unwrap_err().to_string();
         assert!(error.contains("report.json: cannot be written"), "{error}");
         assert_eq!(names(root.path()), ["report.json"]);
     }

@@ -63,7 +63,7 @@ fn the_bytes_depend_neither_on_threads_nor_on_what_the_processor_can() {
         let mut command = bench.command(&["diagnose", "session", "--out", "there"]);
         let said = command.env(name, value).output().expect("the command starts");
         assert!(said.status.success(), "{name}={value}: {}", String::from_utf8_lossy(&said.stderr));
-        for file in ["report.json", "corrected_robot.toml"] {
+        for file in ["report.json", "refitted_robot.toml"] {
             assert_eq!(bench.read(&format!("here/{file}")), bench.read(&format!("there/{file}")), "{name}={value}");
         }
     }
