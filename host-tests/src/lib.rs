@@ -37,6 +37,7 @@
 
 pub mod carried;
 pub mod catalogue;
+pub mod coherent;
 pub mod confusion;
 pub mod costs;
 pub mod emulator;

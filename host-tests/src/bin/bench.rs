@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand, ValueEnum};
 use host_tests::golden;
+use host_tests::withheld::calibrated::calibrated;
 use host_tests::withheld::classes::class;
 use host_tests::withheld::closed::Closed;
 use host_tests::withheld::contestant::{Contestant, Ended};
@@ -19,6 +20,7 @@ use host_tests::withheld::scored::Scored;
 use host_tests::withheld::set::{About, SetFolder};
 use host_tests::withheld::suites::{Case, REDUCED, WHOLE, cases};
 use host_tests::withheld::table;
+use omni_gap::engine::knobs::CalibrationKnobs;
 use omni_gap::error::{Error, Result};
 use omni_gap::log::write_whole;
 use rayon::prelude::*;
@@ -45,6 +47,9 @@ enum Errand {
         /// Which split
         #[arg(long, value_enum, default_value = "tuning")]
         split: SplitName,
+        /// Only every so many-th session
+        #[arg(long, default_value_t = 1)]
+        every: usize,
     },
     /// Let a contestant answer what it has not answered yet
     Run {
@@ -89,6 +94,13 @@ enum Errand {
         #[arg(long, default_value_t = 1)]
         every: usize,
     },
+    /// Print the lines that calibrate our engine's probabilities, by its answers to a tuning split
+    Calibrate {
+        /// Folder of the set
+        set: PathBuf,
+        /// The engine's name there, calibrated as this program is
+        name: String,
+    },
     /// Add what some contestants came to on a fresh split to the ledger
     Ledger {
         /// Folder of the set
@@ -120,7 +132,7 @@ enum SplitName {
 fn main() -> ExitCode {
     let done = match Arguments::parse().errand {
         Errand::Check => return golden::exit(check()),
-        Errand::Make { set, split } => make(&SetFolder(set), split),
+        Errand::Make { set, split, every } => make(&SetFolder(set), split, every),
         Errand::Run { set, name, seconds, every, command } => {
             run(&SetFolder(set), &Contestant { name, command, most: Duration::from_secs(seconds) }, every)
         }
@@ -130,13 +142,14 @@ fn main() -> ExitCode {
             println!("{name}");
             run(&SetFolder(set), &Contestant { name, command, most: Duration::from_secs(MOST_SECONDS) }, every)
         }),
+        Errand::Calibrate { set, name } => calibrate(&SetFolder(set), &name),
         Errand::Ledger { set, names } => enter(&SetFolder(set), &names),
         Errand::Table { set, names } => lay_table(&SetFolder(set), &names),
     };
     golden::exit(done.map(|()| true))
 }
 
-fn make(set: &SetFolder, split: SplitName) -> Result<()> {
+fn make(set: &SetFolder, split: SplitName, every: usize) -> Result<()> {
     let commit = golden::commit();
     let (name, seed, sizes) = match split {
         SplitName::Tuning => ("tuning", TUNING_SEED, WHOLE),
@@ -146,7 +159,8 @@ fn make(set: &SetFolder, split: SplitName) -> Result<()> {
     set.begin(&About { split: name.to_owned(), seed, commit })?;
     let start = Instant::now();
     let all = cases(&sizes, seed, matches!(split, SplitName::Fresh));
-    let missing: Vec<&Case> = all.iter().filter(|case| set.label(&case.name()).is_none()).collect();
+    let asked = all.iter().step_by(every.max(1));
+    let missing: Vec<&Case> = asked.clone().filter(|case| set.label(&case.name()).is_none()).collect();
     missing.par_iter().try_for_each(|case| {
         let (session, mut label) = case.made();
         let folder = set.session(&case.name());
@@ -156,7 +170,7 @@ fn make(set: &SetFolder, split: SplitName) -> Result<()> {
         set.put_label(&label)
     })?;
     set.seal()?;
-    println!("{} sessions, {} of them new, in {:.0} s", all.len(), missing.len(), start.elapsed().as_secs_f64());
+    println!("{} sessions, {} of them new, in {:.0} s", asked.len(), missing.len(), start.elapsed().as_secs_f64());
     Ok(())
 }
 
@@ -213,6 +227,14 @@ fn lay_table(set: &SetFolder, names: &[String]) -> Result<()> {
     let (about, all) = (set.about()?, answers(set, names)?);
     golden::record("withheld.md", &table::page(&about, &all), "cargo xtask bench table SET NAME...")?;
     write_whole(&golden::path("withheld.html"), picture::page(&about, &all).as_bytes())
+}
+
+/// The lines, as they stand in the engine's knobs.
+fn calibrate(set: &SetFolder, name: &str) -> Result<()> {
+    let (about, all) = (set.about()?, table::scored(set, name)?);
+    let made_of = format!("{} answers to the {} split, at {}", all.len(), about.split, about.commit);
+    println!("{:#?}", calibrated(&all, &CalibrationKnobs::default(), made_of));
+    Ok(())
 }
 
 /// A line more in the ledger for each of them.

@@ -8,6 +8,7 @@
 //! scored on fresh splits stands in a [`ledger`]. `cargo xtask bench help`; the test command asks the product the [`reduced`] split; the rules stand in `BENCHMARK.md`.
 
 pub mod answer;
+pub mod calibrated;
 pub mod classes;
 pub mod closed;
 pub mod contestant;
