@@ -1,0 +1,72 @@
+//! Robots that are wrong in several places at once: files wrong in several numbers, and two effects together.
+
+use ground_truth::causes::cause;
+use ground_truth::driving::Style;
+use ground_truth::logging::Logging;
+use ground_truth::recording::{Plan, Session};
+use ground_truth::robot_file::RobotFile;
+use host_tests::coherent::contradictions;
+use omni_gap::report::Report;
+use omni_gap::{Options, Verdict, diagnose, known_effects};
+
+/// What is hidden in the paper's robot: causes, and how many times what is typical of each.
+fn diagnosed(hidden: &[(&str, f64)]) -> Report {
+    let file = RobotFile::paper(0.0);
+    let mut setup = file.setup();
+    for (id, times) in hidden {
+        (cause(id).expect("a cause").put)(&mut setup, None, *times);
+    }
+    let plan = Plan {
+        runs: 6,
+        duration: 4.0,
+        rate: 200.0,
+        camera_rate: 60.0,
+        voltage: 8.0,
+        gyro: false,
+        style: Style::Excitation,
+        unrest: None,
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    Session::logged((&file, &setup), &plan, &Logging::clean(), 11).write(folder.path()).expect("room");
+    let session = omni_gap::Session::load(folder.path(), None, &known_effects()).expect("a session");
+    let report = diagnose(&session, &Options::default());
+    assert_eq!(contradictions(&report), [""; 0]);
+    report
+}
+
+fn named(report: &Report) -> Vec<&str> {
+    let mut names: Vec<&str> = report.causes.iter().map(String::as_str).collect();
+    names.sort_unstable();
+    names
+}
+
+#[test]
+fn a_file_that_is_wrong_in_four_numbers_is_told_so_and_nothing_else_is() {
+    let wrong = [("wheel_radius", 1.5), ("resistance", 1.3), ("inertia", 1.5), ("viscous_friction", 1.5)];
+    let report = diagnosed(&wrong);
+    assert_eq!(report.verdict, Verdict::Parameter, "{:?}", report.causes);
+    assert_eq!(named(&report), ["inertia", "resistance", "viscous_friction", "wheel_radius"]);
+    let of_file = |key: &str| report.parameters.iter().find(|number| number.key == key).expect("a number of the file");
+    for (key, times) in [("wheel.radius_m", 1.15), ("motor.resistance_ohm", 1.39)] {
+        let number = of_file(key);
+        let found = number.corrected / number.nominal.expect("it stands there");
+        assert!((found / times - 1.0).abs() < 0.01, "{key}: {found} times what the file says, of {times}");
+    }
+}
+
+#[test]
+fn of_two_effects_the_one_that_explains_more_stands_first_and_both_are_probable() {
+    let report = diagnosed(&[("coriolis", 0.6), ("camera_latency", 1.0)]);
+    assert_eq!(named(&report), ["camera_latency", "coriolis"]);
+    let probability = |id: &str| report.which.iter().find(|w| w.cause == id).expect("named").probability;
+    assert!(probability("coriolis").min(probability("camera_latency")) > 0.01);
+    assert!(probability(&report.causes[0]) >= probability(&report.causes[1]));
+}
+
+#[test]
+fn coriolis_terms_of_a_robot_whose_mass_does_not_all_turn_have_their_share() {
+    let report = diagnosed(&[("coriolis", 0.4)]);
+    assert_eq!(named(&report), ["coriolis"]);
+    let factor = &report.which[0].parameters["factor"];
+    assert!((factor.value - 0.4).abs() < 3.0 * factor.std.expect("fitted") + 0.01, "{factor:?}");
+}
