@@ -1,10 +1,10 @@
 //! Noise of another size than is stated, and with a memory, is found in recordings, and is taken for no cause and no gap.
 
 use ground_truth::causes::cause;
-use ground_truth::driving::Style;
 use ground_truth::logging::Logging;
 use ground_truth::recording::{Plan, Session};
 use ground_truth::robot_file::{Noise, RobotFile};
+use host_tests::laboratory::cases::PLAN;
 use omni_gap::report::Report;
 use omni_gap::{Options, Verdict, diagnose, known_effects};
 
@@ -15,16 +15,7 @@ fn diagnosed(factor: Noise, memory: Noise, hidden: Option<&str>) -> Report {
     if let Some(cause) = hidden.and_then(cause) {
         (cause.put)(&mut setup, None, 1.0);
     }
-    let plan = Plan {
-        runs: 6,
-        duration: 4.0,
-        rate: 200.0,
-        camera_rate: 60.0,
-        voltage: 8.0,
-        gyro: false,
-        style: Style::Excitation,
-        unrest: None,
-    };
+    let plan = Plan { duration: 4.0, ..PLAN };
     let logging = Logging { noise_factor: factor, correlation: memory, ..Logging::clean() };
     let folder = tempfile::tempdir().expect("a folder");
     Session::logged((&file, &setup), &plan, &logging, 11).write(folder.path()).expect("room");

@@ -1,11 +1,11 @@
 //! Robots that are wrong in several places at once: files wrong in several numbers, and two effects together.
 
 use ground_truth::causes::cause;
-use ground_truth::driving::Style;
 use ground_truth::logging::Logging;
 use ground_truth::recording::{Plan, Session};
 use ground_truth::robot_file::RobotFile;
 use host_tests::coherent::contradictions;
+use host_tests::laboratory::cases::PLAN;
 use omni_gap::report::Report;
 use omni_gap::{Options, Verdict, diagnose, known_effects};
 
@@ -16,16 +16,7 @@ fn diagnosed(hidden: &[(&str, f64)]) -> Report {
     for (id, times) in hidden {
         (cause(id).expect("a cause").put)(&mut setup, None, *times);
     }
-    let plan = Plan {
-        runs: 6,
-        duration: 4.0,
-        rate: 200.0,
-        camera_rate: 60.0,
-        voltage: 8.0,
-        gyro: false,
-        style: Style::Excitation,
-        unrest: None,
-    };
+    let plan = Plan { duration: 4.0, ..PLAN };
     let folder = tempfile::tempdir().expect("a folder");
     Session::logged((&file, &setup), &plan, &Logging::clean(), 11).write(folder.path()).expect("room");
     let session = omni_gap::Session::load(folder.path(), None, &known_effects()).expect("a session");
