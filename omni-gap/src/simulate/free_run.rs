@@ -115,7 +115,7 @@ pub fn free_run<const N: usize>(
     let mut coming = restarts.iter().copied().peekable();
     for row in 0..run.rows() {
         if coming.next_if_eq(&row).is_some() {
-            on_the_way.restart(row, start_at(run, row).state(plant, on_the_way.state()));
+            on_the_way.restart(row, start_at(run, row).seen_on_both_sides().state(plant, on_the_way.state()));
         }
         each(row, &on_the_way.pass(row, &input(row)));
     }

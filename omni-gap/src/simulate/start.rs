@@ -1,7 +1,8 @@
 //! Where a free run starts: measurements smoothed by straight lines, without a model.
 //!
 //! A line is fitted by least squares to the samples around the restart, ±50 ms of wheel speeds and yaw rate, ±100 ms of
-//! the pose, and read at the restart itself. A window with fewer than two samples is widened, up to four times.
+//! the pose, and read at the restart itself. A window with fewer than two samples is widened, up to four times. A run goes on
+//! with the speeds it has where hall edges lie on one side of the restart alone.
 
 use model_core::geometry::frames::{BodyTwist, Pose, WorldTwist};
 use model_core::plant::{Plant, Reading, State};
@@ -27,8 +28,8 @@ pub struct Start<const N: usize> {
     pub pose_spread: Option<f64>,
     /// Yaw rate [rad/s], where measured
     pub gyro: Option<f64>,
-    /// True where a speed was measured only after the restart, or only before it, so that a line was prolonged: speeds
-    /// from hall edges, which a wheel at rest does not give
+    /// True where a speed was measured only after the restart, or only before it, and not until later than the next sample
+    /// was due, so that a line was prolonged: speeds from hall edges, which a wheel at rest does not give
     pub prolonged: bool,
 }
 
@@ -41,7 +42,7 @@ struct Line {
     slope: f64,
     /// Σ(t − t̄)² [s²]
     spread: f64,
-    /// Not between samples.
+    /// Read farther from the samples, all on one side, than they are apart.
     prolonged: bool,
 }
 
@@ -58,16 +59,17 @@ fn line(points: impl Iterator<Item = (f64, f64)> + Clone, at: f64) -> Option<Lin
     }
     let (mean_t, mean_x) = (st / n, sx / n);
     let (mut tt, mut tx) = (0.0, 0.0);
-    let (mut before, mut after) = (false, false);
+    let (mut first, mut last) = (f64::INFINITY, f64::NEG_INFINITY);
     for (t, x) in points {
         let d = t - at - mean_t;
         tt += d * d;
         tx += d * (x - mean_x);
-        before |= t <= at;
-        after |= t >= at;
+        (first, last) = (first.min(t), last.max(t));
     }
     let slope = if tt > 0.0 { tx / tt } else { 0.0 };
-    Some(Line { value: mean_x - slope * mean_t, slope, spread: tt, prolonged: !(before && after) })
+    let beyond = (first - at).max(at - last);
+    let interval = (last - first) / (n - 1.0);
+    Some(Line { value: mean_x - slope * mean_t, slope, spread: tt, prolonged: beyond > interval + 1e-9 })
 }
 
 /// The line through one channel around a row.
@@ -106,6 +108,12 @@ pub fn start_at<const N: usize>(run: &AlignedRun<N>, row: usize) -> Start<N> {
 }
 
 impl<const N: usize> Start<N> {
+    /// The same without speeds that are told by a prolonged line alone: two edges of a hall sensor a millisecond apart, read
+    /// 50 ms away, are wrong by fifty times their noise.
+    pub fn seen_on_both_sides(self) -> Self {
+        Self { wheel_speed: self.wheel_speed.filter(|_| !self.prolonged), ..self }
+    }
+
     /// The plant's own true state behind this measurement: through the inverse of its sensing effects.
     ///
     /// The twist comes from the wheel speeds, where there are none from the pose's rate, and where there is neither the
@@ -160,7 +168,10 @@ mod tests {
         let points = [(0.0, 1.0), (0.1, 1.2), (0.2, 1.4)];
         let Line { value, slope, spread, prolonged } = line(points.into_iter(), 0.25).unwrap();
         assert!((value - 1.5).abs() < 1e-12 && (slope - 2.0).abs() < 1e-12 && (spread - 0.02).abs() < 1e-12);
-        assert!(prolonged);
+        assert!(!prolonged, "the next sample is not due yet");
+        assert!(
+            line(points.into_iter(), 0.35).unwrap().prolonged && line(points.into_iter(), -0.15).unwrap().prolonged
+        );
         assert!([0.0, 0.15, 0.2].iter().all(|at| !line(points.into_iter(), *at).unwrap().prolonged));
     }
 
@@ -170,6 +181,23 @@ mod tests {
         let sparse = |k: usize| k.is_multiple_of(15).then(|| 3.0 * t[k]);
         assert!((smooth(&t, 50, 0.05, sparse).unwrap().value - 1.5).abs() < 1e-12);
         assert!(smooth(&t, 50, 0.05, |k| (k == 50).then_some(1.0)).is_none());
+    }
+
+    #[test]
+    fn speeds_seen_on_one_side_alone_are_no_speeds_to_restart_with() {
+        let start = |prolonged| Start::<4> {
+            time: 1.0,
+            wheel_speed: Some([9.0; 4]),
+            pose: None,
+            pose_spread: None,
+            gyro: None,
+            prolonged,
+        };
+        let plant = Plant::new(paper::four_wheels::<f64>(), Effects::default());
+        let before = plant.start(1.0, Pose::default(), BodyTwist { v: 0.1, vn: 0.2, w: 0.3 });
+        let begun = |prolonged| start(prolonged).seen_on_both_sides().state(&plant, &before).twist;
+        assert_eq!(begun(true), before.twist);
+        assert!((begun(false).w - before.twist.w).abs() > 1.0, "{:?}", begun(false));
     }
 
     #[test]
