@@ -10,6 +10,9 @@ use crate::engine::findings::ChannelNoise;
 use crate::identify::{Fit, Noise, noise_where_quiet};
 use crate::simulate::{AlignedRun, SignalGroup};
 
+/// How many sensors have a noise of their own.
+const SENSORS: usize = 6;
+
 /// Noise that a model's left-overs show.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SeenNoise {
@@ -23,14 +26,16 @@ pub(super) struct SeenNoise {
 pub(super) fn noise_seen<const N: usize>(fit: &Fit<N>, data: &Data<'_, N>) -> Option<SeenNoise> {
     let (screen, knobs) = (&data.knobs.screen, &data.knobs.noise);
     let few = data.to_fit().beginning(screen.runs, screen.least_s).shortened(screen.most_s, screen.most_rows);
-    let most: [f64; 6] = sensors::<N>().map(|(_, _, channel)| match AlignedRun::<N>::channels().group(channel) {
+    let most: [f64; SENSORS] = sensors::<N>().map(|(_, _, channel)| match AlignedRun::<N>::channels().group(channel) {
         SignalGroup::WheelSpeed => knobs.most_of_speeds,
         _ => knobs.most,
     });
     let everywhere = noise_where_quiet(fit, few.shots(), 1.0);
-    let beyond_belief = everywhere.scale.iter().zip(&most).any(|(scale, most)| scale > most);
-    // noise is the same everywhere; what a model lacks is not
-    let mut noise = if beyond_belief { noise_where_quiet(fit, few.shots(), knobs.quiet) } else { everywhere };
+    let beyond_belief = (0..SENSORS).any(|sensor| everywhere.scale[sensor] > most[sensor]);
+    let mut noise = everywhere;
+    if beyond_belief {
+        noise = quieter(everywhere, noise_where_quiet(fit, few.shots(), knobs.quiet), most);
+    }
     let mut as_stated = true;
     for (sensor, (scale, memory)) in noise.scale.iter_mut().zip(&mut noise.correlation_time).enumerate() {
         *scale = scale.clamp(knobs.least, most[sensor]);
@@ -47,8 +52,21 @@ pub(super) fn noise_seen<const N: usize>(fit: &Fit<N>, data: &Data<'_, N>) -> Op
     (!as_stated).then_some(SeenNoise { noise, beyond_belief })
 }
 
+/// The noise everywhere, but of sensors that show more than the most that is believed: of these where it is quiet, since noise
+/// is the same everywhere and what a model lacks is not. Where even there more is left than is believed, it is a gap, whose
+/// memory says nothing of the sensor.
+fn quieter(everywhere: Noise, where_quiet: Noise, most: [f64; SENSORS]) -> Noise {
+    let mut noise = everywhere;
+    for sensor in (0..SENSORS).filter(|sensor| everywhere.scale[*sensor] > most[*sensor]) {
+        let is_noise = where_quiet.scale[sensor] <= most[sensor];
+        noise.scale[sensor] = where_quiet.scale[sensor];
+        noise.correlation_time[sensor] = if is_noise { where_quiet.correlation_time[sensor] } else { 0.0 };
+    }
+    noise
+}
+
 /// The sensors in the order of [`Noise`], and a channel of each.
-fn sensors<const N: usize>() -> [(&'static str, &'static str, usize); 6] {
+fn sensors<const N: usize>() -> [(&'static str, &'static str, usize); SENSORS] {
     let channels = AlignedRun::<N>::channels();
     [
         ("current", "A", channels.current(0)),
@@ -103,6 +121,15 @@ pub(super) fn told<const N: usize>(data: &Data<'_, N>) -> Vec<ChannelNoise> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_a_sensor_beyond_belief_is_told_by_where_it_is_quiet() {
+        let everywhere = Noise { scale: [6.0, 2.0, 9.0, 1.0, 1.0, 1.0], correlation_time: [0.02; SENSORS] };
+        let where_quiet = Noise { scale: [1.2, 0.5, 5.0, 0.5, 0.5, 0.5], correlation_time: [0.01; SENSORS] };
+        let noise = quieter(everywhere, where_quiet, [3.0; SENSORS]);
+        assert_eq!(noise.scale, [1.2, 2.0, 5.0, 1.0, 1.0, 1.0]);
+        assert_eq!(noise.correlation_time, [0.01, 0.02, 0.0, 0.02, 0.02, 0.02]);
+    }
 
     #[test]
     fn sensors_stand_in_the_order_of_their_groups() {
