@@ -31,6 +31,18 @@ pub struct About {
     pub commit: String,
 }
 
+/// Holds a set for one contestant. A program that is just being started by another thread has a copy of the file, and the
+/// lock would live on in it for a moment: it is given back by word.
+#[derive(Debug)]
+pub struct Alone(File);
+
+impl Drop for Alone {
+    fn drop(&mut self) {
+        // what cannot be unlocked is unlocked when the last copy is closed
+        let _ = self.0.unlock();
+    }
+}
+
 /// A set's folder.
 #[derive(Clone, Debug)]
 pub struct SetFolder(pub PathBuf);
@@ -84,12 +96,12 @@ impl SetFolder {
     ///
     /// # Errors
     /// Where somebody else holds it.
-    pub fn alone(&self) -> Result<File> {
+    pub fn alone(&self) -> Result<Alone> {
         let place = self.0.join("running");
         let held = File::create(&place).map_err(|why| Error::output(&place, why.to_string(), "Make the set first"))?;
         let why = "another contestant is being run on this set";
         held.try_lock().map_err(|_| Error::input(&place, why, "Wait until it has ended"))?;
-        Ok(held)
+        Ok(Alone(held))
     }
 
     /// Writes a label.
