@@ -58,6 +58,7 @@ fn head(m: &mut Markup, report: &Report) {
         let lede = sure
             .into_iter()
             .chain(phrases::change(report))
+            .chain(phrases::moved_numbers(report).map(|numbers| format!("What moved most: {numbers}.")))
             .chain(phrases::left_beside(report))
             .chain(phrases::noise(report).map(|noise| format!("Noise by the recordings: {noise}.")))
             .chain(alike)

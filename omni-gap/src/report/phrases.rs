@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 
 use super::model::Report;
-use super::number::{NBSP, num, percent};
-use crate::engine::findings::{ChannelNoise, SignalGap, Where, Which};
+use super::number::{NBSP, figures, num, percent};
+use crate::engine::findings::{ChannelNoise, Corrected, SignalGap, Where, Which};
+use crate::engine::knobs::OutcomeKnobs;
 use crate::simulate::SignalGroup;
 use crate::vocabulary::{Axis, Kind, Stage, Verdict};
 
@@ -23,6 +24,11 @@ pub fn headline(report: &Report) -> String {
         Verdict::Unknown => {
             let lies = main_place(report).map(|w| format!(" It lies mostly in {}.", place(w))).unwrap_or_default();
             format!("There is a gap, and nothing in the catalogue explains it.{lies}")
+        }
+        Verdict::NoGap if numbers_tell(report) => {
+            "No gap beyond what the robot file states of its own numbers: re-fitted \
+                                                   within that, they predict these runs as well as noise allows."
+                .into()
         }
         Verdict::NoGap => {
             "No gap: the simulator predicts these runs as well as noise and stated uncertainty allow.".into()
@@ -45,6 +51,33 @@ pub fn noise(report: &Report) -> Option<String> {
     };
     let all: Vec<String> = report.noise.iter().filter(differs).map(of).collect();
     (!all.is_empty()).then(|| all.join("; "))
+}
+
+/// Which of the file's own numbers moved most where these alone, within what is stated of them, close what a reader would call a
+/// gap; none elsewhere.
+pub fn moved_numbers(report: &Report) -> Option<String> {
+    if !numbers_tell(report) {
+        return None;
+    }
+    let sigmas = |p: &Corrected| Some((p.corrected - p.nominal?) / p.nominal_std.filter(|std| *std > 0.0)?);
+    let mut moved: Vec<(f64, &Corrected)> = report.parameters.iter().filter_map(|p| Some((sigmas(p)?, p))).collect();
+    moved.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
+    let of = |(sigmas, p): &(f64, &Corrected)| {
+        let nominal = p.nominal.map(num).unwrap_or_default();
+        let by = figures(sigmas.abs(), 2);
+        format!("{} {nominal} → {}{NBSP}{} ({by} of its stated sigmas)", p.key, num(p.corrected), p.unit)
+    };
+    let most: Vec<String> = moved.iter().filter(|(sigmas, _)| sigmas.abs() > 1.0).take(3).map(of).collect();
+    (!most.is_empty()).then(|| list(&most))
+}
+
+/// True where there is no gap, though the file as it stands predicts plainly worse than noise allows: its numbers close it.
+fn numbers_tell(report: &Report) -> bool {
+    let usual = OutcomeKnobs::default().inadequate;
+    let plainly = report.engine.as_ref().map_or(usual, |engine| engine.knobs.outcome.inadequate);
+    let shrink = &report.shrink;
+    let worse = shrink.before.zip(shrink.noise_floor).is_some_and(|(before, floor)| before > plainly * floor);
+    report.verdict == Verdict::NoGap && shrink.closed.is_some() && worse
 }
 
 /// Which signals beside the totals the answer leaves a gap in, as one sentence each.
@@ -71,7 +104,7 @@ pub fn change(report: &Report) -> Option<String> {
         (None, Some(reason)) => format!(" ({reason})"),
         (None, None) => String::new(),
     };
-    let after = s.after.filter(|_| report.verdict != Verdict::NoGap);
+    let after = s.after.filter(|_| report.verdict != Verdict::NoGap || numbers_tell(report));
     Some(match after {
         Some(after) => {
             format!(
@@ -209,6 +242,15 @@ mod tests {
     fn a_headline_names_the_cause_and_its_place() {
         assert_eq!(headline(&sample::effect()), "Missing from the simulator: Wheel slip at wheel\u{a0}2.");
         assert_eq!(headline(&sample::parameter()), "Wrong in the robot file: Mass and Winding resistance.");
+    }
+
+    #[test]
+    fn numbers_are_told_where_they_alone_close_what_a_reader_calls_a_gap() {
+        let said = moved_numbers(&sample::own_numbers()).expect("two moved");
+        assert!(said.starts_with("motor.resistance_ohm 1.93 → 2.50\u{a0}Ω (3.0 of its stated sigmas)"), "{said}");
+        assert!(!said.contains("mass"), "it moved by less than a sigma: {said}");
+        assert_eq!(moved_numbers(&sample::no_gap()), None);
+        assert_eq!(moved_numbers(&sample::parameter()), None);
     }
 
     #[test]

@@ -6,12 +6,13 @@ use crate::engine::findings::*;
 use crate::vocabulary::{Kind, Stage, Verdict};
 
 /// All samples with the name of their golden file.
-pub fn all() -> [(&'static str, Report); 5] {
+pub fn all() -> [(&'static str, Report); 6] {
     [
         ("effect", effect()),
         ("parameter", parameter()),
         ("unknown", unknown()),
         ("no_gap", no_gap()),
+        ("own_numbers", own_numbers()),
         ("unfit_data", unfit_data()),
     ]
 }
@@ -164,6 +165,33 @@ pub fn no_gap() -> Report {
             ..Shrink::default()
         },
         not_seen: vec!["stribeck: no run passes slowly through standstill".into()],
+        ..named(Verdict::NoGap)
+    }
+}
+
+/// The simulator is right but for numbers that are wrong by what is stated of them.
+pub fn own_numbers() -> Report {
+    Report {
+        gap: gap([4.37, 0.94, 0.99], [5.2, 1.5, 1.5], [9.61, 3.0, 3.1]),
+        which: vec![
+            Which { title: None, ..cause("no_gap", "", None, 0.73) },
+            Which { title: None, ..cause("unknown", "", None, 0.21) },
+            cause("resistance", "Winding resistance", Some(Kind::Parameter), 0.06),
+        ],
+        noise: Vec::new(),
+        shrink: Shrink {
+            before: Some(7.47),
+            after: Some(2.22),
+            noise_floor: Some(2.30),
+            closed: Some(1.016),
+            closed_by_refit_alone: Some(1.016),
+            ..Shrink::default()
+        },
+        parameters: vec![
+            corrected("body.mass_kg", "kg", Some(5.0), 0.05, 5.02, 0.03),
+            corrected("motor.torque_constant_Nm_per_A", "N·m/A", Some(0.02778), 0.00083, 0.02607, 0.0001),
+            corrected("motor.resistance_ohm", "Ω", Some(1.927), 0.1927, 2.503, 0.01),
+        ],
         ..named(Verdict::NoGap)
     }
 }
