@@ -15,6 +15,10 @@ use super::shoot::Shots;
 use super::starts::{profile, starts_of};
 use crate::simulate::{EffectInstance, Model, Slot};
 
+/// A step that windows' starts spoiled is taken without these where at least this share of what it promises comes true [1]: what
+/// is farther from a straight line is tried again in smaller steps.
+const COMES_TRUE: f64 = 0.5;
+
 /// All nominal factors, free within what is believable.
 pub fn nominal_free(settings: &FitSettings) -> Vec<Free> {
     Nominal::ALL.iter().map(|p| Free { slot: Slot::Nominal(*p), within: settings.believable }).collect()
@@ -51,7 +55,8 @@ pub fn fit_with_dispersion<const N: usize>(
     settings: &FitSettings,
 ) -> Fit<N> {
     let mut dispersion = from.map_or_else(|| settings.caution * misfit(&model, shots, settings), |f| f.spread);
-    let options = |dispersion| FitOptions { free, prior, dispersion, rounds: settings.rounds, by_window: false };
+    let options =
+        |dispersion| FitOptions { free, prior, dispersion, rounds: settings.rounds, by_window: Some(COMES_TRUE) };
     let starts = match from {
         Some(fit) => fit.starts.clone(),
         None => starts_of(&model, shots),

@@ -94,8 +94,10 @@ pub struct FitOptions<'a> {
     pub dispersion: f64,
     /// Rounds, at the most.
     pub rounds: usize,
-    /// Whether a step that makes things worse is tried once more with each window's better start.
-    pub by_window: bool,
+    /// A step that makes things worse is tried once more with each window's better start, if at all, and taken where more than
+    /// this share of what it promised comes true [1]: starts that friction bends keep a fit from moving numbers along a line on which
+    /// the data hardly tell them apart.
+    pub by_window: Option<f64>,
 }
 
 /// Fits the free numbers of `model` to the runs; `starts` are where to begin, if known from a fit before.
@@ -141,8 +143,13 @@ pub(super) fn fit_on<const N: usize>(
             let (trial, taken) = stepped(&model, free, &step);
             let mut begun = Begun::of(&trial, shots, linear.starts_after(&starts, &taken));
             let cost = |begun: &Begun| begun.cost() / dispersion + prior.cost(&trial);
-            if by_window && (cost(&begun).is_nan() || cost(&begun) >= total) {
-                begun = begun.or(Begun::of(&trial, shots, starts.clone()));
+            if let Some(share) = by_window
+                && (cost(&begun).is_nan() || cost(&begun) >= total)
+            {
+                let with_some = begun.clone().or(Begun::of(&trial, shots, starts.clone()));
+                if total - cost(&with_some) > share * by_numbers {
+                    begun = with_some;
+                }
             }
             if cost(&begun) < total {
                 damping = (damping * 0.1).max(1e-10);

@@ -22,7 +22,7 @@ fn fitted(runs: &[AlignedRun<4>], windows: impl Fn(&AlignedRun<4>) -> Windows) -
     let free = TRUTH.map(|(p, _)| Free { slot: Slot::Nominal(p), within: (0.1, 4.0) });
     let shots = Shots { runs: &runs, windows: &windows };
     let prior = Prior::stated(&robot());
-    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: false };
+    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: None };
     fit(Model::nominal(&robot(), 12.0), shots, None, options)
 }
 

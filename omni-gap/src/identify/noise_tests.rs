@@ -19,7 +19,7 @@ fn found(how: &Staging, window: f64) -> Noise {
         model,
         shots,
         None,
-        FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: false },
+        FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: None },
     );
     noise_of(&fitted, shots)
 }
@@ -42,7 +42,7 @@ fn noise_is_taken_from_where_a_model_that_lacks_something_does_not_show_it() {
     let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
     let shots = Shots { runs: &runs, windows: &windows };
     let options =
-        FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: false };
+        FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: None };
     let fitted = fit(model, shots, None, options);
     let [everywhere, quiet] = [1.0, 0.3].map(|share| noise_where_quiet(&fitted, shots, share).scale[1]);
     assert!(everywhere > 5.0 && (quiet - 1.0).abs() < 0.15, "everywhere {everywhere}, where it is quiet {quiet}");
