@@ -22,8 +22,8 @@ use super::shoot::Shots;
 use super::window::{START, WindowLinear};
 use crate::simulate::{AlignedRun, Channels, SignalGroup};
 
-/// Groups of channels that share a sensor: currents, wheel speeds, position, heading, gyro, battery.
-const GROUPS: usize = 6;
+/// How many sensors have a noise of their own, groups of channels that share one: currents, wheel speeds, position, heading, gyro, battery.
+pub const SENSORS: usize = 6;
 /// Times that the groups are estimated in turn.
 const TURNS: usize = 3;
 /// A lag-one autocorrelation counts if it is above that of white noise by this many of its standard errors 1/√n.
@@ -43,9 +43,9 @@ const LEAST_SCALE: f64 = 1e-3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
     /// Its standard deviation over the run's sigma; one where nothing was measured.
-    pub scale: [f64; GROUPS],
+    pub scale: [f64; SENSORS],
     /// How long it remembers itself [s]; zero where it cannot be told from white.
-    pub correlation_time: [f64; GROUPS],
+    pub correlation_time: [f64; SENSORS],
 }
 
 /// The group of a channel of a robot with `wheels` wheels.
@@ -63,7 +63,7 @@ fn group(wheels: usize, channel: usize) -> usize {
 
 impl Noise {
     /// As the runs have it.
-    pub const AS_STATED: Self = Self { scale: [1.0; GROUPS], correlation_time: [0.0; GROUPS] };
+    pub const AS_STATED: Self = Self { scale: [1.0; SENSORS], correlation_time: [0.0; SENSORS] };
 
     /// The run with this noise stated in place of its own.
     pub fn applied<const N: usize>(&self, run: &AlignedRun<N>) -> AlignedRun<N> {
@@ -110,14 +110,14 @@ fn quietest(mut lefts: Vec<Left>, share: f64) -> Vec<Left> {
         return lefts;
     }
     let per_number = |left: &Left, g: usize| left.seen[g][0] / left.count[g][0].max(1.0);
-    let usual: [f64; GROUPS] = std::array::from_fn(|g| {
+    let usual: [f64; SENSORS] = std::array::from_fn(|g| {
         let mut all: Vec<f64> =
             lefts.iter().filter(|left| left.count[g][0] > 0.0).map(|left| per_number(left, g)).collect();
         let at = (share * all.len() as f64) as usize;
         if all.is_empty() { 1.0 } else { *all.select_nth_unstable_by(at, f64::total_cmp).1 }
     });
     let loud =
-        |left: &Left| (0..GROUPS).map(|g| per_number(left, g) / usual[g].max(f64::MIN_POSITIVE)).fold(0.0, f64::max);
+        |left: &Left| (0..SENSORS).map(|g| per_number(left, g) / usual[g].max(f64::MIN_POSITIVE)).fold(0.0, f64::max);
     lefts.sort_by(|a, b| loud(a).total_cmp(&loud(b)));
     lefts.truncate(keep);
     lefts
@@ -147,11 +147,11 @@ struct Track {
 struct Left {
     tracks: Vec<Track>,
     /// Σ r_k² and Σ r_k·r_{k+1} of each group [σ²]
-    seen: [[f64; 2]; GROUPS],
+    seen: [[f64; 2]; SENSORS],
     /// Σ j_k·j_kᵀ and Σ j_k·j_{k+1}ᵀ of each group
-    outer: [[Mat6; 2]; GROUPS],
+    outer: [[Mat6; 2]; SENSORS],
     /// How many numbers and how many neighbours each group has.
-    count: [[f64; 2]; GROUPS],
+    count: [[f64; 2]; SENSORS],
 }
 
 /// What noise of one sigma in a group makes of the sums above, and what it does to the start: A·R·Aᵀ.
@@ -169,9 +169,9 @@ impl Left {
             block.start().cholesky().map_or_else(Mat6::zeros, |c| Mat6::from_iterator(c.inverse().iter().copied()));
         let mut left = Self {
             tracks: Vec::new(),
-            seen: [[0.0; 2]; GROUPS],
-            outer: [[Mat6::zeros(); 2]; GROUPS],
-            count: [[0.0; 2]; GROUPS],
+            seen: [[0.0; 2]; SENSORS],
+            outer: [[Mat6::zeros(); 2]; SENSORS],
+            count: [[0.0; 2]; SENSORS],
         };
         for channel in 0..AlignedRun::<N>::channels().count() {
             let g = group(N, channel);
@@ -245,18 +245,18 @@ fn ratio(made: &[Made]) -> f64 {
 /// The groups in turn, each with what the others make taken off.
 fn solve(lefts: &[Left], longest: f64) -> Noise {
     let mut noise = Noise::AS_STATED;
-    let mut made: [Vec<Made>; GROUPS] = std::array::from_fn(|g| made_by(lefts, g, 0.0));
+    let mut made: [Vec<Made>; SENSORS] = std::array::from_fn(|g| made_by(lefts, g, 0.0));
     let white = made.clone();
     let total = |of: &dyn Fn(&Left) -> f64| lefts.iter().map(of).sum::<f64>();
     for _ in 0..TURNS {
-        for g in 0..GROUPS {
+        for g in 0..SENSORS {
             let [numbers, pairs] = [0, 1].map(|which| total(&|left| left.count[g][which]));
             if numbers == 0.0 {
                 continue;
             }
             // what the other groups' noise does to the starts shows in this one
             let [square, lagged] = [0, 1].map(|which| {
-                let others = (0..GROUPS).filter(|h| *h != g).map(|h| {
+                let others = (0..SENSORS).filter(|h| *h != g).map(|h| {
                     let shown = made[h].iter().zip(lefts).map(|(m, left)| m.start.dot(&left.outer[g][which]));
                     noise.scale[h].powi(2) * shown.sum::<f64>()
                 });

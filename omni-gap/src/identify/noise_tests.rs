@@ -66,7 +66,7 @@ fn numbers(how: &Staging, group: usize) -> f64 {
 fn white_noise_of_one_sigma_is_found_as_such() {
     let how = Staging::default();
     let noise = found(&how, 0.5);
-    assert_eq!(noise.scale[STAGED..], [1.0; GROUPS - STAGED], "nothing was measured there");
+    assert_eq!(noise.scale[STAGED..], [1.0; SENSORS - STAGED], "nothing was measured there");
     for g in 0..STAGED {
         assert_eq!(noise.correlation_time[g], 0.0, "group {g}: {noise:?}");
         // four standard errors of a standard deviation, 1/√(2n)

@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use super::model::Report;
 use super::number::{NBSP, figures, num, percent};
 use crate::engine::findings::{ChannelNoise, Corrected, SignalGap, Where, Which};
-use crate::engine::knobs::OutcomeKnobs;
 use crate::simulate::SignalGroup;
 use crate::vocabulary::{Axis, Kind, Stage, Verdict};
 
@@ -73,8 +72,7 @@ pub fn moved_numbers(report: &Report) -> Option<String> {
 
 /// True where there is no gap, though the file as it stands predicts plainly worse than noise allows: its numbers close it.
 fn numbers_tell(report: &Report) -> bool {
-    let usual = OutcomeKnobs::default().inadequate;
-    let plainly = report.engine.as_ref().map_or(usual, |engine| engine.knobs.outcome.inadequate);
+    let plainly = report.engine.as_ref().map_or(1.0, |engine| engine.knobs.outcome.inadequate);
     let shrink = &report.shrink;
     let worse = shrink.before.zip(shrink.noise_floor).is_some_and(|(before, floor)| before > plainly * floor);
     report.verdict == Verdict::NoGap && shrink.closed.is_some() && worse

@@ -7,11 +7,8 @@
 use super::scored::Data;
 use crate::engine::evidence::Runs;
 use crate::engine::findings::ChannelNoise;
-use crate::identify::{Fit, Noise, noise_where_quiet};
+use crate::identify::{Fit, Noise, SENSORS, noise_where_quiet};
 use crate::simulate::{AlignedRun, SignalGroup};
-
-/// How many sensors have a noise of their own.
-const SENSORS: usize = 6;
 
 /// Noise that a model's left-overs show.
 #[derive(Clone, Copy, Debug)]
