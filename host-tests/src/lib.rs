@@ -37,7 +37,6 @@
 
 pub mod carried;
 pub mod catalogue;
-pub mod coherent;
 pub mod confusion;
 pub mod costs;
 pub mod emulator;

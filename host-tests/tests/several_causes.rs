@@ -4,7 +4,6 @@ use ground_truth::causes::cause;
 use ground_truth::logging::Logging;
 use ground_truth::recording::{Plan, Session};
 use ground_truth::robot_file::RobotFile;
-use host_tests::coherent::contradictions;
 use host_tests::laboratory::cases::PLAN;
 use host_tests::withheld::label::Suite;
 use host_tests::withheld::suites::Case;
@@ -19,11 +18,16 @@ fn diagnosed(hidden: &[(&str, f64)]) -> Report {
         (cause(id).expect("a cause").put)(&mut setup, None, *times);
     }
     let plan = Plan { duration: 4.0, ..PLAN };
+    answered(&Session::logged((&file, &setup), &plan, &Logging::clean(), 11))
+}
+
+/// What is answered to a recorded session, through its files.
+fn answered(recorded: &Session) -> Report {
     let folder = tempfile::tempdir().expect("a folder");
-    Session::logged((&file, &setup), &plan, &Logging::clean(), 11).write(folder.path()).expect("room");
+    recorded.write(folder.path()).expect("room");
     let session = omni_gap::Session::load(folder.path(), None, &known_effects()).expect("a session");
     let report = diagnose(&session, &Options::default());
-    assert_eq!(contradictions(&report), [""; 0]);
+    assert_eq!(report.violations(), [""; 0]);
     report
 }
 
@@ -54,10 +58,7 @@ fn a_mass_that_is_a_tenth_off_is_told_by_what_is_stated_of_all_that_goes_with_it
     let (session, label) =
         Case { suite: Suite::Laboratory, number: 240, seed: 15_888_145_756_125_126_740, fresh: false }.made();
     assert_eq!(label.hidden[0].cause, "mass");
-    let folder = tempfile::tempdir().expect("a folder");
-    session.write(folder.path()).expect("room");
-    let session = omni_gap::Session::load(folder.path(), None, &known_effects()).expect("a session");
-    let report = diagnose(&session, &Options::default());
+    let report = answered(&session);
     assert_eq!(named(&report), ["mass"]);
     let mass = &report.which[0].parameters["mass_kg"];
     let (truth, std) = (7.791, mass.std.expect("fitted"));

@@ -13,7 +13,6 @@ use super::contestant::Ended;
 use super::label::Suite;
 use super::scored::Scored;
 use super::suites::{Case, REDUCED, cases};
-use crate::coherent::contradictions;
 
 /// The seed of the reduced split.
 pub const REDUCED_SEED: u64 = 2009;
@@ -52,7 +51,7 @@ fn answer_of(case: &Case) -> Result<Scored> {
     let report = diagnose(&Session::load(folder.path(), None, &known_effects())?, &Options::default());
     let ended = Ended { failed: None, seconds: start.elapsed().as_secs_f64(), megabytes: 0.0 };
     let broken = |why: String| Error::input(folder.path(), why, "Mend the report");
-    let against = contradictions(&report);
+    let against = report.violations();
     if !against.is_empty() {
         return Err(broken(format!("{}: {}", case.name(), against.join("; "))));
     }

@@ -25,8 +25,8 @@ pub fn headline(report: &Report) -> String {
             format!("There is a gap, and nothing in the catalogue explains it.{lies}")
         }
         Verdict::NoGap if numbers_tell(report) => {
-            "No gap beyond what the robot file states of its own numbers: re-fitted \
-                                                   within that, they predict these runs as well as noise allows."
+            "No gap beyond what the robot file states of its own numbers: re-fitted within that, they predict these \
+             runs as well as noise allows."
                 .into()
         }
         Verdict::NoGap => {

@@ -4,7 +4,7 @@ use super::model::Report;
 use crate::vocabulary::Verdict;
 
 /// Sums of shares and probabilities may miss 1 by rounding only.
-const SUM_TOLERANCE: f64 = 1e-6;
+const SUM_TOLERANCE: f64 = 1e-9;
 
 impl Report {
     /// What is wrong with this report, a sentence each; empty for a sound one.
@@ -28,16 +28,28 @@ impl Report {
             self.which.windows(2).all(|w| w[0].probability >= w[1].probability),
             "`which` is not sorted by probability",
         );
-        let named = matches!(self.verdict, Verdict::Effect | Verdict::Parameter);
+        let names_causes = matches!(self.verdict, Verdict::Effect | Verdict::Parameter);
+        let one_answer = names_causes != self.causes.is_empty();
+        must(one_answer, "`causes` is filled for the verdicts effect and parameter, and for no other");
         must(
-            named != self.causes.is_empty(),
-            "`causes` is filled for the verdicts effect and parameter, and for no other",
+            self.causes.iter().all(|c| self.cause(c).is_some_and(|w| w.probability > 0.0)),
+            "a cause is not among `which`, or has no probability there",
         );
-        must(self.causes.iter().all(|c| self.cause(c).is_some()), "a cause is not among `which`");
+        must(!one_answer || self.answer_stands_first(), "what is answered does not stand first in `which`");
         must(self.shrink.closed.is_some() || self.shrink.reason.is_some(), "`closed` is null and no reason is given");
         must(self.verdict != Verdict::UnfitData || !self.faults.is_empty(), "unfit_data names no fault");
         must(self.every_number_is_finite(), "a number is not finite");
         found
+    }
+
+    fn answer_stands_first(&self) -> bool {
+        let first = self.which.first().map(|w| w.cause.as_str());
+        match self.verdict {
+            Verdict::UnfitData => true,
+            Verdict::NoGap => first == Some("no_gap"),
+            Verdict::Unknown => first == Some("unknown"),
+            Verdict::Effect | Verdict::Parameter => first == self.causes.first().map(String::as_str),
+        }
     }
 
     fn every_number_is_finite(&self) -> bool {
@@ -66,6 +78,16 @@ mod tests {
         let mut report = sample::effect();
         report.verdict = Verdict::NoGap;
         assert_eq!(report.violations().len(), 1);
+    }
+
+    #[test]
+    fn an_answer_that_is_less_probable_than_another_is_unsound() {
+        let mut report = sample::unknown();
+        report.verdict = Verdict::NoGap;
+        assert_eq!(report.violations(), ["what is answered does not stand first in `which`"]);
+        let mut report = sample::parameter();
+        report.causes.reverse();
+        assert_eq!(report.violations(), ["what is answered does not stand first in `which`"]);
     }
 
     #[test]
