@@ -46,7 +46,7 @@ pub use identifiability::{Identifiability, TradeOff};
 pub use joint::{GIVEN, IDENTIFIED, Identified, Joint, Refused, joint};
 pub use linear::{Linearised, linearise};
 pub use misfit::Misfit;
-pub use noise::{Noise, SENSORS, noise_where_quiet};
+pub use noise::{LeftOver, Noise, SENSORS};
 pub use overlap::{Overlap, Products, SeenWindow};
 pub use prior::{FreedPrior, Prior, PriorRow};
 pub use relative::relative_std;

@@ -80,31 +80,51 @@ impl Noise {
 /// Estimates the noise from what a fit leaves over of the runs that it was made to. Scales are over the runs' sigma; what
 /// the runs say of correlation is not looked at.
 pub fn noise_of<const N: usize>(fit: &Fit<N>, shots: Shots<'_, N>) -> Noise {
-    noise_where_quiet(fit, shots, 1.0)
+    LeftOver::of(fit, shots).noise()
 }
 
-/// The same from that share of the windows in which least is left over: noise is the same everywhere, and what a model lacks is
-/// not.
-pub fn noise_where_quiet<const N: usize>(fit: &Fit<N>, shots: Shots<'_, N>, share: f64) -> Noise {
-    let runs: Vec<Cow<'_, AlignedRun<N>>> = shots.runs.iter().map(|run| white(run)).collect();
-    let runs: Vec<&AlignedRun<N>> = runs.iter().map(AsRef::as_ref).collect();
-    let shots = Shots { runs: &runs, windows: shots.windows };
-    let linear = linearise(&fit.model, shots, &fit.starts, &[], true);
-    let (mut lefts, mut lengths) = (Vec::new(), 0.0);
-    for (k, windows) in linear.windows.iter().enumerate() {
-        for window in windows.iter().filter(|w| !w.places.is_empty()) {
-            lefts.push(Left::of::<N>(window, &runs[k].t));
+/// What a fit leaves over of the runs that it was made to, window by window.
+#[derive(Debug)]
+pub struct LeftOver {
+    windows: Vec<Left>,
+    /// The longest correlation time that they can tell [s]
+    longest: f64,
+}
+
+impl LeftOver {
+    /// Of these runs.
+    pub fn of<const N: usize>(fit: &Fit<N>, shots: Shots<'_, N>) -> Self {
+        let runs: Vec<Cow<'_, AlignedRun<N>>> = shots.runs.iter().map(|run| white(run)).collect();
+        let runs: Vec<&AlignedRun<N>> = runs.iter().map(AsRef::as_ref).collect();
+        let shots = Shots { runs: &runs, windows: shots.windows };
+        let linear = linearise(&fit.model, shots, &fit.starts, &[], true);
+        let (mut lefts, mut lengths) = (Vec::new(), 0.0);
+        for (k, windows) in linear.windows.iter().enumerate() {
+            for window in windows.iter().filter(|w| !w.places.is_empty()) {
+                lefts.push(Left::of::<N>(window, &runs[k].t));
+            }
+            for rows in (0..shots.windows[k].len()).map(|w| shots.windows[k].rows(w)) {
+                lengths += runs[k].t[rows.end - 1] - runs[k].t[rows.start];
+            }
         }
-        for rows in (0..shots.windows[k].len()).map(|w| shots.windows[k].rows(w)) {
-            lengths += runs[k].t[rows.end - 1] - runs[k].t[rows.start];
-        }
+        let longest = LONGEST * lengths / lefts.len().max(1) as f64;
+        Self { windows: lefts, longest }
     }
-    let longest = LONGEST * lengths / lefts.len().max(1) as f64;
-    solve(&quietest(lefts, share), longest)
+
+    /// The noise of all windows.
+    pub fn noise(&self) -> Noise {
+        solve(&self.windows.iter().collect::<Vec<_>>(), self.longest)
+    }
+
+    /// The noise of that share of the windows in which least is left over: noise is the same everywhere, and what a model lacks is
+    /// not.
+    pub fn noise_where_quiet(&self, share: f64) -> Noise {
+        solve(&quietest(self.windows.iter().collect(), share), self.longest)
+    }
 }
 
 /// The share of the windows in which the group that stands out most over what it leaves in its own quietest share does so least.
-fn quietest(mut lefts: Vec<Left>, share: f64) -> Vec<Left> {
+fn quietest(mut lefts: Vec<&Left>, share: f64) -> Vec<&Left> {
     let keep = ((share * lefts.len() as f64).ceil() as usize).max(LEAST_WINDOWS);
     if keep >= lefts.len() {
         return lefts;
@@ -133,6 +153,7 @@ type Vec6 = SVector<f64, START>;
 type Mat6 = SMatrix<f64, START, START>;
 
 /// A channel in a window.
+#[derive(Debug)]
 struct Track {
     group: usize,
     /// Times of its samples [s]
@@ -144,6 +165,7 @@ struct Track {
 }
 
 /// What a window's start leaves over.
+#[derive(Debug)]
 struct Left {
     tracks: Vec<Track>,
     /// Σ r_k² and Σ r_k·r_{k+1} of each group [σ²]
@@ -233,7 +255,7 @@ impl Left {
 }
 
 /// What one group makes, window by window.
-fn made_by(lefts: &[Left], group: usize, tau: f64) -> Vec<Made> {
+fn made_by(lefts: &[&Left], group: usize, tau: f64) -> Vec<Made> {
     lefts.par_iter().map(|left| left.made(group, tau)).collect()
 }
 
@@ -243,11 +265,11 @@ fn ratio(made: &[Made]) -> f64 {
 }
 
 /// The groups in turn, each with what the others make taken off.
-fn solve(lefts: &[Left], longest: f64) -> Noise {
+fn solve(lefts: &[&Left], longest: f64) -> Noise {
     let mut noise = Noise::AS_STATED;
     let mut made: [Vec<Made>; SENSORS] = std::array::from_fn(|g| made_by(lefts, g, 0.0));
     let white = made.clone();
-    let total = |of: &dyn Fn(&Left) -> f64| lefts.iter().map(of).sum::<f64>();
+    let total = |of: &dyn Fn(&Left) -> f64| lefts.iter().map(|left| of(left)).sum::<f64>();
     for _ in 0..TURNS {
         for g in 0..SENSORS {
             let [numbers, pairs] = [0, 1].map(|which| total(&|left| left.count[g][which]));
@@ -277,7 +299,7 @@ fn solve(lefts: &[Left], longest: f64) -> Noise {
 }
 
 /// The correlation time at which a group makes this ratio of the two sums [s].
-fn time_of(lefts: &[Left], group: usize, wanted: f64, longest: f64) -> f64 {
+fn time_of(lefts: &[&Left], group: usize, wanted: f64, longest: f64) -> f64 {
     let tracks =
         || lefts.iter().flat_map(|left| &left.tracks).filter(|track| track.group == group && track.t.len() > 1);
     let (time, intervals) = tracks().fold((0.0, 0.0), |(time, n), track| {

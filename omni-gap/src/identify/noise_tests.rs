@@ -44,7 +44,8 @@ fn noise_is_taken_from_where_a_model_that_lacks_something_does_not_show_it() {
     let options =
         FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: None };
     let fitted = fit(model, shots, None, options);
-    let [everywhere, quiet] = [1.0, 0.3].map(|share| noise_where_quiet(&fitted, shots, share).scale[1]);
+    let left = LeftOver::of(&fitted, shots);
+    let [everywhere, quiet] = [left.noise(), left.noise_where_quiet(0.3)].map(|noise| noise.scale[1]);
     assert!(everywhere > 5.0 && (quiet - 1.0).abs() < 0.15, "everywhere {everywhere}, where it is quiet {quiet}");
 }
 

@@ -59,6 +59,14 @@ impl Cause {
         }
     }
 
+    /// What was stated, without what this cause says is wrong of it.
+    pub fn struck_out_of(&self, prior: &Prior, released_sigma: f64) -> Prior {
+        match self {
+            Cause::Effect(..) => prior.clone(),
+            Cause::Parameter(release) => prior.without(*release, released_sigma),
+        }
+    }
+
     /// True if both are the same cause at the same place.
     pub fn is(&self, other: &Cause) -> bool {
         self.same_id(other) && self.wheel() == other.wheel() && self.axis() == other.axis()

@@ -7,7 +7,6 @@ use super::accept::{Beside, asked_of};
 use super::candidate::Cause;
 use super::found::Found;
 use super::scored::{Data, Scored};
-use crate::identify::Prior;
 
 /// The causes that earn their place, the one that earns most first, and the model with them.
 pub(super) fn earning_their_place<const N: usize>(
@@ -46,10 +45,8 @@ fn without<const N: usize>(data: &Data<'_, N>, found: &[Found], left_out: usize,
         model.effects.retain(|effect| !(effect.id == card.id && effect.wheel == wheel));
     }
     let others = found.iter().enumerate().filter(|(k, _)| *k != left_out).map(|(_, found)| &found.cause);
-    let prior = others.fold(data.prior.clone(), |prior: Prior, cause| match cause {
-        Cause::Parameter(release) => prior.without(*release, data.knobs.fit.released_sigma),
-        Cause::Effect(..) => prior,
-    });
+    let released_sigma = data.knobs.fit.released_sigma;
+    let prior = others.fold(data.prior.clone(), |prior, cause| cause.struck_out_of(&prior, released_sigma));
     let extra = corrected.extra - found[left_out].cause.freedom(data.prior);
     data.judge(model, Some(corrected), &prior, extra)
 }

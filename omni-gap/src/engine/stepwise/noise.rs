@@ -7,7 +7,7 @@
 use super::scored::Data;
 use crate::engine::evidence::Runs;
 use crate::engine::findings::ChannelNoise;
-use crate::identify::{Fit, Noise, SENSORS, noise_where_quiet};
+use crate::identify::{Fit, LeftOver, Noise, SENSORS};
 use crate::simulate::{AlignedRun, SignalGroup};
 
 /// Noise that a model's left-overs show.
@@ -27,11 +27,12 @@ pub(super) fn noise_seen<const N: usize>(fit: &Fit<N>, data: &Data<'_, N>) -> Op
         SignalGroup::WheelSpeed => knobs.most_of_speeds,
         _ => knobs.most,
     });
-    let everywhere = noise_where_quiet(fit, few.shots(), 1.0);
+    let left = LeftOver::of(fit, few.shots());
+    let everywhere = left.noise();
     let beyond_belief = (0..SENSORS).any(|sensor| everywhere.scale[sensor] > most[sensor]);
     let mut noise = everywhere;
     if beyond_belief {
-        noise = quieter(everywhere, noise_where_quiet(fit, few.shots(), knobs.quiet), most);
+        noise = quieter(everywhere, left.noise_where_quiet(knobs.quiet), most);
     }
     let mut as_stated = true;
     for (sensor, (scale, memory)) in noise.scale.iter_mut().zip(&mut noise.correlation_time).enumerate() {

@@ -1,7 +1,6 @@
 //! The search: causes are taken up one by one (forward stepwise selection), and what is left decides the outcome.
 
 use super::accept::{Beside, convincing, look_alikes};
-use super::candidate::Cause;
 use super::earned::earning_their_place;
 use super::found::Found;
 use super::round::{Ranked, Ranking, Tried, explain};
@@ -79,9 +78,7 @@ pub fn search<const N: usize>(data: &Data<'_, N>, nominal: &Model<N>, progress: 
         let ranking = &rounds[rounds.len() - 1];
         let Some(best) = first_convincing(ranking, &found, &prior, knobs) else { break };
         let earns = ranking.base.score(ranking.scale) - best.scored.score(ranking.scale);
-        if let Cause::Parameter(release) = best.cause {
-            prior = prior.without(release, data.knobs.fit.released_sigma);
-        }
+        prior = best.cause.struck_out_of(&prior, data.knobs.fit.released_sigma);
         current = best.scored.clone();
         let not_told_apart_from = look_alikes(best, ranking, knobs);
         found.push(Found { cause: best.cause, not_told_apart_from, round: rounds.len() - 1, earns });
