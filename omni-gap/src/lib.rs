@@ -5,7 +5,8 @@
 //! cause is in the model. [`diagnose`] does all of it; the rooms can be used one by one:
 //!
 //! `log` (files → SI) → `check` (faults of the telemetry) → `simulate` (what a model says) → `identify` (the best numbers
-//! and how sure they are) → `localise` (where the gap lies) → `engine` (which cause) → `report` (files for people and
+//! and how sure they are) → `localise` (where the gap lies) → `engine` (which cause) →
+//! `comparison` (what differs between two sessions) → `report` (files for people and
 //! programs).
 //!
 //! A room imports only rooms before it; [`diagnosis`] walks through them all, [`synthesize`] makes recordings whose truth is
@@ -29,6 +30,8 @@ pub mod identify;
 pub mod localise;
 
 pub mod engine;
+
+pub mod comparison;
 
 pub mod report;
 

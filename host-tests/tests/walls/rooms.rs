@@ -11,7 +11,8 @@ use crate::tree::Source;
 pub const HOUSE: &str = "omni-gap/src/";
 
 /// The rooms, in the order in which evidence walks through them.
-const ORDER: &[&str] = &["error", "vocabulary", "log", "check", "simulate", "identify", "localise", "engine", "report"];
+const ORDER: &[&str] =
+    &["error", "vocabulary", "log", "check", "simulate", "identify", "localise", "engine", "comparison", "report"];
 
 /// Who stands above all rooms and may import any of them; no room may import these.
 const ABOVE: &[&str] =
