@@ -6,6 +6,8 @@ mod answers;
 mod bad_input;
 #[path = "cli/bench.rs"]
 mod bench;
+#[path = "cli/compare.rs"]
+mod compare;
 #[path = "cli/experiments.rs"]
 mod experiments;
 #[path = "cli/explain.rs"]

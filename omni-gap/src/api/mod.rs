@@ -6,6 +6,7 @@
 //! | ask | answer |
 //! |---|---|
 //! | [`diagnose`], [`Diagnosis::of`] | [`Report`], [`Findings`]: where the gap lies, which cause it has, how far it shrinks |
+//! | [`compare`](fn@compare) | [`ComparisonReport`](crate::report::comparison::ComparisonReport): which cause explains the difference between two sessions |
 //! | [`identify`] | [`Identification`]: the robot file's numbers, fitted, and how sure they are |
 //! | [`identify_by_experiment`] | [`Answer`](crate::identify::Answer): the same by the paper's experiments |
 //! | [`validate`] | [`Validated`]: every run simulated over what was measured |
@@ -25,6 +26,7 @@
 //! [`diagnose`] but its answer, `unfit_data`.
 
 mod by_experiment;
+mod compare;
 mod experiment;
 mod identify;
 mod predict;
@@ -45,6 +47,7 @@ pub use crate::report::Report;
 pub use crate::simulate::{EffectShown, Sensitivity, StepPlan, effect_shown, sensitivity};
 pub use crate::wire::block::{Exported, export};
 pub use by_experiment::identify_by_experiment;
+pub use compare::{ComparedSession, SessionsCompared, compare};
 pub use experiment::{
     PlannedExperiments, PlannedRich, PlannedScript, RichScript, experiments, rehearse, rehearse_rich, rich,
 };

@@ -7,6 +7,7 @@
 mod causes;
 mod check;
 mod cli_error;
+mod compare;
 mod console;
 mod convert;
 mod demo;
@@ -49,6 +50,7 @@ pub struct Cli {
 enum Command {
     Demo(demo::Demo),
     Diagnose(diagnose::Diagnose),
+    Compare(compare::Compare),
     Check(check::Check),
     Experiment(experiment::Experiments),
     Identify(identify::Identify),
@@ -73,6 +75,7 @@ impl Cli {
         let done = match &self.command {
             Command::Demo(c) => c.run(&console),
             Command::Diagnose(c) => c.run(&console),
+            Command::Compare(c) => c.run(&console),
             Command::Check(c) => c.run(&console),
             Command::Experiment(c) => c.run(&console),
             Command::Identify(c) => c.run(&console),

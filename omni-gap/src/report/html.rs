@@ -1,10 +1,10 @@
 //! The report on one page: no script, no network, light and dark, wide and narrow.
 
-mod blame;
-mod gap;
+pub(super) mod blame;
+pub(super) mod gap;
 pub(super) mod notes;
 pub(super) mod page;
-mod signals;
+pub(super) mod signals;
 
 use super::markup::Markup;
 use super::model::Report;
@@ -18,9 +18,9 @@ use page::page;
 pub fn html(report: &Report, pictures: &Pictures) -> String {
     page(&format!("{}: {}", subject(report), phrases::verdict(report.verdict)), |m| {
         head(m, report);
-        notes::faults(m, report);
+        notes::faults(m, &report.faults);
         gap::how_large(m, report);
-        blame::places(m, report);
+        blame::places(m, &report.where_);
         blame::causes(m, report);
         signals::charts(m, pictures);
         notes::parameters(m, report);

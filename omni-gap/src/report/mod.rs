@@ -3,9 +3,11 @@
 //! A [`Report`] is the diagnosis as data: `report.json` is that struct and nothing else. [`terminal()`] says it in about
 //! ten lines, [`html()`] draws it on one page that needs no network, and [`write()`] puts the files into a folder so that
 //! none is ever half-written. [`sensitivity_html()`] is a page of its own; [`validation`] does the same for a model laid
-//! over its recordings; [`effect_picture()`] shows what an effect of the catalogue does, and [`shown_in()`] says
+//! over its recordings, [`comparison`] for two sessions beside each other; [`effect_picture()`] shows what an effect of the catalogue does, and [`shown_in()`] says
 //! where. Neither prose nor page computes anything: every sentence traces to a number in the report.
 
+mod columns;
+pub mod comparison;
 mod decimate;
 mod effect_picture;
 mod horizons;

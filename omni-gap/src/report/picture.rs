@@ -12,6 +12,10 @@ pub const MEASURED: &str = "measured";
 /// Name of the series that a model says, where there is but one model.
 pub const SIMULATED: &str = "simulated";
 
+/// Names of the series of a comparison: by the model of the first session, and by that with what differs.
+pub(super) const BY_A: &str = "by A’s model";
+pub(super) const WITH_CHANGE: &str = "with what differs";
+
 /// The pictures of a report.
 #[derive(Clone, Debug, Default)]
 pub struct Pictures {
@@ -48,6 +52,11 @@ pub struct Series {
 impl Pictures {
     /// The pictures of what was found: signals measured, by the nominal and by the corrected model.
     pub fn of(traces: &Traces) -> Pictures {
+        Self::beside(traces, ["nominal", "corrected"])
+    }
+
+    /// Signals measured, and by two models of these names.
+    pub(super) fn beside(traces: &Traces, [before, after]: [&str; 2]) -> Pictures {
         let Traces { run, shown_s, horizon_s, restarts_s, t_s, signals } = traces;
         let line = |name: &str, values: Vec<Option<f64>>| Series { name: name.to_owned(), values };
         let said = |values: &[f64]| values.iter().copied().map(Some).collect();
@@ -57,8 +66,8 @@ impl Pictures {
             t_s: t_s.clone(),
             series: vec![
                 line(MEASURED, trace.measured.clone()),
-                line("nominal", said(&trace.nominal)),
-                line("corrected", said(&trace.corrected)),
+                line(before, said(&trace.nominal)),
+                line(after, said(&trace.corrected)),
             ],
         };
         Pictures {
@@ -95,8 +104,8 @@ pub(super) fn ink(name: &str, at: usize) -> String {
     match name {
         MEASURED => "measured".into(),
         SIMULATED => "simulated".into(),
-        "nominal" | "before" => "nominal".into(),
-        "corrected" | "after" => "corrected".into(),
+        "nominal" | "before" | BY_A => "nominal".into(),
+        "corrected" | "after" | WITH_CHANGE => "corrected".into(),
         _ => format!("other{}", at % 4),
     }
 }

@@ -6,27 +6,13 @@ mod picture;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use super::columns::table;
 use super::html::page::{page, section};
 use super::write::put;
 use crate::engine::findings::{SelfTest, WithSensor};
 use crate::error::Result;
 use crate::vocabulary::Kind;
 use phrases::{heads, hidden, is_hidden, line};
-
-/// Lines under their heads, the first and the last column to the left, the others to the right.
-fn table(out: &mut String, heads: &[&str], lines: &[Vec<String>]) {
-    let heads: Vec<String> = heads.iter().map(|head| (*head).to_owned()).collect();
-    let all = || [&heads].into_iter().chain(lines);
-    let wide = |k: usize| all().map(|line| line[k].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..heads.len()).map(wide).collect();
-    for line in all() {
-        let [first, middle @ .., last] = line.as_slice() else { continue };
-        let space = |text: &str, width: usize| " ".repeat(width - text.chars().count());
-        let right = |(text, width): (&String, &usize)| format!("  {}{text}", space(text, *width));
-        let middle: String = middle.iter().zip(&widths[1..]).map(right).collect();
-        let _ = writeln!(out, "{}", format!("  {first}{}{middle}  {last}", space(first, widths[0])).trim_end());
-    }
-}
 
 /// True if simulated recordings were asked too.
 fn is_verified(said: &SelfTest) -> bool {

@@ -14,9 +14,10 @@ use super::spoil::Spoiled;
 const NEVER_ENDS: Duration = Duration::from_secs(120);
 
 /// The commands, and the files that they leave.
-const COMMANDS: [(&[&str], &[&str]); 12] = [
+const COMMANDS: [(&[&str], &[&str]); 13] = [
     (&["check", "session"], &[]),
     (&["diagnose", "session", "--out", "report"], &["report/report.html", "report/corrected_robot.toml"]),
+    (&["compare", "session", "session", "--out", "compared"], &["compared/compare.html"]),
     (&["validate", "session", "--out", "validation"], &["validation/validation.html"]),
     (&["identify", "session", "--out", "fitted.toml"], &["fitted.toml"]),
     (&["identify", "session", "--experiment", "all", "--out", "by.toml", "--json", "by.json"], &["by.toml"]),

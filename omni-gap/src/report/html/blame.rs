@@ -1,7 +1,7 @@
 //! Where the gap lies, and which cause is behind it.
 
 use super::page::section;
-use crate::engine::findings::Which;
+use crate::engine::findings::{Where, Which};
 use crate::report::markup::Markup;
 use crate::report::model::Report;
 use crate::report::number::{estimate, percent};
@@ -14,11 +14,12 @@ const WORTH_A_ROW: f64 = 0.005;
 /// Causes shown at most, so that the page stays one a person reads.
 const MOST_ROWS: usize = 10;
 
-pub(super) fn places(m: &mut Markup, report: &Report) {
-    if report.where_.is_empty() {
+/// Each stage's share of a gap, and where in it that sits.
+pub(in crate::report) fn places(m: &mut Markup, places: &[Where]) {
+    if places.is_empty() {
         return;
     }
-    let share = |stage: Stage| report.where_.iter().filter(|w| w.stage == stage).map(|w| w.share).sum::<f64>();
+    let share = |stage: Stage| places.iter().filter(|w| w.stage == stage).map(|w| w.share).sum::<f64>();
     let most = Stage::ALL.into_iter().max_by(|a, b| share(*a).total_cmp(&share(*b)));
     let how = "Each stage's share of the gap, along the signal path from command to reading.";
     section(m, "Where does it lie?", how, |m| {
@@ -43,7 +44,7 @@ pub(super) fn places(m: &mut Markup, report: &Report) {
             }
         });
         m.within("ul", &[("class", &"plain")], |m| {
-            for w in report.where_.iter().filter(|w| w.regime.is_some() || w.wheel.is_some() || w.axis.is_some()) {
+            for w in places.iter().filter(|w| w.regime.is_some() || w.wheel.is_some() || w.axis.is_some()) {
                 let regime = w
                     .regime
                     .as_ref()

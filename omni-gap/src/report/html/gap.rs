@@ -31,10 +31,7 @@ pub(super) fn how_large(m: &mut Markup, report: &Report) {
          {horizon_s} s on runs held out. The upright mark is the noise floor: a perfect model would end there."
     );
     section(m, "How large is the gap?", &how, |m| {
-        legend(m);
-        let top = rows.iter().flat_map(|(_, g)| [g.before, g.after, g.noise_floor]).fold(0.0, f64::max);
-        let width = |x: f64| LONGEST * x.max(0.0) / top.max(f64::MIN_POSITIVE);
-        m.within("div", &[("class", &"bars")], |m| rows.iter().for_each(|(name, gap)| row(m, name, gap, width)));
+        bars(m, ["before: nominal", "after: corrected"], &rows);
         m.within("div", &[("class", &"beside")], |m| {
             if report.gap.curves.len() > 1 {
                 m.within("figure", &[], |m| {
@@ -47,14 +44,16 @@ pub(super) fn how_large(m: &mut Markup, report: &Report) {
     });
 }
 
-fn legend(m: &mut Markup) {
+/// Two bars and a noise floor for each row, under a legend that names the two.
+pub(in crate::report) fn bars(m: &mut Markup, [before, after]: [&str; 2], rows: &[(&str, SignalGap)]) {
     m.within("p", &[("class", &"legend")], |m| {
-        for (class, name) in
-            [("nominal", "before: nominal"), ("corrected", "after: corrected"), ("floor", "noise floor")]
-        {
+        for (class, name) in [("nominal", before), ("corrected", after), ("floor", "noise floor")] {
             m.leaf("span", &[("class", &format!("key block {class}"))], name);
         }
     });
+    let top = rows.iter().flat_map(|(_, g)| [g.before, g.after, g.noise_floor]).fold(0.0, f64::max);
+    let width = |x: f64| LONGEST * x.max(0.0) / top.max(f64::MIN_POSITIVE);
+    m.within("div", &[("class", &"bars")], |m| rows.iter().for_each(|(name, gap)| row(m, name, gap, width)));
 }
 
 fn row(m: &mut Markup, name: &str, gap: &SignalGap, width: impl Fn(f64) -> f64) {

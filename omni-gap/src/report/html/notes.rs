@@ -3,18 +3,19 @@
 use super::page::section;
 use crate::engine::findings::Corrected;
 use crate::report::markup::Markup;
-use crate::report::model::Report;
+use crate::report::model::{Fault, Report};
 use crate::report::number::{estimate, figures};
 use crate::report::phrases;
 use crate::report::terminal::place_in_log;
 
-pub(super) fn faults(m: &mut Markup, report: &Report) {
-    if report.faults.is_empty() {
+/// What is wrong with the log.
+pub(in crate::report) fn faults(m: &mut Markup, faults: &[Fault]) {
+    if faults.is_empty() {
         return;
     }
     section(m, "What is wrong with the log, and how to mend it", "", |m| {
         m.within("ol", &[("class", &"faults")], |m| {
-            for fault in &report.faults {
+            for fault in faults {
                 m.within("li", &[], |m| {
                     m.leaf("strong", &[], &phrases::sentence(&fault.what));
                     let place = place_in_log(fault);

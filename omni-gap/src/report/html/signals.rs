@@ -5,7 +5,8 @@ use crate::report::markup::Markup;
 use crate::report::phrases;
 use crate::report::picture::{Pictures, chart, ink};
 
-pub(super) fn charts(m: &mut Markup, pictures: &Pictures) {
+/// Every panel under one legend.
+pub(in crate::report) fn charts(m: &mut Markup, pictures: &Pictures) {
     if pictures.panels.is_empty() {
         return;
     }
