@@ -18,6 +18,7 @@
 //! - `withheld`: the benchmark that others can enter, on recordings whose labels nobody is given (on Linux);
 //! - [`frozen`]: whole reports that stay as they are while walls move;
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
+//! - [`pairs`]: two sessions that differ in one thing or in nothing, and what `compare` says of them;
 //! - [`real`]: what the diagnosis says of recordings of real robots;
 //! - [`virtual_board`]: what the robot's electronics see, without the robot;
 //! - [`emulator`]: the robot's image in QEMU, driving a virtual board;
@@ -52,6 +53,7 @@ pub mod in_loop;
 pub mod laboratory;
 pub mod matrices;
 pub mod mujoco;
+pub mod pairs;
 pub mod paper;
 pub mod paper_source;
 pub mod plant_cases;
