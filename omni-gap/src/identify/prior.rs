@@ -11,15 +11,24 @@ use model_core::plant::robot::Nominal;
 use crate::log::RobotFile;
 use crate::simulate::{Model, Slot};
 
-/// One statement: Σ coefficient·ln(factor) = 0 within sigma.
+/// One statement: Σ coefficient·ln(factor) = middle within sigma.
 #[derive(Clone, Debug)]
 pub struct PriorRow {
     /// The factors and their coefficients.
     pub terms: Vec<(Nominal, f64)>,
+    /// What they come to [1]; zero of a robot file's own numbers
+    pub middle: f64,
     /// One-sigma relative uncertainty
     pub sigma: f64,
     /// True if the robot file states it of one of its numbers, the last factor's own; false for what a diagnosis adds.
     stated: bool,
+}
+
+impl PriorRow {
+    /// Σ coefficient·ln(factor) of a model.
+    fn sum<const N: usize>(&self, model: &Model<N>) -> f64 {
+        self.terms.iter().map(|(p, c)| c * model.get(Slot::Nominal(*p)).ln()).sum()
+    }
 }
 
 /// Everything stated.
@@ -50,6 +59,7 @@ impl Prior {
     pub fn stated(robot: &RobotFile) -> Self {
         let row = |number: &Number| PriorRow {
             terms: number.factors.iter().map(|p| (*p, 1.0)).collect(),
+            middle: 0.0,
             sigma: robot.relative_uncertainty(number.key).unwrap_or(number.relative_uncertainty),
             stated: true,
         };
@@ -71,20 +81,21 @@ impl Prior {
         }
         if release.cause == "torque_constant" {
             let each: f64 = self.rows_of(release).iter().map(|k| self.rows[*k].sigma.powi(2)).sum();
-            prior.rows.push(PriorRow { terms: vec![(Nominal::KtOverKv, 1.0)], sigma: each.sqrt(), stated: false });
+            let terms = vec![(Nominal::KtOverKv, 1.0)];
+            prior.rows.push(PriorRow { terms, middle: 0.0, sigma: each.sqrt(), stated: false });
         }
         prior
     }
 
+    /// The same statements, no wider, of a robot that is this model.
+    pub fn around<const N: usize>(&self, model: &Model<N>) -> Self {
+        let rows = self.rows.iter().map(|row| PriorRow { middle: row.sum(model), ..row.clone() });
+        Self { rows: rows.collect() }
+    }
+
     /// How far each statement is violated by a model, in sigma.
     pub fn violations<const N: usize>(&self, model: &Model<N>) -> Vec<f64> {
-        self.rows
-            .iter()
-            .map(|row| {
-                let sum: f64 = row.terms.iter().map(|(p, c)| c * model.get(Slot::Nominal(*p)).ln()).sum();
-                sum / row.sigma
-            })
-            .collect()
+        self.rows.iter().map(|row| (row.sum(model) - row.middle) / row.sigma).collect()
     }
 
     /// Σ violation²: what a model costs by what was stated.
