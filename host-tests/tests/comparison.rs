@@ -3,7 +3,12 @@
 use ground_truth::recording::Plan;
 use host_tests::pairs::judged::judged;
 use host_tests::pairs::kinds::{PLAN, PairKind, RecordedPair, recorded};
+use model_core::effects::EffectKind;
 use omni_gap::comparison::{AlignedBy, ComparisonVerdict, Options, compare};
+use omni_gap::log::{Change, corrected};
+use omni_gap::simulate::EffectInstance;
+use omni_gap::synthesize::{Scenario, synthesize};
+use omni_gap::{Session, known_effects};
 
 /// How far a size may be off [1]
 const WITHIN: f64 = 0.15;
@@ -91,4 +96,58 @@ fn the_other_way_round_every_change_has_the_other_sign() {
     let std = there.std.expect("fitted") + back.std.expect("fitted");
     assert!(there.value > 0.0 && back.value < 0.0);
     assert!((there.value + back.value).abs() < 3.0 * std, "{there:?} and {back:?}");
+}
+
+const ROBOT: &str = include_str!("../../examples/feup-4w/robot.toml");
+
+/// A session of a robot that is what `truth` says, and has what is hidden.
+fn staged(truth: &str, seed: u64, hidden: Vec<EffectInstance>) -> Session {
+    let plan = Scenario { seed, hidden, runs: 3, duration: 3.0, rate: 200.0, uncertain: false, ..Scenario::default() };
+    synthesize(truth, &plan, &known_effects()).expect("a sound stage")
+}
+
+#[test]
+fn an_effect_that_is_there_or_not_differs_both_ways() {
+    let coriolis = EffectKind::find("coriolis").expect("it is in the catalogue").card();
+    let with = staged(ROBOT, 1, vec![EffectInstance::typical(coriolis, None)]);
+    let without = staged(ROBOT, 2, Vec::new());
+    for (a, b, change) in [(&without, &with, 1.0), (&with, &without, -1.0)] {
+        let answer = compare(a, b, &Options::default()).expect("both are sound").comparison;
+        let [cause] = &answer.causes[..] else { panic!("{:?}", answer.causes) };
+        assert_eq!((answer.verdict, &*cause.cause), (ComparisonVerdict::Different, "coriolis"));
+        assert!((cause.numbers[0].change.value - change).abs() < WITHIN, "{:?}", cause.numbers[0]);
+    }
+}
+
+#[test]
+fn weaker_magnets_change_both_constants_of_the_motor() {
+    let before = staged(ROBOT, 1, Vec::new());
+    let weaker = |key: &str| {
+        let value = 0.9 * before.robot.nominal(key, 0).expect("a number of the motor");
+        Change::Number { path: format!("motor.{key}"), value }
+    };
+    let keys = ["emf_constant_V_s", "torque_constant_Nm_per_A"];
+    let after = staged(&corrected(ROBOT, &keys.map(weaker)).expect("the paths lead somewhere"), 2, Vec::new());
+    let answer = compare(&before, &after, &Options::default()).expect("both are sound").comparison;
+    let [cause] = &answer.causes[..] else { panic!("{:?}", answer.causes) };
+    assert_eq!(cause.cause, "torque_constant");
+    for (number, key) in cause.numbers.iter().zip(keys) {
+        assert!(number.changed && number.key.ends_with(key), "{number:?}");
+        assert!((number.change.value / number.a.value + 0.1).abs() < 0.1 * WITHIN, "{number:?}");
+    }
+    assert_eq!(cause.numbers.len(), keys.len());
+}
+
+#[test]
+fn another_floor_is_no_patch_of_it_as_large_as_the_room() {
+    let slippery = staged(ROBOT, 1, Vec::new());
+    let rough = |key: &str| {
+        let value = 1.6 * slippery.robot.nominal(key, 0).expect("a friction");
+        Change::Number { path: format!("friction.{key}"), value }
+    };
+    let keys = ["coulomb_v_N", "coulomb_vn_N", "coulomb_w_Nm"];
+    let rough = staged(&corrected(ROBOT, &keys.map(rough)).expect("the paths lead somewhere"), 2, Vec::new());
+    let answer = compare(&slippery, &rough, &Options::default()).expect("both are sound").comparison;
+    let [cause] = &answer.causes[..] else { panic!("{:?}", answer.causes) };
+    assert_eq!((&*cause.cause, cause.numbers.len()), ("coulomb_friction", keys.len()));
 }

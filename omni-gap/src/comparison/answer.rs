@@ -98,7 +98,7 @@ pub struct Difference {
     pub wheel: Option<usize>,
     /// Body axis, where it speaks of one.
     pub axis: Option<Axis>,
-    /// Its numbers that changed; none of an effect that is there or not.
+    /// Its numbers, those that changed among them.
     pub numbers: Vec<NumberCompared>,
     /// Causes that the engine cannot tell from it.
     pub not_told_apart_from: Vec<String>,

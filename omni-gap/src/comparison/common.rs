@@ -4,9 +4,9 @@ use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Param, Role};
 use model_core::plant::robot::Nominal;
 
-use super::common_number::{CommonNumber, NumberOf};
+use super::common_number::{CommonNumber, NumberOf, is_size};
 use super::known::{explaining, with_numbers};
-use super::paired::Pair;
+use super::paired::{Change, Pair};
 use crate::engine::Findings;
 use crate::engine::evidence::Runs;
 use crate::engine::findings::{EffectChange, FileChanges};
@@ -33,22 +33,35 @@ pub(super) struct Common {
     /// The numbers, those of the file first.
     pub numbers: Vec<CommonNumber>,
     /// What both sides say.
-    pub pair: Pair,
+    pair: Pair,
+}
+
+impl Common {
+    /// How the numbers at these places change where no others do; none where the equations have no answer.
+    pub fn changes(&self, changing: &[usize]) -> Option<Vec<Change>> {
+        self.pair.changes(changing, &self.numbers)
+    }
+
+    /// A number where it was fitted to A.
+    pub fn in_a(&self, number: usize) -> f64 {
+        self.numbers[number].value_at(self.pair.in_a(number))
+    }
 }
 
 /// Fits the common model to both sides.
 pub(super) fn common<const N: usize>(judged: &Judged<'_>, runs: [&Runs<N>; 2], knobs: &Knobs) -> Common {
     let found = [judged.a, judged.b].map(explaining);
     let effects = union(found);
-    let prior = struck_out(judged, knobs);
+    // what differs in B is no reason to doubt what is stated of A
+    let [prior, prior_b] = [judged.a, judged.b].map(|found| struck_out(judged.file, found, knobs));
     let models = [0, 1].map(|side| model_of(judged.file, found[side], &effects, runs[side], side));
-    let fits: Vec<Fit<N>> = [0, 1]
-        .into_iter()
-        .map(|side| {
-            let held = shapes_held([judged.a, judged.b][side], &effects, knobs.search.size_errors);
-            fitted(&models[side], runs[side], &held, (&prior, knobs))
-        })
-        .collect();
+    let fit = |side: usize, prior: &Prior| {
+        let held = shapes_held([judged.a, judged.b][side], &effects, knobs.search.size_errors);
+        fitted(&models[side], runs[side], &held, (prior, knobs))
+    };
+    let fit_a = fit(0, &prior);
+    // what no recording tells, such as the scale of all forces, is in B what it is in A
+    let fit_b = fit(1, &prior_b.around(&fit_a.model));
     let file = nominal_free(&knobs.fit).into_iter().filter_map(|free| match free.slot {
         Slot::Nominal(p) => Some(CommonNumber { of: NumberOf::File(p), within: free.within }),
         Slot::Param(..) => None,
@@ -61,7 +74,7 @@ pub(super) fn common<const N: usize>(judged: &Judged<'_>, runs: [&Runs<N>; 2], k
         })
     });
     let numbers: Vec<CommonNumber> = file.chain(of_effects).collect();
-    let pair = Pair::of([&fits[0], &fits[1]], &numbers, &prior);
+    let pair = Pair::of([&fit_a, &fit_b], &numbers, &prior);
     Common { numbers, pair }
 }
 
@@ -90,16 +103,14 @@ fn union(found: [&FileChanges; 2]) -> Vec<Carried<'_>> {
     all
 }
 
-/// What is stated, without what a side's causes say is wrong of it.
-fn struck_out(judged: &Judged<'_>, knobs: &Knobs) -> Prior {
-    let mut prior = Prior::stated(judged.file);
-    for found in [judged.a, judged.b] {
-        for id in &found.causes {
-            let which = found.which.iter().find(|w| w.cause == *id && w.kind == Some(Kind::Parameter));
-            let (Some(which), Some(nominal)) = (which, Nominal::ALL.iter().find(|p| p.cause() == id)) else { continue };
-            let axis = which.axis.and_then(|axis| Axis::ALL.iter().position(|a| *a == axis));
-            prior = prior.without(FreedPrior { cause: nominal.cause(), axis }, knobs.fit.released_sigma);
-        }
+/// What a file states, without what the causes of a side say is wrong of it.
+fn struck_out(file: &RobotFile, found: &Findings, knobs: &Knobs) -> Prior {
+    let mut prior = Prior::stated(file);
+    for id in &found.causes {
+        let which = found.which.iter().find(|w| w.cause == *id && w.kind == Some(Kind::Parameter));
+        let (Some(which), Some(nominal)) = (which, Nominal::ALL.iter().find(|p| p.cause() == id)) else { continue };
+        let axis = which.axis.and_then(|axis| Axis::ALL.iter().position(|a| *a == axis));
+        prior = prior.without(FreedPrior { cause: nominal.cause(), axis }, knobs.fit.released_sigma);
     }
     prior
 }
@@ -130,12 +141,9 @@ fn model_of<const N: usize>(
     for carried in effects {
         let from = carried.by[side].or(carried.by[1 - side]);
         let here = carried.by[side].is_some();
-        if !here && !has_size(carried.card) {
-            continue;
-        }
         let value = |p: &Param| {
             let said = from.and_then(|effect| effect.params.get(p.key).copied()).unwrap_or(p.typical);
-            if !here && p.role == Role::Size { p.absent } else { said }
+            if !here && is_size(carried.card, p) { p.absent } else { said }
         };
         let params = carried.card.params.iter().map(value).collect();
         model.add_effect(EffectInstance { id: carried.card.id, wheel: carried.wheel, params });
@@ -143,15 +151,10 @@ fn model_of<const N: usize>(
     model
 }
 
-/// True of an effect that can be there a little.
-fn has_size(card: &Card) -> bool {
-    card.params.iter().any(|p| p.role == Role::Size)
-}
-
 /// The effects whose shapes a side cannot tell: those whose size is not away from absent there.
 fn shapes_held<'a>(found: &Findings, effects: &[Carried<'a>], errors: f64) -> Vec<Carried<'a>> {
     let is_there = |carried: &Carried<'a>| {
-        let mut of_size = carried.card.params.iter().filter(|p| p.role == Role::Size);
+        let mut of_size = carried.card.params.iter().filter(|p| is_size(carried.card, p));
         let place = carried.wheel.map_or(String::new(), |j| format!(" (wheel {j})"));
         of_size.any(|p| {
             let key = format!("effects.{}.{}{place}", carried.card.id, p.key);
@@ -174,7 +177,7 @@ fn fitted<const N: usize>(
     let is_held = |slot: Slot| {
         let Slot::Param(at, param) = slot else { return false };
         let effect = &model.effects[at];
-        let shape = effect.card().params[param].role != Role::Size;
+        let shape = !is_size(effect.card(), &effect.card().params[param]);
         shape && held.iter().any(|carried| carried.card.id == effect.id && carried.wheel == effect.wheel)
     };
     let free: Vec<Free> =

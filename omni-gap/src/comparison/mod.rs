@@ -5,16 +5,19 @@
 //! estimates, as sure as A's recordings make them, and the engine judges B with it. What it names there is not in A. Then one
 //! model, A's with what was named, is fitted to both sides (`common`), and the change of each of its numbers is estimated with
 //! what the sides share held in common (`paired`): a cause that both sides have is no difference, and what is stated wrongly of
-//! both cancels. What A leaves unexplained itself is not blamed on B.
+//! both cancels. What A leaves unexplained itself is not blamed on B; where A's own file does not explain it and B's recordings are
+//! sound, B teaches first (`found`). Every number stands beside its twin in its own unit (`told`).
 
 mod answer;
 mod common;
 mod common_number;
+mod found;
 mod inputs;
 mod known;
 mod numbers;
 mod options;
 mod paired;
+mod told;
 
 use std::collections::BTreeMap;
 
@@ -23,11 +26,13 @@ pub use options::{ComparisonKnobs, Options};
 
 use crate::engine::evidence::{LaidOut, Unfit};
 use crate::engine::findings::{SignalGap, Traces};
-use crate::engine::{Engine, Evidence, Findings, Stepwise};
+use crate::engine::{Evidence, Findings};
 use crate::log::Session;
 use crate::simulate::SignalGroup;
 use crate::vocabulary::Verdict;
 use common::{Judged, common};
+use found::{found_in_a, judged_by};
+use known::robot_known;
 use numbers::{Differences, differences};
 
 /// Which of two sessions.
@@ -56,24 +61,16 @@ pub struct Compared {
 /// Where a session is no evidence: which one, and why.
 pub fn compare(a: &Session, b: &Session, options: &Options<'_>) -> Result<Compared, (SideName, Unfit)> {
     let Options { engine: knobs, knobs: own, progress } = options;
-    let evidence = |session: &Session, side| Evidence::of(session, &knobs.layout).map_err(|unfit| (side, unfit));
-    progress("what A teaches");
-    let found_a = Stepwise.find(&evidence(a, SideName::A)?, knobs, progress);
-    let known = known::robot_known(&a.robot, &found_a, own.least_known);
-    // both by the same sensors, so that errors count alike
-    let [known_a, known_b] = [a, b].map(|session| Session { robot: known.clone(), ..session.clone() });
-    let (evidence_a, evidence_b) = (evidence(&known_a, SideName::A)?, evidence(&known_b, SideName::B)?);
+    let found_a = found_in_a(a, b, options).map_err(|unfit| (SideName::A, unfit))?;
+    let known = robot_known(&a.robot, &found_a, own.least_known);
     progress("judging B by it");
-    let mut found_b = Stepwise.find(&evidence_b, knobs, progress);
-    if found_b.verdict == Verdict::Unknown {
-        // numbers that may hardly move leave errors that go on through whole windows, before which no cause promises anything
-        progress("judging B once more, its numbers as free as the robot file states");
-        let freer = known::as_free_as_stated(&known, &a.robot);
-        let again = Stepwise.find(&evidence(&Session { robot: freer, ..b.clone() }, SideName::B)?, knobs, progress);
-        if again.verdict != Verdict::Unknown {
-            found_b = again;
-        }
-    }
+    let found_b = judged_by(&known, b, &a.robot, options).map_err(|unfit| (SideName::B, unfit))?;
+    // both by the same sensors, so that errors count alike
+    let evidence = |session: &Session, side| {
+        let known = Session { robot: known.clone(), ..session.clone() };
+        Evidence::of(&known, &knobs.layout).map_err(|unfit| (side, unfit))
+    };
+    let (evidence_a, evidence_b) = (evidence(a, SideName::A)?, evidence(b, SideName::B)?);
     progress("fitting both with one model");
     let judged = Judged { file: &a.robot, a: &found_a, b: &found_b };
     let common = match (&evidence_a.runs, &evidence_b.runs) {

@@ -37,6 +37,12 @@ pub struct ComparisonKnobs {
     pub changed_errors: f64,
     /// The same of a number whose cause the engine names beside [1]: 99.7 %.
     pub confirmed_errors: f64,
+    /// Beside another cause no number of the file is surer than this share of it [1]: no law of the catalogue is truer to a robot,
+    /// and what it misses of a large change moves other numbers a little.
+    pub law_error: f64,
+    /// A number of the file that explains this share of what something new does is believed before it [1]: a fit of more freedom does
+    /// a little more in any case.
+    pub as_good: f64,
     /// No number of A counts as better known than this, relatively [1]: a model's time steps and a log's rounding are as large.
     pub least_known: f64,
     /// What B's left-over, over its noise floor, may be of A's own before it is a difference [1]: as much as a plain model may leave
@@ -46,6 +52,13 @@ pub struct ComparisonKnobs {
 
 impl Default for ComparisonKnobs {
     fn default() -> Self {
-        Self { changed_errors: 4.0, confirmed_errors: 3.0, least_known: 1e-3, left_over: 1.15 }
+        Self {
+            changed_errors: 4.0,
+            confirmed_errors: 3.0,
+            law_error: 2.5e-3,
+            as_good: 0.95,
+            least_known: 1e-3,
+            left_over: 1.15,
+        }
     }
 }

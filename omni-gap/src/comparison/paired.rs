@@ -7,7 +7,8 @@
 //! b = a + E·δ = b₀ + (x + E·δ − d₀)                  H_B·(x + E·δ − d₀) = g_B,   d₀ = b₀ − a₀
 //! ```
 //!
-//! with what the robot file states of a, once. An error of the file that both sides share then cancels out of δ.
+//! with what the robot file states of a, once. An error of the file that both sides share then cancels out of δ. Numbers of the
+//! file stand as their logarithms: forces that no recording tells the scale of are then off by the same on both sides.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -18,7 +19,7 @@ use crate::simulate::Slot;
 /// What one side says of the numbers of the common model, in the order of its slots; of those that it does not tell, nothing.
 #[derive(Clone, Debug)]
 struct Side {
-    /// Where it was linearised.
+    /// Where it was linearised, coordinate by coordinate.
     at: DVector<f64>,
     /// The data's equations there, weighted down by their dispersion.
     hess: DMatrix<f64>,
@@ -27,20 +28,26 @@ struct Side {
 }
 
 impl Side {
-    /// Of a fit; the slots are those of the common model, none where this side's lacks it.
-    fn of<const N: usize>(fit: &Fit<N>, slots: &[Option<Slot>]) -> Self {
+    /// Of a fit, in the coordinates of the common model's numbers.
+    fn of<const N: usize>(fit: &Fit<N>, numbers: &[CommonNumber]) -> Self {
+        let slots: Vec<Option<Slot>> = numbers.iter().map(|number| number.slot_in(&fit.model)).collect();
+        let slope = |k: usize| slots[k].map_or(1.0, |slot| numbers[k].slope_at(fit.model.get(slot)));
         let data = fit.equations.clone().with_dispersion(fit.dispersion.max(fit.spread));
         let place: Vec<Option<usize>> =
             slots.iter().map(|slot| fit.free.iter().position(|free| Some(free.slot) == *slot)).collect();
         let n = slots.len();
         let spread = |matrix: &DMatrix<f64>| {
-            DMatrix::from_fn(n, n, |r, c| place[r].zip(place[c]).map_or(0.0, |(r, c)| matrix[(r, c)]))
+            DMatrix::from_fn(n, n, |r, c| {
+                place[r].zip(place[c]).map_or(0.0, |(at_r, at_c)| slope(r) * slope(c) * matrix[(at_r, at_c)])
+            })
         };
         Self {
-            at: DVector::from_iterator(n, slots.iter().map(|slot| slot.map_or(f64::NAN, |slot| fit.model.get(slot)))),
+            at: DVector::from_fn(n, |k, _| {
+                slots[k].map_or(f64::NAN, |slot| numbers[k].coordinate(fit.model.get(slot)))
+            }),
             hess: spread(&data.hess),
             meat: spread(&data.meat),
-            grad: DVector::from_iterator(n, place.iter().map(|place| place.map_or(0.0, |place| data.grad[place]))),
+            grad: DVector::from_fn(n, |k, _| place[k].map_or(0.0, |at| slope(k) * data.grad[at])),
         }
     }
 }
@@ -67,45 +74,47 @@ pub(super) struct Change {
     pub b: (f64, f64),
     /// From A to B, with one standard error, which is less than those of both sides together where they share an error.
     pub by: (f64, f64),
+    /// The same in the number's coordinate: of a number of the file, whose scale A may not tell, it is surer.
+    pub in_coordinate: (f64, f64),
 }
 
 impl Change {
     /// Standard errors by which it differs from none.
     pub fn errors(&self) -> f64 {
-        if self.by.1 > 0.0 { self.by.0.abs() / self.by.1 } else { 0.0 }
+        let (by, std) = self.in_coordinate;
+        if std > 0.0 { by.abs() / std } else { 0.0 }
     }
 }
 
 impl Pair {
     /// Of two fits of the same model, whose numbers are `common`.
     pub fn of<const N: usize>([a, b]: [&Fit<N>; 2], common: &[CommonNumber], prior: &Prior) -> Self {
-        let side = |fit: &Fit<N>| {
-            let slots: Vec<Option<Slot>> = common.iter().map(|number| number.slot_in(&fit.model)).collect();
-            Side::of(fit, &slots)
-        };
-        let (mut side_a, mut side_b) = (side(a), side(b));
+        let [mut side_a, mut side_b] = [a, b].map(|fit| Side::of(fit, common));
         // what one side's model lacks is no difference
         for (x, y) in side_a.at.iter_mut().zip(side_b.at.iter_mut()) {
             (*x, *y) = (if x.is_nan() { *y } else { *x }, if y.is_nan() { *x } else { *y });
         }
-        let widths: Vec<f64> = common.iter().map(|number| number.within.1 - number.within.0).collect();
-        let loose = DVector::from_iterator(widths.len(), widths.iter().map(|width| width.powi(-2)));
+        let width = |number: &CommonNumber| number.coordinate(number.within.1) - number.coordinate(number.within.0);
+        let loose = DVector::from_fn(common.len(), |k, _| width(&common[k]).powi(-2));
         let free: Vec<Free> = common.iter().filter_map(|number| number.free_in(&a.model)).collect();
         let nominal: Vec<Free> = free.into_iter().filter(|free| matches!(free.slot, Slot::Nominal(_))).collect();
         // numbers of the file stand first, and only they are stated
-        let slopes = slopes_of(prior, &a.model, &nominal).resize_horizontally(widths.len(), 0.0);
+        let mut slopes = slopes_of(prior, &a.model, &nominal).resize_horizontally(common.len(), 0.0);
+        for (mut column, (number, at)) in slopes.column_iter_mut().zip(common.iter().zip(&side_a.at)) {
+            column *= number.slope_at(number.value_at(*at));
+        }
         let violations = DVector::from_vec(prior.violations(&a.model));
         let stated = (slopes.tr_mul(&slopes) + DMatrix::from_diagonal(&loose), slopes.tr_mul(&violations));
         Self { a: side_a, b: side_b, stated, loose }
     }
 
-    /// A number where it was fitted to A.
+    /// The coordinate of a number where it was fitted to A.
     pub fn in_a(&self, number: usize) -> f64 {
         self.a.at[number]
     }
 
     /// How the numbers of these slots change where no others do; none where the equations have no answer.
-    pub fn changes(&self, changing: &[usize]) -> Option<Vec<Change>> {
+    pub fn changes(&self, changing: &[usize], common: &[CommonNumber]) -> Option<Vec<Change>> {
         let (n, m) = (self.a.at.len(), changing.len());
         let apart = &self.b.at - &self.a.at;
         // from (x, δ) to what B sees
@@ -137,12 +146,23 @@ impl Pair {
             let of = |matrix: &DMatrix<f64>| direction.dot(&(matrix * direction));
             of(&robust).max(of(&inverse)).max(0.0)
         };
-        let unit = |places: &[usize]| DVector::from_fn(n + m, |k, _| if places.contains(&k) { 1.0 } else { 0.0 });
+        let std = |along: &[(usize, f64)]| {
+            let mut direction = DVector::zeros(n + m);
+            along.iter().for_each(|(place, by)| direction[*place] = *by);
+            variance(&direction).sqrt()
+        };
         let change = |(k, slot): (usize, &usize)| {
-            let std = |places: &[usize]| variance(&unit(places)).sqrt();
-            let (a, by) = (self.a.at[*slot] + found[*slot], found[n + k]);
-            let (of_a, of_b, of_change) = (std(&[*slot]), std(&[*slot, n + k]), std(&[n + k]));
-            Change { slot: *slot, a: (a, of_a), b: (a + by, of_b), by: (by, of_change) }
+            let number = &common[*slot];
+            let (in_a, by) = (self.a.at[*slot] + found[*slot], found[n + k]);
+            let (a, b) = (number.value_at(in_a), number.value_at(in_a + by));
+            let (slope_a, slope_b) = (number.slope_at(a), number.slope_at(b));
+            Change {
+                slot: *slot,
+                a: (a, std(&[(*slot, slope_a)])),
+                b: (b, std(&[(*slot, slope_b), (n + k, slope_b)])),
+                by: (b - a, std(&[(*slot, slope_b - slope_a), (n + k, slope_b)])),
+                in_coordinate: (by, std(&[(n + k, 1.0)])),
+            }
         };
         Some(changing.iter().enumerate().map(change).collect())
     }

@@ -80,7 +80,7 @@ pub fn change(number: &NumberCompared) -> String {
     format!("{}{}{share}", plus(*value), estimate(*value, *std, unit))
 }
 
-/// "+25 %", of A's value; empty where that is not plainly away from zero, or the change far below a thousandth of it.
+/// "+25 %", of A's value; empty where that is not plainly away from zero, or the change below a thousandth of it.
 pub fn share(number: &NumberCompared) -> String {
     let share = number.change.value / number.a.value.abs();
     if !number.is_share_telling() || share.abs() < LEAST_SHARE {
@@ -90,7 +90,7 @@ pub fn share(number: &NumberCompared) -> String {
 }
 
 /// A change of less than this of a number is not told as a share [1].
-const LEAST_SHARE: f64 = 5e-4;
+const LEAST_SHARE: f64 = 1e-3;
 
 fn plus(x: f64) -> &'static str {
     if x > 0.0 { "+" } else { "" }
@@ -114,9 +114,6 @@ pub fn lines_to_change(report: &ComparisonReport) -> Vec<String> {
     }
     let line = |d: &Difference| {
         let at = spot(d.wheel, None);
-        if d.numbers.is_empty() {
-            return vec![format!("add {}{at}: it has no size of its own", d.title)];
-        }
         let of = |n: &NumberCompared| {
             let to = estimate(n.b.value, n.b.std, &n.b.unit);
             match d.kind {
@@ -124,7 +121,7 @@ pub fn lines_to_change(report: &ComparisonReport) -> Vec<String> {
                 Kind::Effect => format!("{}{at}: {} {to}; in the simulator {}", d.title, n.key, num(n.a.value)),
             }
         };
-        d.numbers.iter().filter(|n| n.changed).map(of).collect()
+        d.numbers.iter().filter(|n| n.changed).map(of).collect::<Vec<_>>()
     };
     report.comparison.causes.iter().flat_map(line).collect()
 }
