@@ -12,6 +12,7 @@ use super::causes::all_known;
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
+use super::given::name_of;
 use super::output_path::{self, NewFolder};
 
 /// Say which cause explains the difference between two sessions, or what a simulator's log leaves out
@@ -129,7 +130,6 @@ impl Side<'_> {
 
     /// What the report calls it: the name of its folder or file.
     fn name(&self) -> String {
-        let whole = self.path.canonicalize().unwrap_or_else(|_| self.path.to_path_buf());
-        whole.file_name().map_or_else(|| "session".to_owned(), |name| name.to_string_lossy().into_owned())
+        name_of(self.path).unwrap_or_else(|| "session".to_owned())
     }
 }

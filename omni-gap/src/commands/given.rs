@@ -51,9 +51,7 @@ impl GivenSession {
 
     /// What the session is called in the report: its folder's name.
     pub fn name(&self) -> Option<String> {
-        let folder = self.paths.first().filter(|_| self.robot.is_none())?;
-        let whole = folder.canonicalize().unwrap_or_else(|_| folder.clone());
-        whole.file_name().map(|name| name.to_string_lossy().into_owned())
+        self.paths.first().filter(|_| self.robot.is_none()).and_then(|folder| name_of(folder))
     }
 
     /// Where its runs are: for messages about all of them.
@@ -65,6 +63,12 @@ impl GivenSession {
     pub fn robot_path(&self) -> PathBuf {
         self.robot.clone().unwrap_or_else(|| self.paths[0].join("robot.toml"))
     }
+}
+
+/// What a path is called: the name of its folder or file, however it was written.
+pub fn name_of(path: &Path) -> Option<String> {
+    let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    whole.file_name().map(|name| name.to_string_lossy().into_owned())
 }
 
 /// A robot file and one run.

@@ -1,22 +1,8 @@
 //! Bad input: one clear message, exit code 2, nothing written.
 
-use crate::bench::Bench;
+use crate::bench::{Bench, refused};
 
 const RUN: &str = "session/runs/run01.csv";
-
-/// The command refuses, says all of this in one message, and leaves the folder as it was.
-#[track_caller]
-fn refused(bench: &Bench, args: &[&str], says: &[&str]) {
-    let before = bench.all();
-    let said = bench.run(args);
-    assert_eq!(said.code, 2, "{args:?} said {}{}", said.out, said.err);
-    assert_eq!(said.out, "");
-    assert_eq!(said.err.trim_end().lines().count(), 1, "one message: {}", said.err);
-    for part in says {
-        assert!(said.err.contains(part), "{args:?}: {part:?} is not in {:?}", said.err);
-    }
-    assert_eq!(bench.all(), before, "{args:?} left something behind");
-}
 
 /// A session that cannot be read, refused by every command that reads sessions.
 #[track_caller]

@@ -109,6 +109,20 @@ impl Bench {
     }
 }
 
+/// The command refuses, says all of this in one message, and leaves the folder as it was.
+#[track_caller]
+pub fn refused(bench: &Bench, args: &[&str], says: &[&str]) {
+    let before = bench.all();
+    let said = bench.run(args);
+    assert_eq!(said.code, 2, "{args:?} said {}{}", said.out, said.err);
+    assert_eq!(said.out, "");
+    assert_eq!(said.err.trim_end().lines().count(), 1, "one message: {}", said.err);
+    for part in says {
+        assert!(said.err.contains(part), "{args:?}: {part:?} is not in {:?}", said.err);
+    }
+    assert_eq!(bench.all(), before, "{args:?} left something behind");
+}
+
 fn below(folder: &Path, found: &mut Vec<String>) {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

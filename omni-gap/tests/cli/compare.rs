@@ -1,21 +1,8 @@
 //! Compare: two sessions, or a simulator's log, beside each other.
 
-use crate::bench::Bench;
+use crate::bench::{Bench, refused};
 
 const RUN: &str = "session/runs/run01.csv";
-
-/// The command refuses, says all of this in one message, and leaves the folder as it was.
-#[track_caller]
-fn refused(bench: &Bench, args: &[&str], says: &[&str]) {
-    let before = bench.all();
-    let said = bench.run(args);
-    assert_eq!((said.code, said.out.as_str()), (2, ""), "{args:?}: {}", said.err);
-    assert_eq!(said.err.trim_end().lines().count(), 1, "one message: {}", said.err);
-    for part in says {
-        assert!(said.err.contains(part), "{args:?}: {part:?} is not in {:?}", said.err);
-    }
-    assert_eq!(bench.all(), before, "{args:?} left something behind");
-}
 
 fn json(bench: &Bench, path: &str) -> serde_json::Value {
     serde_json::from_str(&bench.read(path)).expect("a report is JSON")

@@ -1,20 +1,8 @@
 //! `validate`: a model laid over what was measured.
 
-use crate::bench::{Bench, Said, table};
+use crate::bench::{Bench, refused, table};
 
 const RUN: &str = "session/runs/run01.csv";
-
-/// The command refuses with one message that says all of this, and leaves the folder as it was.
-#[track_caller]
-fn refused(bench: &Bench, args: &[&str], says: &[&str]) {
-    let before = bench.all();
-    let Said { code, out, err } = bench.run(args);
-    assert_eq!((code, out.as_str(), err.trim_end().lines().count()), (2, "", 1), "{args:?}: {err}");
-    for part in says {
-        assert!(err.contains(part), "{args:?}: {part:?} is not in {err:?}");
-    }
-    assert_eq!(bench.all(), before, "{args:?} left something behind");
-}
 
 /// A run with some of its columns only.
 fn with_columns(bench: &Bench, keep: &dyn Fn(&str) -> bool) -> String {
