@@ -117,7 +117,7 @@ impl LaboratoryCase {
     }
 }
 
-fn not_written(path: &Path, why: &std::io::Error) -> Error {
+pub(crate) fn not_written(path: &Path, why: &std::io::Error) -> Error {
     Error::Output {
         path: path.to_owned(),
         reason: why.to_string(),

@@ -57,7 +57,7 @@ fn size(pair: &RecordedPair, difference: &Difference) -> Option<f64> {
         PairKind::Floor => {
             // more than plain by a share of it, whichever side has it
             let plain = if pair.change > 0.0 { number.a.value } else { number.b.value };
-            number.change.value / plain / 0.6
+            number.change.value / plain
         }
         PairKind::Mass | PairKind::Motor | PairKind::Latency | PairKind::DeadTime | PairKind::Nothing => {
             number.change.value

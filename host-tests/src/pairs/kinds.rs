@@ -3,12 +3,12 @@
 use ground_truth::causes::cause;
 use ground_truth::drawn::Drawn;
 use ground_truth::drawn_robot::DrawnRobot;
-use ground_truth::driving::Style;
 use ground_truth::recording::{Plan, Session as Recorded};
-use ground_truth::scale::Scale;
 use ground_truth::setup::Setup;
-use omni_gap::error::{Error, Result};
+use omni_gap::error::Result;
 use omni_gap::{Session, known_effects};
+
+use crate::laboratory::cases::{self, not_written};
 
 /// What differs between two sessions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,16 +58,7 @@ impl PairKind {
 }
 
 /// How both sides are recorded; the voltage is for a supply of 12 V.
-pub const PLAN: Plan = Plan {
-    runs: 4,
-    duration: 5.0,
-    rate: 200.0,
-    camera_rate: 60.0,
-    voltage: 8.0,
-    gyro: false,
-    style: Style::Excitation,
-    unrest: None,
-};
+pub const PLAN: Plan = Plan { runs: 4, duration: 5.0, ..cases::PLAN };
 
 /// The supply that [`PLAN`] is for [V]
 const SUPPLY_V: f64 = 12.0;
@@ -86,7 +77,8 @@ pub struct RecordedPair {
     pub kind: PairKind,
     /// The wheel on which it sits.
     pub wheel: Option<usize>,
-    /// The true change of the number that sizes it, from A to B, in the number's own unit.
+    /// The true change of the number that sizes it, from A to B, in the number's own unit; of friction its share of
+    /// the plain one [1].
     pub change: f64,
 }
 
@@ -142,13 +134,13 @@ fn put(kind: PairKind, plain: &Setup, wheel: usize, times: f64) -> (Setup, f64) 
             let constant = |setup: &Setup| setup.robot.wheels[wheel].motor.torque_constant;
             constant(&changed) / constant(plain) - 1.0
         }
-        PairKind::Floor => times,
+        // the same share on every axis
+        PairKind::Floor => changed.robot.chassis.friction.coulomb.x / plain.robot.chassis.friction.coulomb.x - 1.0,
         PairKind::Latency => changed.sensors.camera.latency - plain.sensors.camera.latency,
-        PairKind::DeadTime => 0.3 * times * Scale::of(&plain.robot).voltage,
+        PairKind::DeadTime => {
+            let loss = |setup: &Setup| setup.robot.wheels[wheel].bridge.dead_time_loss;
+            loss(&changed) - loss(plain)
+        }
     };
     (changed, change)
-}
-
-fn not_written(path: &std::path::Path, why: &std::io::Error) -> Error {
-    Error::output(path, why.to_string(), "Make room there")
 }
