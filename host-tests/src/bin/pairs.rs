@@ -7,7 +7,7 @@ use clap::Parser;
 use host_tests::pairs::judged::{JudgedPair, judged};
 use host_tests::pairs::kinds::{PLAN, PairKind, recorded};
 
-/// How far a size may be off and still be right [1]
+/// How far a size may be off and still be right, as a share of it.
 const WITHIN: f64 = 0.15;
 
 #[derive(Parser)]
