@@ -1,7 +1,7 @@
 //! # Steps: every check there is, in order
 //!
 //! A check is one entry of [`STEPS`]. They run one after the other, each announced with its exact command, and the first
-//! failure ends the run.
+//! failure ends the run: what takes seconds stands before what takes minutes.
 
 use std::time::{Duration, Instant};
 
@@ -55,6 +55,7 @@ pub const STEPS: &[Step] = &[
                   --target thumbv7em-none-eabihf -- -D warnings",
         env: &[],
     },
+    Step { name: "docs", command: "cargo doc --workspace --no-deps", env: &[("RUSTDOCFLAGS", "-D warnings")] },
     Step { name: "tests", command: "cargo test --workspace", env: &[] },
     Step { name: "withheld", command: "cargo run --release -p host-tests --bin bench -- check", env: &[] },
     Step { name: "emulated images", command: EMULATED_IMAGES, env: &[] },
@@ -70,7 +71,6 @@ pub const STEPS: &[Step] = &[
     Step { name: "in the loop", command: IN_LOOP[0], env: &[] },
     Step { name: "faults", command: IN_LOOP[1], env: &[] },
     Step { name: "gap", command: IN_LOOP[2], env: &[] },
-    Step { name: "docs", command: "cargo doc --workspace --no-deps", env: &[("RUSTDOCFLAGS", "-D warnings")] },
 ];
 
 impl Step {
