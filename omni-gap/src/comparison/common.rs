@@ -5,7 +5,7 @@ use model_core::effects::card::{Card, Param, Role};
 use model_core::plant::robot::Nominal;
 
 use super::common_number::{CommonNumber, NumberOf, is_size};
-use super::known::{explaining, with_numbers};
+use super::known::explaining;
 use super::paired::{Change, Pair};
 use crate::engine::Findings;
 use crate::engine::evidence::Runs;
@@ -126,7 +126,7 @@ fn model_of<const N: usize>(
     let mut carrying = file.clone();
     carrying.effects = Vec::new();
     let mut model = Model::<N>::nominal(&carrying, supply_seen(runs.fit.iter().chain(&runs.held)));
-    let own = with_numbers(file, found);
+    let own = found.applied_to(file);
     // a number's own factor is what the others leave of it
     let mut keys: Vec<_> = NOMINAL_KEYS.iter().collect();
     keys.sort_by_key(|key| key.factors.len());

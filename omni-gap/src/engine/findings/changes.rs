@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::log::{Change, EffectEntry};
+use crate::log::{Change, EffectEntry, RobotFile};
 
 /// Changes to a robot file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -43,6 +43,24 @@ impl FileChanges {
             Change::Effect(EffectEntry { id: e.id.clone(), wheel: e.wheel, params: e.params.clone() })
         };
         self.numbers.iter().map(number).chain(self.effects.iter().map(effect)).collect()
+    }
+
+    /// A robot file with these numbers, and with these effects alone.
+    pub fn applied_to(&self, file: &RobotFile) -> RobotFile {
+        let mut changed = file.clone();
+        for NumberChange { path, value } in &self.numbers {
+            let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
+            let wheel = table.split_once('[').and_then(|(_, at)| at.trim_end_matches(']').parse().ok()).unwrap_or(0);
+            if let Some(number) = changed.nominal_mut(key, wheel) {
+                *number = *value;
+            }
+        }
+        changed.effects = self
+            .effects
+            .iter()
+            .map(|e| EffectEntry { id: e.id.clone(), wheel: e.wheel, params: e.params.clone() })
+            .collect();
+        changed
     }
 }
 

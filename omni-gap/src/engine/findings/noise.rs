@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::log::SensorsFile;
+
 /// The noise of one sensor, as it is stated and as it was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChannelNoise {
@@ -17,4 +19,22 @@ pub struct ChannelNoise {
     pub found: f64,
     /// How long it remembers itself (s); zero for white noise.
     pub correlation_time_s: f64,
+}
+
+impl ChannelNoise {
+    /// States of the sensor what was found, where that is more.
+    pub fn no_quieter(&self, sensors: &mut SensorsFile) {
+        if self.found <= self.stated {
+            return;
+        }
+        match self.sensor.as_str() {
+            "current" => sensors.current_noise_a = self.found,
+            "wheel_speed" => sensors.wheel_speed_noise_rad_s = self.found,
+            "position" => sensors.position_noise_m = self.found,
+            "heading" => sensors.heading_noise_rad = self.found,
+            "gyro" => sensors.gyro_noise_rad_s = Some(self.found),
+            "battery" => sensors.battery_noise_v = Some(self.found),
+            _ => {}
+        }
+    }
 }
