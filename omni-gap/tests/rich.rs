@@ -7,10 +7,11 @@ use model_core::plant::Input;
 use omni_gap::api::{Driven, PlannedRich, PlannedRuns, SelftestKnobs, known_effects, rich, selftest};
 use omni_gap::engine::findings::SeenCause;
 use omni_gap::log::{LimitsFile, RobotFile, Run};
-use omni_gap::simulate::{Model, RichPlan, SignalGroup};
+use omni_gap::simulate::{Emphasis, Model, RichPlan, SignalGroup};
 use omni_gap::vocabulary::Kind;
 
-const PLAN: RichPlan = RichPlan { rate: 200.0, voltage: 8.0, field: 3.0, scripts: 6, duration: 10.0 };
+const PLAN: RichPlan =
+    RichPlan { rate: 200.0, voltage: 8.0, field: 3.0, scripts: 6, duration: 10.0, emphasis: Emphasis::Everything };
 const CAMERA: f64 = 60.0;
 /// A robot that is faster than this drives, and does not creep [m/s]
 const DRIVES: f64 = 0.12;
@@ -176,4 +177,28 @@ fn rich_scripts_name_more_causes_and_smaller_ones_than_random_motion_as_long() {
         assert!(rich > random, "{}: {rich} causes named, {random} by random motion", file.name);
         assert!(median > 1.1, "{}: {median}", file.name);
     }
+}
+
+#[test]
+fn scripts_do_most_what_they_are_written_for() {
+    let [mut fast, mut reversals, mut slow] = [[0.0; 4]; 3];
+    for (k, emphasis) in Emphasis::ALL.into_iter().enumerate() {
+        let all = rich(&four(), &RichPlan { emphasis, ..PLAN });
+        for script in &all.scripts {
+            let moments = played::<4>(&four(), &script.run);
+            let out = moments.iter().map(|m| m.pose.x.abs().max(m.pose.y.abs())).fold(0.0, f64::max);
+            assert!(out <= 0.5 * PLAN.field, "{emphasis:?}: {out} m out");
+            fast[k] += moments.iter().map(|m| m.twist.v.hypot(m.twist.vn)).sum::<f64>();
+            slow[k] += moments.iter().filter(|m| m.speed() < DRIVES).count() as f64;
+            for axis in 0..3 {
+                let signs: Vec<bool> =
+                    moments.iter().map(|m| m.speeds()[axis]).filter(|v| v.abs() > DRIVES).map(|v| v > 0.0).collect();
+                reversals[k] += signs.windows(2).filter(|pair| pair[0] != pair[1]).count() as f64;
+            }
+        }
+    }
+    let most = |of: [f64; 4]| Emphasis::ALL[(0..4).max_by(|a, b| of[*a].total_cmp(&of[*b])).expect("four")];
+    assert_eq!(most(fast), Emphasis::Dashes, "{fast:?}");
+    assert_eq!(most(reversals), Emphasis::Reversals, "{reversals:?}");
+    assert_eq!(most(slow), Emphasis::Creeping, "{slow:?}");
 }

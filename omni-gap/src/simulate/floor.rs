@@ -1,13 +1,14 @@
 //! How much floor a script takes: where the robot of a file goes when it plays it.
 
 use model_core::geometry::frames::{BodyTwist, Pose};
+use serde::{Deserialize, Serialize};
 
 use super::model::Model;
 use super::script::Script;
 use super::step_lengths::LONGEST_OF_THE_QUICKEST_S;
 
 /// The box around everywhere a robot goes, seen from where it starts and the way it looks then.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Floor {
     /// Along v, ahead [m]
     pub ahead: f64,

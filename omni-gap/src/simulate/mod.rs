@@ -59,7 +59,7 @@ pub use lost_commands::find_losses;
 pub use model::{EffectInstance, Model, ROOM_FOR_CAUSES, Slot, robot_of};
 pub use predict::{HORIZON_S, Prediction, predict};
 pub use record::{SensorSetup, SpeedSensor, record};
-pub use rich::{RICH, RichPlan};
+pub use rich::{Emphasis, RICH, RichPlan};
 pub use rich_limits::{RichAllowed, rich_allowed};
 pub use row_passed::RowPassed;
 pub use run_plan::RunPlan;

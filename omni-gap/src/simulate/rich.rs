@@ -18,6 +18,7 @@ use std::f64::consts::TAU;
 use model_core::plant::robot::Robot;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
 
 use super::model::Model;
 use super::script::{Script, along};
@@ -37,6 +38,41 @@ pub struct RichPlan {
     pub scripts: usize,
     /// Length of each [s]
     pub duration: f64,
+    /// What they do most.
+    pub emphasis: Emphasis,
+}
+
+/// What scripts do most.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Emphasis {
+    /// A bit of everything.
+    #[default]
+    Everything,
+    /// Jumps and reversals at speed: hard acceleration.
+    Reversals,
+    /// Across the floor at the motors' limit: high speeds.
+    Dashes,
+    /// Rests, and creeping just above where friction lets go.
+    Creeping,
+}
+
+impl Emphasis {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Everything, Self::Reversals, Self::Dashes, Self::Creeping];
+
+    /// The pieces in their order, again and again; each script begins elsewhere in it.
+    const fn round(self) -> &'static [Piece] {
+        use Piece::{Burst, Creep, Dash, Rest, Reverse};
+        match self {
+            Self::Everything => {
+                &[Dash, Reverse, Burst, Burst, Reverse, Rest, Creep, Burst, Reverse, Dash, Burst, Reverse]
+            }
+            Self::Reversals => &[Burst, Reverse, Burst, Reverse, Burst, Burst, Reverse],
+            Self::Dashes => &[Dash, Dash, Reverse, Dash, Burst, Dash],
+            Self::Creeping => &[Creep, Rest, Creep, Burst, Rest, Creep, Dash],
+        }
+    }
 }
 
 /// The word with which the scripts' names begin.
@@ -54,11 +90,6 @@ enum Piece {
     Creep,
 }
 
-/// The pieces in their order, again and again; each script begins elsewhere in it.
-const ROUND: [Piece; 12] = {
-    use Piece::{Burst, Creep, Dash, Rest, Reverse};
-    [Dash, Reverse, Burst, Burst, Reverse, Rest, Creep, Burst, Reverse, Dash, Burst, Reverse]
-};
 /// By how many pieces each script begins later than the one before.
 const LATER: usize = 5;
 
@@ -134,9 +165,9 @@ impl<'a, const N: usize> Writer<'a, N> {
 
     fn written(mut self) -> Script<N> {
         self.path.rest(REST);
-        let mut at = LATER * self.nth;
+        let (round, mut at) = (self.plan.emphasis.round(), LATER * self.nth);
         while !self.path.is_full() {
-            match ROUND[at % ROUND.len()] {
+            match round[at % round.len()] {
                 Piece::Dash => self.dash(),
                 Piece::Reverse if self.last.is_some() => self.reverse(),
                 Piece::Burst | Piece::Reverse => self.burst(),

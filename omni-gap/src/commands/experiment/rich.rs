@@ -3,7 +3,7 @@
 use omni_gap::api::{PlannedRich, RobotFile, rehearse_rich, rich};
 use omni_gap::log::Run;
 use omni_gap::report::{RichInstructions, rich_instructions};
-use omni_gap::simulate::RichPlan;
+use omni_gap::simulate::{Emphasis, RichPlan};
 
 use super::super::cli_error::CliError;
 use super::super::console::Console;
@@ -19,6 +19,7 @@ impl Experiments {
             field: field(file),
             scripts: self.scripts.into(),
             duration: self.duration,
+            emphasis: Emphasis::Everything,
         };
         let all = rich(file, &plan);
         let notes: Vec<String> = all.lowered.iter().map(lowered_in_words).collect();
