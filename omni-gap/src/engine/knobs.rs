@@ -4,11 +4,13 @@
 //! the knobs that it was made with, so that an answer can be made again, and a benchmark can say what each one is worth.
 //! "By trial" as a reason means: the counts of the benchmark were reached with it, and no better reason is known.
 
+mod design;
 mod probability;
 mod selftest;
 
 use serde::{Deserialize, Serialize};
 
+pub use design::DesignKnobs;
 pub use probability::{CalibrationKnobs, LogitLine, ProbabilityKnobs, logit};
 pub use selftest::SelftestKnobs;
 

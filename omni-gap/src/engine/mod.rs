@@ -3,6 +3,7 @@
 //! [`Evidence`] goes in, [`Findings`] come out, and what decides between them is written down in [`Knobs`]. Behind the
 //! seam stands [`Stepwise`], the engine of the product; another is whatever has the trait [`Engine`].
 
+pub mod design;
 pub mod evidence;
 pub mod findings;
 pub mod knobs;

@@ -107,6 +107,21 @@ impl Overlap {
         }
     }
 
+    /// Of so many times as many samples like these, channel by channel.
+    #[must_use]
+    pub fn times(mut self, times: &[f64; MAX_CHANNELS]) -> Self {
+        for (sum, times) in self.channels.iter_mut().zip(times) {
+            sum.signatures *= *times;
+            sum.shared *= *times;
+        }
+        self
+    }
+
+    /// How many signatures.
+    pub fn signatures(&self) -> usize {
+        self.channels[0].signatures.ncols()
+    }
+
     /// Of the windows of both.
     #[must_use]
     pub fn and(mut self, other: &Self) -> Self {

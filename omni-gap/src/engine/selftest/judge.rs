@@ -76,7 +76,7 @@ fn of_wheels<const N: usize>(file: &RobotFile, runs: &[Run], sensors: &Sensors, 
         WithSensor { sensor, seen: newly(Standing::is_seen), named: newly(Standing::is_named) }
     };
     SelfTest {
-        numbers: views[0].measured(),
+        numbers: views[0].seen.measured(),
         causes: shown.par_iter().map(cause).collect(),
         with_sensor: added.chain(replaced).map(with).collect(),
         ..sensors.show_nothing(file)
@@ -95,7 +95,7 @@ fn confused<const N: usize>(
     let view = [asked.laid.view(mask::<N>(logged))];
     let now = asked.standings(&asked.laid, &asked.laid.left(&asked.columns, &view)[0]);
     let causes = asked.shown(&now).into_iter().map(|k| now[k].as_confused(&asked.suspects[k])).collect();
-    Some((view[0].measured(), causes))
+    Some((view[0].seen.measured(), causes))
 }
 
 /// Runs laid out. None of them was made, so that none shows which telegrams it lost: where what answers to commands is
@@ -109,7 +109,7 @@ fn aligned<const N: usize>(file: &RobotFile, runs: &[Run], logged: &[SignalGroup
 }
 
 /// The channels of groups of signals, as a bit mask.
-pub(super) fn mask<const N: usize>(groups: &[SignalGroup]) -> u16 {
+pub(in crate::engine) fn mask<const N: usize>(groups: &[SignalGroup]) -> u16 {
     groups.iter().flat_map(|g| AlignedRun::<N>::channels().of(*g)).fold(0_u16, |mask, c| mask | 1 << c)
 }
 

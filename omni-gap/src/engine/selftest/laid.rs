@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::left::{Held, Imitated, Left};
 use super::suspects::Column;
-use super::view::View;
+use super::view::{Seen, View};
 use crate::engine::knobs::SelftestKnobs;
 use crate::engine::predictions::predictions;
 use crate::identify::{
@@ -16,16 +16,24 @@ use crate::identify::{
     linearise, nominal_free, slopes_of, stepped,
 };
 use crate::log::RobotFile;
-use crate::simulate::{AlignedRun, Model, Slot};
+use crate::simulate::{AlignedRun, MAX_CHANNELS, Model, Slot};
 
 /// Recordings, and all that a signature is compared with on them.
-pub(super) struct Laid<'a, const N: usize> {
+pub(in crate::engine) struct Laid<'a, const N: usize> {
     pub model: Model<N>,
     runs: Vec<LaidRun<'a, N>>,
     free: Vec<Free>,
     prior: Prior,
     wrong: f64,
     look_twice: f64,
+}
+
+/// What signatures have in common on recordings, and what the numbers of the robot move there: sums, so that those of other
+/// recordings may be added.
+#[derive(Clone)]
+pub(in crate::engine) struct Look {
+    overlap: Overlap,
+    seen: Seen,
 }
 
 /// A model whose numbers are moved so that it imitates a signature.
@@ -77,8 +85,11 @@ impl<'a, const N: usize> Laid<'a, N> {
     pub fn left(&self, columns: &[Column], views: &[View]) -> Vec<Left> {
         let nothing = Imitated::nothing(columns.len(), self.free.len(), self.prior.rows.len());
         let first = self.overlaps(columns, views, &views.iter().map(|_| Vec::new()).collect::<Vec<_>>());
-        let first: Vec<Left> =
-            first.iter().zip(views).map(|(sum, view)| Left::new(sum, &nothing, &self.held(view))).collect();
+        let first: Vec<Left> = first
+            .iter()
+            .zip(views)
+            .map(|(sum, view)| Left::new(sum, &nothing, &self.held(&view.seen, &self.prior)))
+            .collect();
         let imitations: Vec<Vec<Imitation<N>>> = first.iter().map(|left| self.imitations(columns, left)).collect();
         if imitations.iter().all(Vec::is_empty) {
             return first;
@@ -91,17 +102,36 @@ impl<'a, const N: usize> Laid<'a, N> {
                 before.moved.set_column(*column, step);
                 before.violated.set_column(*column, &DVector::from_vec(self.prior.violations(model)));
             }
-            Left::new(sum, &before, &self.held(view))
+            Left::new(sum, &before, &self.held(&view.seen, &self.prior))
         };
         second.iter().zip(views).zip(&first).zip(&imitations).map(left).collect()
     }
 
+    /// What is stated of the numbers of the robot.
+    pub fn stated(&self) -> &Prior {
+        &self.prior
+    }
+
+    /// A look at signatures along a straight line, by the channels of a bit mask.
+    pub fn look(&self, columns: &[Column], mask: u16) -> Look {
+        let view = self.view(mask);
+        let overlap = self.overlaps(columns, std::slice::from_ref(&view), &[Vec::new()]).remove(0);
+        Look { overlap, seen: view.seen }
+    }
+
+    /// What is left of the signatures of a look, with the numbers held by what is stated.
+    pub fn left_of(&self, look: &Look, stated: &Prior) -> Left {
+        let signatures = look.overlap.signatures();
+        let nothing = Imitated::nothing(signatures, self.free.len(), stated.rows.len());
+        Left::new(&look.overlap, &nothing, &self.held(&look.seen, stated))
+    }
+
     /// The equations of the numbers.
-    fn held<'v>(&self, view: &'v View) -> Held<'v> {
+    fn held<'v>(&self, seen: &'v Seen, stated: &Prior) -> Held<'v> {
         Held {
-            view,
-            equations: held_by(view.products(), &self.model, &self.free, &self.prior),
-            slopes: slopes_of(&self.prior, &self.model, &self.free),
+            seen,
+            equations: held_by(seen.products(), &self.model, &self.free, stated),
+            slopes: slopes_of(stated, &self.model, &self.free),
         }
     }
 
@@ -134,6 +164,20 @@ impl<'a, const N: usize> Laid<'a, N> {
     /// The place of a factor among the free numbers.
     fn place(&self, factor: Nominal) -> Option<usize> {
         self.free.iter().position(|free| free.slot == Slot::Nominal(factor))
+    }
+}
+
+impl Look {
+    /// Of so many times as many samples like these, channel by channel.
+    #[must_use]
+    pub fn times(self, times: &[f64; MAX_CHANNELS]) -> Self {
+        Self { overlap: self.overlap.times(times), seen: self.seen.times(times) }
+    }
+
+    /// With a look at other recordings.
+    #[must_use]
+    pub fn and(self, other: &Self) -> Self {
+        Self { overlap: self.overlap.and(&other.overlap), seen: self.seen.and(&other.seen.channels) }
     }
 }
 

@@ -3,13 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::suspects::Suspect;
-use super::view::View;
+use super::view::Seen;
 use crate::identify::{Overlap, Products};
 use crate::simulate::MAX_CHANNELS;
 
 /// What imitates signatures already: numbers that are moved.
 #[derive(Clone)]
-pub(super) struct Imitated {
+pub(in crate::engine) struct Imitated {
     /// By how much each number is moved, one column a signature.
     pub moved: DMatrix<f64>,
     /// How far each statement is violated by that [σ], one column a signature.
@@ -27,9 +27,9 @@ impl Imitated {
 }
 
 /// What holds the numbers of a robot while they imitate.
-pub(super) struct Held<'a> {
+pub(in crate::engine) struct Held<'a> {
     /// What is seen.
-    pub view: &'a View,
+    pub seen: &'a Seen,
     /// Their equations: J'ᵀJ' and what was stated.
     pub equations: DMatrix<f64>,
     /// d violation / d number: a row for each statement.
@@ -37,7 +37,7 @@ pub(super) struct Held<'a> {
 }
 
 /// The products of what is left.
-pub(super) struct Left {
+pub(in crate::engine) struct Left {
     /// Over all numbers and statements.
     all: Products,
     /// |s⊥|² of each signature per number measured, in the channel where it is largest [σ²]
@@ -69,7 +69,7 @@ impl Left {
             gives: (&held.slopes * inverse * held.slopes.transpose()).diagonal(),
             taken: all.shared.tr_mul(&step),
             whole: before.whole.clone().unwrap_or_else(|| all.signatures.diagonal()),
-            most_in_a_channel: most_in_a_channel(overlap.channels(), &held.view.channels, &step),
+            most_in_a_channel: most_in_a_channel(overlap.channels(), &held.seen.channels, &step),
             moved: &before.moved + step,
             all,
         }
@@ -114,6 +114,12 @@ impl Left {
     pub fn share_stated(&self, column: usize) -> f64 {
         let size = self.size_of(column);
         if size > 0.0 { (self.violated.column(column).norm_squared() / size).clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// What |s⊥|² of a column counts [1]: what is measured counts by the share of the runs that is held out, what was stated
+    /// counts whole.
+    pub fn counts(&self, column: usize, held: f64) -> f64 {
+        held + (1.0 - held) * self.share_stated(column)
     }
 
     /// |s⊥|² of a column if a number were known just as it is stated [σ²]: v²/(a·H⁻¹·aᵀ) more, the least that it costs to

@@ -24,6 +24,11 @@ mod suspects;
 mod verify;
 mod view;
 
+pub(super) use judge::mask;
 pub use judge::{confusion, selftest};
+pub(super) use laid::{Laid, Look};
+pub(super) use left::Left;
 pub use sensors::Sensors;
+pub(super) use standing::Standing;
+pub(super) use suspects::{Column, Suspect, of_effect, of_number, put};
 pub use verify::verify;

@@ -12,7 +12,7 @@ use crate::identify::Prior;
 use crate::log::RobotFile;
 
 /// How a suspect of typical size stands in the channels of one set.
-pub(super) struct Standing {
+pub(in crate::engine) struct Standing {
     /// |s⊥|² [σ²]
     pub size: f64,
     /// What the engine would ask of it [σ²]
@@ -48,9 +48,7 @@ impl Standing {
     ) -> Self {
         let freedom = suspect.cause.freedom(prior);
         let search = &knobs.engine.search;
-        // what is measured counts by the runs that are held out, what was stated counts whole
-        let (held, stated) = (1.0 / knobs.engine.layout.hold_out_every as f64, left.share_stated(suspect.typical));
-        let counts = held + (1.0 - held) * stated;
+        let counts = left.counts(suspect.typical, 1.0 / knobs.engine.layout.hold_out_every as f64);
         let gain = search.convincing + (search.convincing_each + search.price_of_freedom) * freedom as f64;
         let size = left.size_of(suspect.typical);
         let relevant = match (&suspect.cause, enough) {

@@ -7,11 +7,12 @@ use model_core::effects::card::{Card, Role, Scope};
 use model_core::plant::robot::Nominal;
 
 use crate::engine::stepwise::{Cause, freed_priors, has_a_say};
+use crate::identify::FreedPrior;
 use crate::simulate::{Chain, EffectInstance};
 
 /// A cause, and where its signatures stand.
 #[derive(Clone, Debug)]
-pub(super) struct Suspect {
+pub(in crate::engine) struct Suspect {
     pub cause: Cause,
     /// Its signature at its typical size.
     pub typical: usize,
@@ -21,7 +22,7 @@ pub(super) struct Suspect {
 
 /// What one column is the signature of.
 #[derive(Clone, Debug)]
-pub(super) enum Column {
+pub(in crate::engine) enum Column {
     /// An effect that is there.
     Effect(EffectInstance),
     /// Nominal factors that are wrong together.
@@ -41,18 +42,23 @@ pub(super) fn suspects<const N: usize>(
         let places: Vec<Option<usize>> =
             if card.scope == Scope::OneWheel { (0..N).map(Some).collect() } else { vec![None] };
         for wheel in places {
-            put(Cause::Effect(card, wheel), of_effect(card, wheel, shape_moved), &mut suspects, &mut columns);
+            let typical = EffectInstance::typical(card, wheel);
+            put(Cause::Effect(card, wheel), of_effect(&typical, shape_moved), &mut suspects, &mut columns);
         }
     }
     for release in freed_priors() {
-        let factors: Vec<Nominal> = Nominal::ALL.into_iter().filter(|factor| release.speaks_of(*factor)).collect();
-        let each = factors.iter().map(|factor| Column::Factors(vec![*factor])).collect();
-        put(Cause::Parameter(release), (Column::Factors(factors.clone()), each), &mut suspects, &mut columns);
+        put(Cause::Parameter(release), of_number(release), &mut suspects, &mut columns);
     }
     (suspects, columns)
 }
 
-fn put(cause: Cause, (typical, free): (Column, Vec<Column>), suspects: &mut Vec<Suspect>, columns: &mut Vec<Column>) {
+/// Adds a cause, its signature, and what a fit of it can make of its free numbers.
+pub(in crate::engine) fn put(
+    cause: Cause,
+    (typical, free): (Column, Vec<Column>),
+    suspects: &mut Vec<Suspect>,
+    columns: &mut Vec<Column>,
+) {
     let at = columns.len();
     columns.push(typical);
     let alone = free.len() < 2;
@@ -62,11 +68,18 @@ fn put(cause: Cause, (typical, free): (Column, Vec<Column>), suspects: &mut Vec<
     suspects.push(Suspect { cause, typical: at, free: if alone { at..at + 1 } else { at + 1..columns.len() } });
 }
 
-/// The effect at its typical size; and each of its sizes alone, and with each shape moved by a share of its typical value.
-fn of_effect(card: &'static Card, wheel: Option<usize>, shape_moved: f64) -> (Column, Vec<Column>) {
-    let typical = EffectInstance::typical(card, wheel);
+/// Factors that are wrong together; and each alone.
+pub(in crate::engine) fn of_number(release: FreedPrior) -> (Column, Vec<Column>) {
+    let factors: Vec<Nominal> = Nominal::ALL.into_iter().filter(|factor| release.speaks_of(*factor)).collect();
+    let each = factors.iter().map(|factor| Column::Factors(vec![*factor])).collect();
+    (Column::Factors(factors), each)
+}
+
+/// The effect as it is; and each of its sizes alone, and with each shape moved by a share of its typical value.
+pub(in crate::engine) fn of_effect(here: &EffectInstance, shape_moved: f64) -> (Column, Vec<Column>) {
+    let card = here.card();
     let with = |change: &dyn Fn(&mut Vec<f64>)| {
-        let mut effect = typical.clone();
+        let mut effect = here.clone();
         change(&mut effect.params);
         Column::Effect(effect)
     };
@@ -82,9 +95,9 @@ fn of_effect(card: &'static Card, wheel: Option<usize>, shape_moved: f64) -> (Co
     let each_shape = shapes.map(|(k, p)| {
         let (low, high) = p.within;
         let by = if low < 0.0 { shape_moved * 0.5 * (high - low) } else { shape_moved * p.typical };
-        let moved = if p.typical + by <= high { p.typical + by } else { p.typical - by };
+        let moved = if here.params[k] + by <= high { here.params[k] + by } else { here.params[k] - by };
         with(&|params| params[k] = moved)
     });
     let free = each_size.chain(each_shape).collect();
-    (Column::Effect(typical.clone()), free)
+    (Column::Effect(here.clone()), free)
 }
