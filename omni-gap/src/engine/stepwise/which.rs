@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use model_core::effects;
+
 use super::candidate::Cause;
 use super::found::Found;
 use super::numbers::of_cause;
@@ -146,10 +148,7 @@ fn pseudo(id: &str) -> Which {
 }
 
 fn bare(cause: &Cause) -> Which {
-    let title = match cause {
-        Cause::Effect(card, _) => Some(card.title.to_owned()),
-        Cause::Parameter(_) => None,
-    };
+    let title = effects::cause(cause.id()).map(|cause| cause.title().to_owned());
     Which { kind: Some(cause.kind()), title, wheel: cause.wheel(), axis: cause.axis(), ..pseudo(cause.id()) }
 }
 
