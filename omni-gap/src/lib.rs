@@ -47,7 +47,7 @@ pub mod wire;
 
 mod known;
 
-pub use diagnosis::{Diagnosis, Options, diagnose};
+pub use diagnosis::{Diagnosis, NamedSession, Options, diagnose};
 pub use error::Error;
 pub use known::known_effects;
 pub use log::Session;

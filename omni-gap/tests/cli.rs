@@ -16,6 +16,8 @@ mod explain;
 mod folders;
 #[path = "cli/manners.rs"]
 mod manners;
+#[path = "cli/next.rs"]
+mod next;
 #[path = "cli/robot.rs"]
 mod robot;
 #[path = "cli/selftest.rs"]

@@ -69,7 +69,7 @@ pub fn compare(sides: [ComparedSession<'_>; 2], against: Against, options: &Opti
     (options.progress)("checking the recordings");
     let [(faults_a, sound_a), (faults_b, sound_b)] = [a, b].map(|side| checked(side.session));
     let told = |faults: &[check::Fault], side: ComparedSession<'_>| -> Vec<Fault> {
-        faults.iter().map(|fault| of_side(Fault::from(fault), side)).collect()
+        faults.iter().map(|fault| Fault::from(fault).of_session(side.name)).collect()
     };
     let mut faults = told(&faults_a, a);
     faults.extend(told(&faults_b, b));
@@ -90,11 +90,6 @@ pub fn compare(sides: [ComparedSession<'_>; 2], against: Against, options: &Opti
         pictures: compared.traces.as_ref().map(pictures).unwrap_or_default(),
         report: ComparisonReport::of(compared.comparison, named, faults, notices),
     })
-}
-
-/// A fault whose file says of which session it is.
-fn of_side(fault: Fault, side: ComparedSession<'_>) -> Fault {
-    Fault { file: fault.file.map(|file| format!("{}: {file}", side.name)), ..fault }
 }
 
 fn no_evidence(why: Unfit, side: ComparedSession<'_>) -> Fault {

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | [`diagnose`], [`Diagnosis::of`] | [`Report`], [`Findings`]: where the gap lies, which cause it has, how far it shrinks |
 //! | [`compare`](fn@compare) | [`ComparisonReport`](crate::report::comparison::ComparisonReport): which cause explains the difference between two sessions |
+//! | [`next`](fn@next) | [`Designed`]: the script that would settle what is open, and what to measure in its place |
 //! | [`identify`] | [`Identification`]: the robot file's numbers, fitted, and how sure they are |
 //! | [`identify_by_experiment`] | [`Answer`](crate::identify::Answer): the same by the paper's experiments |
 //! | [`validate`] | [`Validated`]: every run simulated over what was measured |
@@ -29,15 +30,17 @@ mod by_experiment;
 mod compare;
 mod experiment;
 mod identify;
+mod next;
 mod predict;
 mod record;
 mod selftest;
 mod simulate;
 
 pub use crate::check::{Fault, check};
-pub use crate::diagnosis::{Diagnosis, Options, diagnose};
-pub use crate::engine::findings::{Confusion, SelfTest};
-pub use crate::engine::knobs::SelftestKnobs;
+pub use crate::diagnosis::{Diagnosis, NamedSession, Options, diagnose};
+pub use crate::engine::design::Designed;
+pub use crate::engine::findings::{Confusion, Design, SelfTest};
+pub use crate::engine::knobs::{DesignKnobs, SelftestKnobs};
 pub use crate::engine::{Findings, Knobs};
 pub use crate::error::Error;
 pub use crate::known::known_effects;
@@ -52,6 +55,7 @@ pub use experiment::{
     PlannedExperiments, PlannedRich, PlannedScript, RichScript, experiments, rehearse, rehearse_rich, rich,
 };
 pub use identify::{FitRemark, FittedEffectNumber, FittedNumber, Identification, identify};
+pub use next::next;
 pub use predict::predict;
 pub use record::{Recorded, Recording, record};
 pub use selftest::{Driven, PlannedRuns, confusion, selftest, verify};

@@ -12,7 +12,7 @@ use super::causes::all_known;
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
-use super::given::name_of;
+use super::given::{name_of, runs_of};
 use super::output_path::{self, NewFolder};
 
 /// Say which cause explains the difference between two sessions, or what a simulator's log leaves out
@@ -110,22 +110,11 @@ impl Compare {
 impl Side<'_> {
     /// Reads it: a session folder, or runs that lie anywhere.
     fn load(&self, robot: &Path) -> Result<Session, CliError> {
-        if !self.path.exists() {
-            let fix = "Give a session folder, a run log or a folder of run logs";
-            return Err(Error::input(self.path, "no such file or folder", fix).of_kind(InputKind::NotFound).into());
-        }
         let own = self.path.join("robot.toml");
         if robot == own && self.path.join("runs").is_dir() {
             return Ok(Session::load(self.path, self.columns, &known_effects())?);
         }
-        let mapping = self.path.join("columns.toml");
-        let columns = self.columns.or_else(|| mapping.is_file().then_some(&*mapping));
-        let within = ["runs", "heldout"].map(|name| self.path.join(name));
-        let mut runs: Vec<PathBuf> = within.into_iter().filter(|folder| folder.is_dir()).collect();
-        if runs.is_empty() {
-            runs.push(self.path.to_path_buf());
-        }
-        Ok(Session::load_from(robot, columns, &runs, &known_effects())?)
+        runs_of(robot, self.path, self.columns)
     }
 
     /// What the report calls it: the name of its folder or file.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use omni_gap::engine::Knobs;
+use omni_gap::Options;
 use omni_gap::log::{write_whole, write_whole_with};
 use omni_gap::report::{self, estimate};
 use omni_gap::simulate::EffectInstance;
@@ -54,7 +54,8 @@ impl Demo {
 
         console.phase("reading the recordings");
         let session = Session::load(&at, None, &known_effects())?;
-        let (report, written) = diagnosed(&session, Some("session".to_owned()), Knobs::default(), &out, console)?;
+        let what = Options { session: Some("session".to_owned()), ..Options::default() };
+        let (report, written) = diagnosed(&session, &what, &out, console)?;
         folder.keep();
 
         let runs = session.runs.len();

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use omni_gap::engine::Knobs;
-use omni_gap::report::{self, RobotFiles, Written};
+use omni_gap::report::design::script_csv;
+use omni_gap::report::{self, Beside, Written};
 use omni_gap::simulate::HORIZON_S;
 use omni_gap::{Diagnosis, Options, Report, Session};
 
@@ -11,7 +12,7 @@ use super::causes::all_known;
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
-use super::given::{GivenSession, seconds};
+use super::given::{GivenAlso, GivenSession, seconds};
 use super::output_path::{self, NewFolder};
 
 /// Say where the gap lies, which cause it has and how far it shrinks
@@ -20,7 +21,11 @@ pub struct Diagnose {
     #[command(flatten)]
     session: GivenSession,
 
-    /// Folder for report.json, report.html, refitted_robot.toml and, where a cause is named, corrected_robot.toml; made if need be
+    #[command(flatten)]
+    also: GivenAlso,
+
+    /// Folder for report.json, report.html, refitted_robot.toml and, where a cause is named, corrected_robot.toml, where a script would
+    /// settle what is open, next_experiment.csv; made if need be
     #[arg(long, value_name = "DIR", default_value = "omni-gap-report")]
     out: PathBuf,
 
@@ -38,7 +43,8 @@ pub struct Diagnose {
 }
 
 /// The files of a report.
-pub const FILES: [&str; 4] = ["report.json", "report.html", "refitted_robot.toml", "corrected_robot.toml"];
+pub const FILES: [&str; 5] =
+    ["report.json", "report.html", "refitted_robot.toml", "corrected_robot.toml", "next_experiment.csv"];
 
 impl Diagnose {
     /// Does it.
@@ -49,7 +55,9 @@ impl Diagnose {
         let mut knobs = Knobs::default();
         knobs.measure.horizon_s = self.horizon;
         knobs.screen.without.clone_from(&self.without);
-        let (report, written) = diagnosed(&session, self.session.name(), knobs, &self.out, console)?;
+        let also = self.also.load(&self.session.robot_path(), self.session.columns())?;
+        let what = Options { session: self.session.name(), also: &also, knobs, ..Options::default() };
+        let (report, written) = diagnosed(&session, &what, &self.out, console)?;
         console.say(&report::terminal(&report, Some(&written)))?;
         Ok(if self.exit_code { report.verdict.exit_code() } else { DONE })
     }
@@ -58,18 +66,21 @@ impl Diagnose {
 /// Diagnoses a session and writes the report's files.
 pub fn diagnosed(
     session: &Session,
-    name: Option<String>,
-    knobs: Knobs,
+    what: &Options<'_>,
     out: &Path,
     console: &Console,
 ) -> Result<(Report, Written), CliError> {
-    let diagnosis =
-        Diagnosis::of(session, &Options { session: name, knobs, progress: &|phrase| console.phase(phrase) });
+    let progress = |phrase: &str| console.phase(phrase);
+    let diagnosis = Diagnosis::of(session, &Options { progress: &progress, ..what.clone() });
     let page = report::html(&diagnosis.report, &diagnosis.pictures);
     let folder = NewFolder::make(out)?;
-    let robots =
-        RobotFiles { refitted: diagnosis.refitted_robot.as_deref(), corrected: diagnosis.corrected_robot.as_deref() };
-    let written = report::write(out, &diagnosis.report, &page, robots)?;
+    let script = diagnosis.next_run.as_ref().map(script_csv);
+    let beside = Beside {
+        refitted: diagnosis.refitted_robot.as_deref(),
+        corrected: diagnosis.corrected_robot.as_deref(),
+        script: script.as_deref(),
+    };
+    let written = report::write(out, &diagnosis.report, &page, beside)?;
     folder.keep();
     console.end_phase();
     Ok((diagnosis.report, written))

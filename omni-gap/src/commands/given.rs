@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use omni_gap::error::InputKind;
 use omni_gap::log::{Columns, RobotFile, Run};
 use omni_gap::report::num;
-use omni_gap::{Error, Session, known_effects};
+use omni_gap::{Error, NamedSession, Session, known_effects};
 
 use super::cli_error::CliError;
 use super::console::Console;
@@ -54,6 +55,11 @@ impl GivenSession {
         self.paths.first().filter(|_| self.robot.is_none()).and_then(|folder| name_of(folder))
     }
 
+    /// The mapping that is named for all of it.
+    pub fn columns(&self) -> Option<&Path> {
+        self.columns.as_deref()
+    }
+
     /// Where its runs are: for messages about all of them.
     pub fn runs_path(&self) -> PathBuf {
         if self.robot.is_some() { self.paths[0].clone() } else { self.paths[0].join("runs") }
@@ -63,6 +69,42 @@ impl GivenSession {
     pub fn robot_path(&self) -> PathBuf {
         self.robot.clone().unwrap_or_else(|| self.paths[0].join("robot.toml"))
     }
+}
+
+/// The sessions that are diagnosed beside the first.
+#[derive(Debug, Args)]
+pub struct GivenAlso {
+    /// Further recordings of the same robot, judged together with these: session folders, run logs or folders of them; the
+    /// report says what they settled
+    #[arg(long, value_name = "SESSION", num_args = 1.., action = clap::ArgAction::Append)]
+    also: Vec<PathBuf>,
+}
+
+impl GivenAlso {
+    /// Reads them, as recordings of the robot of a file.
+    pub fn load(&self, robot: &Path, columns: Option<&Path>) -> Result<Vec<NamedSession>, CliError> {
+        let read = |path: &PathBuf| -> Result<NamedSession, CliError> {
+            Ok(NamedSession { name: name_of(path).unwrap_or_default(), session: runs_of(robot, path, columns)? })
+        };
+        self.also.iter().map(read).collect()
+    }
+}
+
+/// Runs of the robot of a file that lie anywhere: a session folder with a mapping of its own or none, whatever robot file it has; a
+/// run log; or a folder of them.
+pub fn runs_of(robot: &Path, path: &Path, columns: Option<&Path>) -> Result<Session, CliError> {
+    if !path.exists() {
+        let fix = "Give a session folder, a run log or a folder of run logs";
+        return Err(Error::input(path, "no such file or folder", fix).of_kind(InputKind::NotFound).into());
+    }
+    let mapping = path.join("columns.toml");
+    let columns = columns.or_else(|| mapping.is_file().then_some(&*mapping));
+    let within = ["runs", "heldout"].map(|name| path.join(name));
+    let mut runs: Vec<PathBuf> = within.into_iter().filter(|folder| folder.is_dir()).collect();
+    if runs.is_empty() {
+        runs.push(path.to_path_buf());
+    }
+    Ok(Session::load_from(robot, columns, &runs, &known_effects())?)
 }
 
 /// What a path is called: the name of its folder or file, however it was written.
@@ -132,6 +174,14 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
         _ => Err("expected a time above zero, in seconds, such as 0.5".to_owned()),
+    }
+}
+
+/// A length above zero [m].
+pub fn metres(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("expected a length above zero, in metres, such as 2.5".to_owned()),
     }
 }
 

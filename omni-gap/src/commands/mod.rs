@@ -18,6 +18,7 @@ mod explain;
 mod export;
 mod given;
 mod identify;
+mod next;
 mod output_path;
 mod predict;
 mod record;
@@ -51,6 +52,7 @@ enum Command {
     Demo(demo::Demo),
     Diagnose(diagnose::Diagnose),
     Compare(compare::Compare),
+    Next(next::Next),
     Check(check::Check),
     Experiment(experiment::Experiments),
     Identify(identify::Identify),
@@ -76,6 +78,7 @@ impl Cli {
             Command::Demo(c) => c.run(&console),
             Command::Diagnose(c) => c.run(&console),
             Command::Compare(c) => c.run(&console),
+            Command::Next(c) => c.run(&console),
             Command::Check(c) => c.run(&console),
             Command::Experiment(c) => c.run(&console),
             Command::Identify(c) => c.run(&console),

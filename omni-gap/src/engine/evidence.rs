@@ -68,19 +68,36 @@ impl Evidence {
     /// # Errors
     /// Where nothing drives a model, or nothing is left to compare it with.
     pub fn of(session: &Session, knobs: &LayoutKnobs) -> Result<Self, Unfit> {
+        Self::of_all(session, &[], knobs)
+    }
+
+    /// Lays out sessions of one robot, whose file is that of the first. Of each some runs are held out, so that what only one of
+    /// them shows is judged there too.
+    ///
+    /// # Errors
+    /// As of [`Evidence::of`].
+    pub fn of_all(session: &Session, also: &[&Session], knobs: &LayoutKnobs) -> Result<Self, Unfit> {
         let mut notices = Vec::new();
+        let all: Vec<&Session> = std::iter::once(session).chain(also.iter().copied()).collect();
         let runs = match session.robot.wheel.len() {
-            3 => LaidOut::Three(Runs::of(session, knobs, &mut notices)?),
-            _ => LaidOut::Four(Runs::of(session, knobs, &mut notices)?),
+            3 => LaidOut::Three(Runs::of(&all, knobs, &mut notices)?),
+            _ => LaidOut::Four(Runs::of(&all, knobs, &mut notices)?),
         };
         Ok(Self { robot: session.robot.clone(), prior: Prior::stated(&session.robot), runs, notices })
     }
 }
 
 impl<const N: usize> Runs<N> {
-    fn of(session: &Session, knobs: &LayoutKnobs, notices: &mut Vec<String>) -> Result<Self, Unfit> {
-        let Self { mut fit, mut held } = laid_out(session, knobs, notices);
-        find_losses(fit.iter_mut().chain(&mut held), &session.robot);
+    /// Of sessions of the first one's robot.
+    fn of(sessions: &[&Session], knobs: &LayoutKnobs, notices: &mut Vec<String>) -> Result<Self, Unfit> {
+        let robot = &sessions[0].robot;
+        let (mut fit, mut held) = (Vec::new(), Vec::new());
+        for session in sessions {
+            let runs = laid_out(session, robot, knobs, notices);
+            fit.extend(runs.fit);
+            held.extend(runs.held);
+        }
+        find_losses(fit.iter_mut().chain(&mut held), robot);
         if fit.is_empty() || held.is_empty() {
             return Err(NOTHING_DRIVES);
         }
@@ -106,12 +123,17 @@ impl<const N: usize> Runs<N> {
     }
 }
 
-fn laid_out<const N: usize>(session: &Session, knobs: &LayoutKnobs, notices: &mut Vec<String>) -> Runs<N> {
+fn laid_out<const N: usize>(
+    session: &Session,
+    robot: &RobotFile,
+    knobs: &LayoutKnobs,
+    notices: &mut Vec<String>,
+) -> Runs<N> {
     let LayoutKnobs { hold_out_every, parts_of_a_lone_run: parts, .. } = *knobs;
     let mut of = |runs: &[Run]| -> Vec<AlignedRun<N>> {
         runs.iter()
             .filter_map(|run| {
-                let laid = AlignedRun::new(run, &session.robot);
+                let laid = AlignedRun::new(run, robot);
                 if laid.is_none() {
                     notices.push(format!("run {}: nothing in it can drive the model; left out", run.name));
                 }

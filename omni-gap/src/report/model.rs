@@ -121,6 +121,14 @@ pub struct Fault {
     pub fix: String,
 }
 
+impl Fault {
+    /// The same, its file told with its session, where reports speak of several.
+    #[must_use]
+    pub fn of_session(self, name: &str) -> Self {
+        Self { file: self.file.map(|file| format!("{name}: {file}")), ..self }
+    }
+}
+
 impl From<&check::Fault> for Fault {
     fn from(fault: &check::Fault) -> Fault {
         Fault {

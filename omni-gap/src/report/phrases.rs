@@ -196,6 +196,44 @@ pub fn look_alikes(report: &Report, which: &Which) -> Option<String> {
     (!names.is_empty()).then(|| list(&names))
 }
 
+/// What further recordings settled of what a session alone left open.
+pub fn settled(alone: &Report, together: &Report, names: &[&str]) -> String {
+    let (before, after) = (in_question(alone), in_question(together));
+    let told = |report: &Report, ids: &[&str], or: &str| {
+        let names: Vec<String> = ids.iter().map(|id| title(report, id).into_owned()).collect();
+        names.join(or)
+    };
+    let beside = format!("with {} beside it", list(&names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>()));
+    let ruled_out: Vec<&str> = before.iter().copied().filter(|id| !after.contains(id)).collect();
+    if before == after {
+        let open = if before.len() > 1 { "nothing is settled" } else { "the answer is the same" };
+        return format!("{beside} {open}: {}", told(together, &after, " or "));
+    }
+    if after.iter().all(|id| before.contains(id)) {
+        let [left, out] = [told(together, &after, " or "), told(alone, &ruled_out, " and ")];
+        return format!("{beside} {left} is left; ruled out: {out}");
+    }
+    let [now, was] = [told(together, &after, " or "), told(alone, &before, " or ")];
+    format!("{beside} the answer is {now}; alone it was {was}")
+}
+
+/// What an answer leaves in question: the causes named and those that were not told from them; else the verdict.
+fn in_question(report: &Report) -> Vec<&str> {
+    let named = report.which.iter().filter(|entry| report.causes.contains(&entry.cause));
+    let mut all: Vec<&str> = named
+        .flat_map(|entry| std::iter::once(&entry.cause).chain(&entry.not_told_apart_from))
+        .map(String::as_str)
+        .collect();
+    all.sort_unstable();
+    all.dedup();
+    match report.verdict {
+        _ if !all.is_empty() => all,
+        Verdict::NoGap => vec!["no_gap"],
+        Verdict::UnfitData => vec!["unfit_data"],
+        _ => vec!["unknown"],
+    }
+}
+
 /// A sentence without its stop, so that another may follow.
 pub fn open_ended(text: &str) -> &str {
     text.trim_end_matches(['.', ' '])
@@ -265,6 +303,27 @@ mod tests {
         let said = noise(&with(vec![of("current", 0.05, 0.0125), of("wheel_speed", 0.02, 0.0)]));
         assert_eq!(said.as_deref(), Some("current 0.0500\u{a0}A (file: 0.0200\u{a0}A), alike over 12.5 ms"));
         assert_eq!(noise(&with(vec![of("current", 0.02, 0.0)])), None);
+    }
+
+    #[test]
+    fn what_further_recordings_settled_is_told() {
+        let with = |causes: &[&str], alike: &[&str]| {
+            let mut report = sample::effect();
+            report.causes = causes.iter().map(|id| (*id).to_owned()).collect();
+            report.which[0].not_told_apart_from = alike.iter().map(|id| (*id).to_owned()).collect();
+            report
+        };
+        let open = with(&["wheel_slip"], &["load_transfer"]);
+        let said = |after: &Report| settled(&open, after, &["tuesday"]);
+        assert_eq!(
+            said(&with(&["wheel_slip"], &[])),
+            "with tuesday beside it Wheel slip is left; ruled out: Load transfer"
+        );
+        assert_eq!(said(&open), "with tuesday beside it nothing is settled: Load transfer or Wheel slip");
+        assert_eq!(
+            said(&sample::no_gap()),
+            "with tuesday beside it the answer is No gap; alone it was Load transfer or Wheel slip"
+        );
     }
 
     #[test]

@@ -39,8 +39,8 @@ pub fn terminal(report: &Report, files: Option<&Written>) -> String {
     if let Some(files) = files {
         page.line("files", &files.html.display().to_string());
         page.line("", &files.json.display().to_string());
-        for robot in [&files.refitted, &files.corrected].into_iter().flatten() {
-            page.line("", &robot.display().to_string());
+        for file in [&files.refitted, &files.corrected, &files.script].into_iter().flatten() {
+            page.line("", &file.display().to_string());
         }
     }
     page.0.replace(NBSP, " ")
@@ -172,7 +172,8 @@ mod tests {
         let at = |name: &str| PathBuf::from("out").join(name);
         let refitted = (report.verdict != Verdict::UnfitData).then(|| at("refitted_robot.toml"));
         let corrected = (!report.causes.is_empty()).then(|| at("corrected_robot.toml"));
-        Written { json: at("report.json"), html: at("report.html"), refitted, corrected }
+        let script = report.next_experiment.as_ref().and_then(|next| next.file.as_ref()).map(|name| at(name));
+        Written { json: at("report.json"), html: at("report.html"), refitted, corrected, script }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use super::design::SCRIPT;
 use super::model::Report;
 use crate::error::{Error, Result};
 
@@ -20,24 +21,29 @@ pub struct Written {
     pub refitted: Option<PathBuf>,
     /// `corrected_robot.toml`, where causes were named.
     pub corrected: Option<PathBuf>,
+    /// `next_experiment.csv`, where a script would tell apart what was not.
+    pub script: Option<PathBuf>,
 }
 
-/// The robot files beside a report.
+/// The files beside a report.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct RobotFiles<'a> {
+pub struct Beside<'a> {
     /// With its numbers re-fitted within their stated uncertainty; none where no model was fitted.
     pub refitted: Option<&'a str>,
     /// With the causes written in; none where none was named.
     pub corrected: Option<&'a str>,
+    /// The script to play next; none where nothing is open that a script tells apart.
+    pub script: Option<&'a str>,
 }
 
-/// Puts `report.json`, `report.html` and the robot files that there are into the folder, which is made where it is not there. A
-/// robot file of an older report that this one does not have is taken away.
+/// Puts `report.json`, `report.html` and the files beside them that there are into the folder, which is made where it is not
+/// there. A file of an older report that this one does not have is taken away.
 ///
 /// An error says which path, why, and how to mend it.
-pub fn write(dir: &Path, report: &Report, html: &str, robots: RobotFiles<'_>) -> Result<Written> {
+pub fn write(dir: &Path, report: &Report, html: &str, beside: Beside<'_>) -> Result<Written> {
     let json = report.to_json().map_err(|why| unwritable(&why.into(), &dir.join("report.json")))?;
-    let own = [("refitted_robot.toml", robots.refitted), ("corrected_robot.toml", robots.corrected)];
+    let own =
+        [("refitted_robot.toml", beside.refitted), ("corrected_robot.toml", beside.corrected), (SCRIPT, beside.script)];
     let there = own.iter().filter_map(|(name, text)| text.map(|text| (*name, text)));
     let files: Vec<(&str, &str)> =
         [("report.json", json.as_str()), ("report.html", html)].into_iter().chain(there).collect();
@@ -49,8 +55,8 @@ pub fn write(dir: &Path, report: &Report, html: &str, robots: RobotFiles<'_>) ->
             _ => {}
         }
     }
-    let [refitted, corrected] = own.map(|(name, text)| text.map(|_| place(name)));
-    Ok(Written { json: place("report.json"), html: place("report.html"), refitted, corrected })
+    let [refitted, corrected, script] = own.map(|(name, text)| text.map(|_| place(name)));
+    Ok(Written { json: place("report.json"), html: place("report.html"), refitted, corrected, script })
 }
 
 /// Puts files into the folder, which is made where it is not there, and says where they stand; the error is as for [`write()`].
@@ -108,12 +114,16 @@ mod tests {
     }
 
     #[test]
-    fn four_files_stand_in_a_folder_that_was_not_there() {
+    fn five_files_stand_in_a_folder_that_was_not_there() {
         let root = tempfile::tempdir().unwrap();
         let dir = root.path().join("deep/out");
-        let robots = RobotFiles { refitted: Some("name = \"y\"\n"), corrected: Some("name = \"x\"\n") };
+        let robots =
+            Beside { refitted: Some("name = \"y\"\n"), corrected: Some("name = \"x\"\n"), script: Some("t_s\n") };
         let written = write(&dir, &sample::effect(), "<html></html>", robots).unwrap();
-        assert_eq!(names(&dir), ["corrected_robot.toml", "refitted_robot.toml", "report.html", "report.json"]);
+        assert_eq!(
+            names(&dir),
+            ["corrected_robot.toml", "next_experiment.csv", "refitted_robot.toml", "report.html", "report.json"]
+        );
         assert_eq!(std::fs::read_to_string(written.corrected.unwrap()).unwrap(), "name = \"x\"\n");
         let back: Report = serde_json::from_str(&std::fs::read_to_string(written.json).unwrap()).unwrap();
         assert_eq!(back, sample::effect());
@@ -122,7 +132,8 @@ mod tests {
     #[test]
     fn a_second_report_replaces_the_first() {
         let root = tempfile::tempdir().unwrap();
-        let [one, two] = [Some("one"), None].map(|corrected| RobotFiles { refitted: Some("same"), corrected });
+        let [one, two] =
+            [Some("one"), None].map(|corrected| Beside { refitted: Some("same"), corrected, script: corrected });
         write(root.path(), &sample::effect(), "one", one).unwrap();
         std::fs::write(root.path().join("notes.txt"), "mine").unwrap();
         let written = write(root.path(), &sample::no_gap(), "two", two).unwrap();
@@ -137,7 +148,7 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let path = root.path().join("out");
         std::fs::write(&path, "mine").unwrap();
-        let error = write(&path, &sample::effect(), "", RobotFiles::default()).unwrap_err().to_string();
+        let error = write(&path, &sample::effect(), "", Beside::default()).unwrap_err().to_string();
         assert!(error.starts_with(path.to_str().unwrap()) && error.contains("is a file") && error.contains("--out"));
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
     }
@@ -146,7 +157,7 @@ mod tests {
     fn a_name_that_is_taken_by_a_folder_leaves_nothing_behind() {
         let root = tempfile::tempdir().unwrap();
         std::fs::create_dir(root.path().join("report.json")).unwrap();
-        let error = write(root.path(), &sample::effect(), "", RobotFiles::default()).unwrap_err().to_string();
+        let error = write(root.path(), &sample::effect(), "", Beside::default()).unwrap_err().to_string();
         assert!(error.contains("report.json: cannot be written"), "{error}");
         assert_eq!(names(root.path()), ["report.json"]);
     }
