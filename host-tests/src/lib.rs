@@ -40,6 +40,7 @@ pub mod carried;
 pub mod catalogue;
 pub mod confusion;
 pub mod costs;
+pub mod designs;
 pub mod emulator;
 pub mod excitation;
 pub mod fit_case;

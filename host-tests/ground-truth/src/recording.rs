@@ -68,12 +68,34 @@ impl Session {
 
     /// The same, logged as it may be.
     pub fn logged((file, setup): (&RobotFile, &Setup), plan: &Plan, logging: &Logging, seed: u64) -> Self {
+        let driven = |seed| Run::driven((file, setup), plan, logging, seed);
+        Self::of_runs((file, plan, logging), seed, driven)
+    }
+
+    /// The same of a script: volts on each motor, row by row at so many rows a second [1/s], that is played in every run.
+    pub fn played(
+        (file, setup): (&RobotFile, &Setup),
+        plan: &Plan,
+        logging: &Logging,
+        (volts, rate): (&[Vec<f64>], f64),
+        seed: u64,
+    ) -> Self {
+        let at = |time: f64| volts[((time * rate + 1e-9) as usize).min(volts.len() - 1)].clone();
+        let played = |seed| Run::commanded((file, setup), plan, logging, seed, |time, _| at(time));
+        Self::of_runs((file, plan, logging), seed, played)
+    }
+
+    fn of_runs<'a>(
+        (file, plan, logging): (&RobotFile, &Plan, &Logging),
+        seed: u64,
+        recorded: impl Fn(u64) -> Run<'a>,
+    ) -> Self {
         let mut of_clock = Drawn::new(seed ^ OF_OFFSET);
         let magnitude = of_clock.log_between(KNOWN_S.0, KNOWN_S.1);
         let known = if of_clock.below(2) == 0 { magnitude } else { -magnitude };
         let run = |k: usize| {
             let seed = seed.wrapping_mul(1000).wrapping_add(k as u64);
-            let run = Run::driven((file, setup), plan, logging, seed);
+            let run = recorded(seed);
             match logging.camera.filter(|_| logging.pose) {
                 None => vec![(format!("run{k}.csv"), run.rows())],
                 Some(clock) => {
@@ -129,9 +151,20 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn driven((file, setup): (&'a RobotFile, &Setup), plan: &'a Plan, logging: &'a Logging, seed: u64) -> Self {
+        let mut driver = Driver::new(file, plan.voltage, plan.style, seed);
+        Self::commanded((file, setup), plan, logging, seed, |time, pose| driver.command(time, pose))
+    }
+
+    /// By what a command says at a time [s] and a pose [m, m, rad].
+    fn commanded(
+        (file, setup): (&'a RobotFile, &Setup),
+        plan: &'a Plan,
+        logging: &'a Logging,
+        seed: u64,
+        mut command: impl FnMut(f64, [f64; 3]) -> Vec<f64>,
+    ) -> Self {
         let row = 1.0 / plan.rate;
         let pace = Pace { row, steps: (row / setup.step()).ceil() as usize };
-        let mut driver = Driver::new(file, plan.voltage, plan.style, seed);
         let count = (plan.duration * plan.rate).round() as usize;
         let mut setup = setup.clone().begun_at(Drawn::new(seed ^ OF_CLOCK).between(0.0, DAY));
         if let Some(unrest) = &plan.unrest {
@@ -140,7 +173,7 @@ impl<'a> Run<'a> {
             setup.robot.surroundings.unrest = Some(forces);
         }
         let rows = Rows::jittered(pace, count, logging.jitter, &mut Drawn::new(seed ^ OF_ROWS));
-        let (readings, track) = drive_on(&setup, &rows, |k, moving| driver.command(rows.times()[k], moving.pose()));
+        let (readings, track) = drive_on(&setup, &rows, |k, moving| command(rows.times()[k], moving.pose()));
         Self { file, setup, plan, logging, seed, readings, track }
     }
 
