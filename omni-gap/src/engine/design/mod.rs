@@ -122,10 +122,11 @@ impl<const N: usize> Bench<'_, N> {
             then: then[best][k],
             plays: self.plays(now[k], then[best][k], self.asked.needed(k)),
         };
+        let questions = self.asked.names().into_iter().enumerate().map(question).collect();
         let design = Design {
             robot: self.file.name.clone(),
             aim: self.asked.aim,
-            questions: self.asked.names().into_iter().enumerate().map(question).collect(),
+            questions,
             suspects: self.asked.told.clone(),
             script: chosen,
             tried: then.len(),

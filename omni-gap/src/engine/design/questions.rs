@@ -6,8 +6,9 @@ use model_core::effects::card::Scope;
 use super::suspects::{cause_of, fitted, wrong_by};
 use crate::engine::findings::{Aim, DesignSuspect, Estimate, Which};
 use crate::engine::knobs::DesignKnobs;
-use crate::engine::selftest::{Column, Left, Standing, Suspect, of_effect, of_number, put};
+use crate::engine::selftest::{Column, Left, Suspect, of_effect, of_number, put};
 use crate::engine::stepwise::{Cause, has_a_say};
+use crate::identify::Prior;
 use crate::log::RobotFile;
 use crate::simulate::{Chain, EffectInstance};
 
@@ -30,6 +31,7 @@ pub(super) struct Asked<'a> {
     times: Vec<f64>,
     asks: Vec<Asks>,
     file: &'a RobotFile,
+    prior: Prior,
     knobs: &'a DesignKnobs,
 }
 
@@ -52,6 +54,7 @@ impl<'a> Asked<'a> {
             times: Vec::new(),
             asks: Vec::new(),
             file,
+            prior: Prior::stated(file),
             knobs,
         };
         match aim {
@@ -135,12 +138,26 @@ impl<'a> Asked<'a> {
         self.asks.iter().map(names).collect()
     }
 
-    /// By how much scores have to differ for an answer [1]: what is no tie, or what convinces.
+    /// By how much scores have to differ in the mean [1] so that in most recordings they differ by what is no tie, or by what
+    /// convinces.
+    ///
+    /// ```text
+    /// D ~ N(Δ, 4·Δ)    Δ − 2·z·√Δ = asked  →  √Δ = z + √(z² + asked)      z: standard errors that are sure
+    /// ```
     pub fn needed(&self, question: usize) -> f64 {
+        let z = self.knobs.sure_errors;
+        (z + (z * z + self.asked(question)).sqrt()).powi(2)
+    }
+
+    /// By how much scores have to differ for an answer [1]: what is no tie, or what convinces.
+    fn asked(&self, question: usize) -> f64 {
         let search = &self.knobs.selftest.engine.search;
         match self.asks[question] {
             Asks::Apart(..) => search.tie,
-            Asks::Shows(_) => search.convincing,
+            Asks::Shows(a) => {
+                let freedom = self.suspects[a].cause.freedom(&self.prior) as f64;
+                search.convincing + (search.convincing_each + search.price_of_freedom) * freedom
+            }
         }
     }
 
@@ -148,20 +165,18 @@ impl<'a> Asked<'a> {
     pub fn differences(&self, left: &Left) -> Vec<f64> {
         let knobs = &self.knobs.selftest;
         let held = 1.0 / knobs.engine.layout.hold_out_every as f64;
-        let missed = |a: usize, b: usize| {
-            let (cause, rival) = (&self.suspects[a], &self.suspects[b]);
-            left.counts(cause.typical, held) * left.beside(cause, rival, knobs.regular) * self.times[a].powi(2)
-        };
-        let standing = match self.aim {
-            Aim::TellApart => Vec::new(),
-            Aim::Show => Standing::of_all(&self.suspects, left, self.file, knobs, |_| None),
-        };
-        let difference = |(k, asks): (usize, &Asks)| match *asks {
+        let square = |a: usize| self.times[a].powi(2);
+        // what is left of a beside a rival is measured, whatever part of a violates what was stated
+        let missed =
+            |a: usize, b: usize| held * square(a) * left.beside(&self.suspects[a], &self.suspects[b], knobs.regular);
+        let difference = |asks: &Asks| match *asks {
             Asks::Apart(a, b) => missed(a, b).min(missed(b, a)),
-            // what is needed to be taken up counts as what convinces
-            Asks::Shows(a) => self.needed(k) * standing[a].size / standing[a].needed,
+            Asks::Shows(a) => {
+                let column = self.suspects[a].typical;
+                left.counts(column, held) * square(a) * left.size_of(column)
+            }
         };
-        self.asks.iter().enumerate().map(difference).collect()
+        self.asks.iter().map(difference).collect()
     }
 
     /// What answers are worth together: of each question how many times what it needs, up to enough of it, as logarithms.

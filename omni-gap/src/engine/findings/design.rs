@@ -59,7 +59,7 @@ pub struct Question {
     pub cause: String,
     /// The rival; none: whether it shows.
     pub rival: Option<String>,
-    /// By how much scores have to differ for an answer [1]
+    /// By how much scores have to differ in the mean, so that most recordings answer it [1]
     pub needed: f64,
     /// By how much they do in the recordings so far, by the models [1]
     pub now: f64,

@@ -22,6 +22,8 @@ pub struct DesignKnobs {
     pub random: usize,
     /// Rows of the recordings so far that are looked at, at the most [rows]; the rest is taken to be like them.
     pub most_rows: usize,
+    /// Standard errors of a difference of scores by which it has to be above what is asked [1]: in four recordings of five it is.
+    pub sure_errors: f64,
     /// A question counts no more than so many times what it needs [1]: beyond that the others matter more.
     pub enough_times: f64,
     /// A script that has to be played more often than this answers nothing [runs]: an hour of anybody's time.
@@ -47,6 +49,7 @@ impl Default for DesignKnobs {
             voltages: vec![1.0, 0.5],
             random: 3,
             most_rows: 20_000,
+            sure_errors: 0.84,
             enough_times: 9.0,
             most_plays: 12,
             nearest: 3,

@@ -29,6 +29,5 @@ pub use judge::{confusion, selftest};
 pub(super) use laid::{Laid, Look};
 pub(super) use left::Left;
 pub use sensors::Sensors;
-pub(super) use standing::Standing;
 pub(super) use suspects::{Column, Suspect, of_effect, of_number, put};
 pub use verify::verify;

@@ -12,7 +12,7 @@ use crate::identify::Prior;
 use crate::log::RobotFile;
 
 /// How a suspect of typical size stands in the channels of one set.
-pub(in crate::engine) struct Standing {
+pub(super) struct Standing {
     /// |s⊥|² [σ²]
     pub size: f64,
     /// What the engine would ask of it [σ²]

@@ -45,6 +45,13 @@ pub(super) fn script(script: &ChosenScript) -> String {
     format!("{seconds} s of {told} up to {volts} V, {rate} rows a second; {what}")
 }
 
+/// The questions, what the script answers first.
+pub(super) fn in_order(design: &Design) -> Vec<&Question> {
+    let mut all: Vec<&Question> = design.questions.iter().collect();
+    all.sort_by_key(|question| question.plays.unwrap_or(usize::MAX));
+    all
+}
+
 /// How a question reads.
 pub(super) fn asks(question: &Question) -> String {
     match &question.rival {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::DesignReport;
-use super::phrases::{asks, headline, measure, nothing_to_play, script, worth};
+use super::phrases::{asks, headline, in_order, measure, nothing_to_play, script, worth};
 use crate::engine::findings::{Aim, Design};
 use crate::report::columns::table;
 use crate::report::instructions::floor_in_words;
@@ -53,7 +53,7 @@ fn going_on(page: &mut Page, report: &DesignReport, design: &Design) {
 
 /// The difference of scores that each question needs, and has.
 fn questions(out: &mut String, design: &Design) {
-    let lines: Vec<Vec<String>> = design.questions.iter().take(LISTED).map(line).collect();
+    let lines: Vec<Vec<String>> = in_order(design).into_iter().take(LISTED).map(line).collect();
     let what = if design.aim == Aim::Show { "By how much it would show" } else { "By how much scores would differ" };
     out.push_str(&format!("\n{what}\n"));
     table(out, &HEADS, &lines);

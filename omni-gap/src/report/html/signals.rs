@@ -7,6 +7,11 @@ use crate::report::picture::{Pictures, chart, ink};
 
 /// Every panel under one legend.
 pub(in crate::report) fn charts(m: &mut Markup, pictures: &Pictures) {
+    charts_under(m, "What the signals say", pictures);
+}
+
+/// The same under another heading.
+pub(in crate::report) fn charts_under(m: &mut Markup, heading: &str, pictures: &Pictures) {
     if pictures.panels.is_empty() {
         return;
     }
@@ -17,7 +22,7 @@ pub(in crate::report) fn charts(m: &mut Markup, pictures: &Pictures) {
     };
     let caption = phrases::open_ended(&pictures.caption);
     let stop = if caption.is_empty() { "" } else { "." };
-    section(m, "What the signals say", &format!("{caption}{stop}{restarts}"), |m| {
+    section(m, heading, &format!("{caption}{stop}{restarts}"), |m| {
         let mut names: Vec<(&str, String)> = Vec::new();
         for panel in &pictures.panels {
             for (at, series) in panel.series.iter().enumerate() {
