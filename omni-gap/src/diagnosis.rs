@@ -8,11 +8,10 @@ use std::borrow::Cow;
 use crate::check::{self, checked};
 use crate::engine::design::design;
 use crate::engine::evidence::Unfit;
-use crate::engine::findings::FileChanges;
+use crate::engine::findings::{FileChanges, NextExperiment};
 use crate::engine::knobs::DesignKnobs;
 use crate::engine::{Engine, Evidence, Findings, Knobs, Stepwise};
 use crate::log::{Run, Session, corrected};
-use crate::report::design::SCRIPT;
 use crate::report::{About, Fault, Pictures, Report, settled};
 use crate::vocabulary::Progress;
 
@@ -195,7 +194,7 @@ fn next_run(session: &Session, findings: &mut Findings, knobs: &Knobs, progress:
     of.selftest.engine = knobs.clone();
     let script = design(session, findings, &of)?.to_play().cloned();
     if let (Some(next), Some(_)) = (&mut findings.next_experiment, &script) {
-        next.file = Some(SCRIPT.to_owned());
+        next.file = Some(NextExperiment::FILE.to_owned());
     }
     script
 }

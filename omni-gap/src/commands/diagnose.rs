@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use omni_gap::engine::Knobs;
 use omni_gap::report::design::script_csv;
-use omni_gap::report::{self, Beside, Written};
+use omni_gap::report::{self, Beside, NextExperiment, Written};
 use omni_gap::simulate::HORIZON_S;
 use omni_gap::{Diagnosis, Options, Report, Session};
 
@@ -44,7 +44,7 @@ pub struct Diagnose {
 
 /// The files of a report.
 pub const FILES: [&str; 5] =
-    ["report.json", "report.html", "refitted_robot.toml", "corrected_robot.toml", "next_experiment.csv"];
+    ["report.json", "report.html", "refitted_robot.toml", "corrected_robot.toml", NextExperiment::FILE];
 
 impl Diagnose {
     /// Does it.

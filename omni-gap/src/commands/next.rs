@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use omni_gap::api::{DesignKnobs, next};
 use omni_gap::engine::Knobs;
-use omni_gap::report::design::{self as report, DesignReport, FILES, SCHEMA, SCRIPT};
+use omni_gap::report::NextExperiment;
+use omni_gap::report::design::{self as report, DesignReport, FILES, SCHEMA};
 use omni_gap::{Options, Session};
 
 use super::causes::all_known;
@@ -92,7 +93,7 @@ impl Next {
             verdict: said.verdict,
             causes: said.causes,
             by_hand: said.next_experiment.map(|next| next.why).filter(|why| !why.is_empty()),
-            file: script.as_ref().map(|_| SCRIPT.to_owned()),
+            file: script.as_ref().map(|_| NextExperiment::FILE.to_owned()),
             design: designed.map(|designed| designed.design),
         };
         Ok((report, script))

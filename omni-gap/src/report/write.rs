@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::design::SCRIPT;
 use super::model::Report;
+use crate::engine::findings::NextExperiment;
 use crate::error::{Error, Result};
 
 const NAME_ANOTHER: &str = "Name another folder with --out";
@@ -42,8 +42,11 @@ pub struct Beside<'a> {
 /// An error says which path, why, and how to mend it.
 pub fn write(dir: &Path, report: &Report, html: &str, beside: Beside<'_>) -> Result<Written> {
     let json = report.to_json().map_err(|why| unwritable(&why.into(), &dir.join("report.json")))?;
-    let own =
-        [("refitted_robot.toml", beside.refitted), ("corrected_robot.toml", beside.corrected), (SCRIPT, beside.script)];
+    let own = [
+        ("refitted_robot.toml", beside.refitted),
+        ("corrected_robot.toml", beside.corrected),
+        (NextExperiment::FILE, beside.script),
+    ];
     let there = own.iter().filter_map(|(name, text)| text.map(|text| (*name, text)));
     let files: Vec<(&str, &str)> =
         [("report.json", json.as_str()), ("report.html", html)].into_iter().chain(there).collect();

@@ -22,6 +22,7 @@ pub(super) struct Site {
     camera_rate: f64,
     voltage: f64,
     field: f64,
+    seed: u64,
 }
 
 /// A script, and what would be recorded of it.
@@ -32,11 +33,6 @@ pub(super) struct Candidate<const N: usize> {
     pub recorded: AlignedRun<N>,
 }
 
-/// Rows a second of a script, at the least and at the most, whatever the log's [1/s]: what it asks for lasts longer than a row, and
-/// more rows cost time.
-const RATES: (f64, f64) = (20.0, 200.0);
-/// Seeds of random motion, and of the noise of what is recorded.
-const SEED: u64 = 1;
 /// The name of the run.
 const NAME: &str = "next_experiment";
 
@@ -61,10 +57,11 @@ impl Site {
             logged: SignalGroup::ALL.into_iter().filter(|group| laid.iter().any(|run| run.has_group(*group))).collect(),
             chain: laid[0].chain,
             logged_at: rows,
-            rate: rows.clamp(RATES.0, RATES.1),
+            rate: rows.clamp(knobs.rates.0, knobs.rates.1),
             camera_rate: each(&|run| first(&run.pose)),
             voltage: knobs.voltage.unwrap_or(if seen > 0.0 { seen } else { usual_voltage(file) }),
             field: knobs.field.or(file.limits.and_then(|limits| limits.field_m)).unwrap_or(USUAL_FIELD),
+            seed: knobs.seed,
         }
     }
 
@@ -100,7 +97,7 @@ impl Site {
     ) -> Option<(Run, AlignedRun<N>)> {
         let plant = model.plant();
         let t = (0..volts.len()).map(|row| row as f64 / self.rate).collect();
-        let mut plan = RunPlan { name: NAME.to_owned(), t, input: volts, how: self.how(file), seed: SEED };
+        let mut plan = RunPlan { name: NAME.to_owned(), t, input: volts, how: self.how(file), seed: self.seed };
         if self.chain == Chain::SetSpeed {
             let sensors = SensorsFile { wheel_speed_noise_rad_s: 0.0, ..file.sensors };
             let quiet = RunPlan { how: SensorSetup { sensors, ..plan.how }, ..plan.clone() }.recorded_of(&plant);
@@ -173,6 +170,7 @@ pub(super) fn random<const N: usize>(
     knobs: &DesignKnobs,
 ) -> Vec<AlignedRun<N>> {
     let wish = Excitation { duration: knobs.duration, rate: site.rate, voltage: site.voltage };
-    let drawn = |seed: u64| excite(&model.robot().wheels, &wish, SEED + seed).into_iter().map(Input::Voltage).collect();
+    let drawn =
+        |seed: u64| excite(&model.robot().wheels, &wish, knobs.seed + seed).into_iter().map(Input::Voltage).collect();
     (0..knobs.random as u64).filter_map(|seed| Some(site.recorded(model, file, drawn(seed))?.1)).collect()
 }

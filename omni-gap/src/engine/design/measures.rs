@@ -3,7 +3,7 @@
 use model_core::effects::nominal;
 use model_core::plant::robot::Nominal;
 
-use super::Bench;
+use super::bench::Bench;
 use crate::engine::findings::Measure;
 use crate::engine::selftest::mask;
 use crate::engine::stepwise::Cause;

@@ -11,8 +11,9 @@
 //! ```
 //!
 //! Where nothing is open, the same is asked of effects that the recordings could not have shown at their typical size. What is
-//! measured by hand (a number of the robot file) or by a further sensor is weighed on the same scale ([`measures`]).
+//! measured by hand (a number of the robot file) or by a further sensor is weighed on the same scale.
 
+mod bench;
 mod candidates;
 mod measures;
 mod questions;
@@ -22,10 +23,10 @@ use rayon::prelude::*;
 
 use super::findings::{Design, Findings, Measure, Question};
 use super::knobs::DesignKnobs;
-use super::selftest::{Laid, Look};
-use crate::identify::Prior;
+use super::selftest::Laid;
 use crate::log::{RobotFile, Run, Session};
 use crate::simulate::{AlignedRun, MAX_CHANNELS, Model, supply_seen};
+use bench::Bench;
 use candidates::{Candidate, Site};
 use questions::Asked;
 
@@ -56,17 +57,6 @@ pub fn design(session: &Session, found: &Findings, knobs: &DesignKnobs) -> Optio
     }
 }
 
-/// A robot, its recordings so far, and what is asked of further ones.
-struct Bench<'a, const N: usize> {
-    file: &'a RobotFile,
-    asked: Asked<'a>,
-    site: Site,
-    /// The recordings so far.
-    laid: Laid<'a, N>,
-    before: Look,
-    knobs: &'a DesignKnobs,
-}
-
 fn of_wheels<const N: usize>(session: &Session, found: &Findings, knobs: &DesignKnobs) -> Option<Designed> {
     let recorded: Vec<&Run> = session.runs.iter().chain(&session.heldout).collect();
     let so_far: Vec<AlignedRun<N>> = recorded.iter().filter_map(|run| AlignedRun::new(run, &session.robot)).collect();
@@ -80,7 +70,7 @@ fn of_wheels<const N: usize>(session: &Session, found: &Findings, knobs: &Design
     let before = laid.look(&asked.columns, u16::MAX).times(&[times; MAX_CHANNELS]);
     let asked = asked.unanswered(&laid.left_of(&before, laid.stated()))?;
     let site = Site::of(&recorded, &so_far, &file, knobs);
-    Bench { file: &file, asked, site, laid, before, knobs }.designed()
+    designed(&Bench { file: &file, asked, site, laid, before, knobs })
 }
 
 /// The first runs that have this many rows together, laid out, and how many times as many there are.
@@ -97,64 +87,38 @@ fn first_rows<const N: usize>(runs: &[&Run], file: &RobotFile, most: usize) -> (
     (first, rows as f64 / taken.max(1) as f64)
 }
 
-impl<const N: usize> Bench<'_, N> {
-    fn designed(self) -> Option<Designed> {
-        let candidates = candidates::candidates(&self.laid.model, self.file, &self.site, self.knobs);
-        let then: Vec<Vec<f64>> = candidates.par_iter().map(|tried| self.with(&tried.recorded)).collect();
-        let best =
-            (0..then.len()).max_by(|a, b| self.asked.worth(&then[*a]).total_cmp(&self.asked.worth(&then[*b])))?;
-        let random = candidates::random(&self.laid.model, self.file, &self.site, self.knobs);
-        let random: Vec<Vec<f64>> = random.par_iter().map(|run| self.with(run)).collect();
-        let now = self.differences(&self.before, self.laid.stated());
-        let Candidate { chosen, script, recorded } = candidates.into_iter().nth(best)?;
-        let measures = measures::measures(&self, &recorded, [&now, &then[best]]);
-        let median = |k: usize| {
-            let mut all: Vec<f64> = random.iter().map(|differences| differences[k]).collect();
-            all.sort_by(f64::total_cmp);
-            all[all.len() / 2]
-        };
-        let question = |(k, (cause, rival)): (usize, (String, Option<String>))| Question {
-            cause,
-            rival,
-            needed: self.asked.needed(k),
-            now: now[k],
-            random: median(k),
-            then: then[best][k],
-            plays: self.plays(now[k], then[best][k], self.asked.needed(k)),
-        };
-        let questions = self.asked.names().into_iter().enumerate().map(question).collect();
-        let design = Design {
-            robot: self.file.name.clone(),
-            aim: self.asked.aim,
-            questions,
-            suspects: self.asked.told.clone(),
-            script: chosen,
-            tried: then.len(),
-            measures,
-        };
-        Some(Designed { design, script })
-    }
-
-    /// How often something has to be played that brings a difference of scores from here to there, for what is needed.
-    fn plays(&self, now: f64, then: f64, needed: f64) -> Option<usize> {
-        let plays = if then >= needed { 1.0 } else { ((needed - now) / (then - now)).ceil() };
-        (then > now && plays <= self.knobs.most_plays as f64).then_some(plays as usize)
-    }
-
-    /// By how much scores would differ with a further recording, question by question.
-    fn with(&self, run: &AlignedRun<N>) -> Vec<f64> {
-        self.with_channels(run, self.site.mask::<N>())
-    }
-
-    fn with_channels(&self, run: &AlignedRun<N>, mask: u16) -> Vec<f64> {
-        let runs = std::slice::from_ref(run);
-        let laid = Laid::new(self.file, self.laid.model.clone(), runs, &self.knobs.selftest);
-        let look = laid.look(&self.asked.columns, mask).times(&self.site.samples_a_row::<N>()).and(&self.before);
-        self.differences(&look, laid.stated())
-    }
-
-    /// Of a look, with the numbers of the robot held by what is stated.
-    fn differences(&self, look: &Look, stated: &Prior) -> Vec<f64> {
-        self.asked.differences(&self.laid.left_of(look, stated))
-    }
+fn designed<const N: usize>(bench: &Bench<'_, N>) -> Option<Designed> {
+    let candidates = candidates::candidates(&bench.laid.model, bench.file, &bench.site, bench.knobs);
+    let then: Vec<Vec<f64>> = candidates.par_iter().map(|tried| bench.with(&tried.recorded)).collect();
+    let best = (0..then.len()).max_by(|a, b| bench.asked.worth(&then[*a]).total_cmp(&bench.asked.worth(&then[*b])))?;
+    let random = candidates::random(&bench.laid.model, bench.file, &bench.site, bench.knobs);
+    let random: Vec<Vec<f64>> = random.par_iter().map(|run| bench.with(run)).collect();
+    let now = bench.differences(&bench.before, bench.laid.stated());
+    let Candidate { chosen, script, recorded } = candidates.into_iter().nth(best)?;
+    let measures = measures::measures(bench, &recorded, [&now, &then[best]]);
+    let median = |k: usize| {
+        let mut all: Vec<f64> = random.iter().map(|differences| differences[k]).collect();
+        all.sort_by(f64::total_cmp);
+        all.get(all.len() / 2).copied().unwrap_or_default()
+    };
+    let question = |(k, (cause, rival)): (usize, (String, Option<String>))| Question {
+        cause,
+        rival,
+        needed: bench.asked.needed(k),
+        now: now[k],
+        random: median(k),
+        then: then[best][k],
+        plays: bench.plays(now[k], then[best][k], bench.asked.needed(k)),
+    };
+    let questions = bench.asked.names().into_iter().enumerate().map(question).collect();
+    let design = Design {
+        robot: bench.file.name.clone(),
+        aim: bench.asked.aim,
+        questions,
+        suspects: bench.asked.told.clone(),
+        script: chosen,
+        tried: then.len(),
+        measures,
+    };
+    Some(Designed { design, script })
 }

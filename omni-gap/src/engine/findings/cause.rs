@@ -59,6 +59,11 @@ pub struct Corrected {
     pub std: Option<f64>,
 }
 
+impl NextExperiment {
+    /// The file with the input to play, beside a report.
+    pub const FILE: &'static str = "next_experiment.csv";
+}
+
 /// The run that would tell apart what this session could not.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NextExperiment {

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::write::{put, unwritable};
-use crate::engine::findings::Design;
+use crate::engine::findings::{Design, NextExperiment};
 use crate::error::Result;
 use crate::log::Run;
 use crate::vocabulary::Verdict;
@@ -23,11 +23,8 @@ pub use terminal::terminal;
 /// The version of the form of `next.json` that this program writes.
 pub const SCHEMA: u32 = 1;
 
-/// The file with the input to play.
-pub const SCRIPT: &str = "next_experiment.csv";
-
 /// The files of a design; of one with nothing to play the first two.
-pub const FILES: [&str; 3] = ["next.json", "next.html", SCRIPT];
+pub const FILES: [&str; 3] = ["next.json", "next.html", NextExperiment::FILE];
 
 /// What to record or measure next.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,9 +53,6 @@ impl DesignReport {
 }
 
 /// The text of the script's file.
-///
-/// # Errors
-/// None: a text takes what is written to it.
 pub fn script_csv(script: &Run) -> String {
     let mut text = Vec::new();
     script.write_csv(&mut text).expect("a text takes what is written to it");
