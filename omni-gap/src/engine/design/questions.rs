@@ -6,7 +6,7 @@ use model_core::effects::card::Scope;
 use super::suspects::{cause_of, fitted, wrong_by};
 use crate::engine::findings::{Aim, DesignSuspect, Estimate, Which};
 use crate::engine::knobs::DesignKnobs;
-use crate::engine::selftest::{Column, Left, Suspect, of_effect, of_number, put};
+use crate::engine::selftest::{Column, Left, Remainder, Suspect, of_effect, of_number, put};
 use crate::engine::stepwise::{Cause, has_a_say};
 use crate::identify::Prior;
 use crate::log::RobotFile;
@@ -166,9 +166,11 @@ impl<'a> Asked<'a> {
         let knobs = &self.knobs.selftest;
         let held = 1.0 / knobs.engine.layout.hold_out_every as f64;
         let square = |a: usize| self.times[a].powi(2);
-        // what is left of a beside a rival is measured, whatever part of a violates what was stated
-        let missed =
-            |a: usize, b: usize| held * square(a) * left.beside(&self.suspects[a], &self.suspects[b], knobs.regular);
+        // what is measured counts by the runs that are held out, what was stated counts whole
+        let missed = |a: usize, b: usize| {
+            let Remainder { all, stated } = left.remainder(&self.suspects[a], &self.suspects[b], knobs.regular);
+            (held * (all - stated) + stated) * square(a)
+        };
         let difference = |asks: &Asks| match *asks {
             Asks::Apart(a, b) => missed(a, b).min(missed(b, a)),
             Asks::Shows(a) => {

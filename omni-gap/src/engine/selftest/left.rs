@@ -54,6 +54,14 @@ pub(in crate::engine) struct Left {
     gives: DVector<f64>,
 }
 
+/// What is left of a suspect beside a rival.
+pub(in crate::engine) struct Remainder {
+    /// Of what is measured and what was stated [σ²]
+    pub all: f64,
+    /// Of what was stated alone [σ²]
+    pub stated: f64,
+}
+
 impl Left {
     /// What is left of signatures from which what [`Imitated`] predicts is taken away already.
     pub fn new(overlap: &Overlap, before: &Imitated, held: &Held<'_>) -> Self {
@@ -132,6 +140,11 @@ impl Left {
     /// What is left of a suspect beside the best that a rival can make of its free numbers [σ²]; the rival's own products
     /// are raised by a share so that their equations can be solved.
     pub fn beside(&self, suspect: &Suspect, rival: &Suspect, regular: f64) -> f64 {
+        self.remainder(suspect, rival, regular).all
+    }
+
+    /// The same, and how much of it is what was stated.
+    pub fn remainder(&self, suspect: &Suspect, rival: &Suspect, regular: f64) -> Remainder {
         let free: Vec<usize> = rival.free.clone().collect();
         let mut own = DMatrix::from_fn(free.len(), free.len(), |a, b| self.at(free[a], free[b]));
         let most = own.diagonal().max();
@@ -139,8 +152,10 @@ impl Left {
             own[(k, k)] += regular * most + f64::MIN_POSITIVE;
         }
         let shared = DVector::from_fn(free.len(), |k, _| self.at(free[k], suspect.typical));
-        let imitated = own.cholesky().map_or(0.0, |c| shared.dot(&c.solve(&shared)));
-        (self.size_of(suspect.typical) - imitated).max(0.0)
+        let by = own.cholesky().map_or_else(|| DVector::zeros(free.len()), |c| c.solve(&shared));
+        let all = (self.size_of(suspect.typical) - shared.dot(&by)).max(0.0);
+        let violated = self.violated.column(suspect.typical) - self.violated.select_columns(&free) * &by;
+        Remainder { all, stated: violated.norm_squared().min(all) }
     }
 }
 

@@ -27,7 +27,7 @@ mod view;
 pub(super) use judge::mask;
 pub use judge::{confusion, selftest};
 pub(super) use laid::{Laid, Look};
-pub(super) use left::Left;
+pub(super) use left::{Left, Remainder};
 pub use sensors::Sensors;
 pub(super) use suspects::{Column, Suspect, of_effect, of_number, put};
 pub use verify::verify;
