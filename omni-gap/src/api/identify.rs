@@ -151,7 +151,7 @@ fn identified<const N: usize>(session: &Session) -> Result<Identification> {
         samples: fit.samples,
         runs: runs.len(),
         lacks_something: error_sigma > MORE_THAN_NOISE,
-        robot_text: corrected(&session.robot_text, &fit.model.changes())?,
+        robot_text: corrected(&session.robot_text, &[fit.model.changes(), session.identified()].concat())?,
     })
 }
 

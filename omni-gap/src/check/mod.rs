@@ -5,7 +5,7 @@
 //! beyond what wrong parameters or unmodelled effects can make.
 //!
 //! Reading order: [`Fault`]; `rows` with one file per idea about a single run: `absurd`, `time`, `time_unit`, `frozen`,
-//! `saturated`, `outliers`, `repeated`, `held`, `rectified`, `bunched`, `pushed`; then the relations, judged on all runs of a
+//! `saturated`, `outliers`, `repeated`, `held`, `rectified`, `bunched`, `pushed`, `rate`; then the relations, judged on all runs of a
 //! session (`agree`): `motor` (volts, currents and speeds of each wheel, from the sums in `gram`; `duty`) and `pose` (wheels
 //! against the pose, over `windows`, with the guesses of `frame`; `quaternion`); then the session as a whole: `same` and
 //! `enough`; `grouped` tells once what many runs share. A run of files with a clock each is looked at as `clocks` has it. `order` lists the ways in which wheels can have changed places,
@@ -34,6 +34,7 @@ mod pose;
 mod pushed;
 mod quaternion;
 mod ranked;
+mod rate;
 mod rectified;
 mod repeated;
 mod rows;

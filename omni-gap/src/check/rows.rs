@@ -1,6 +1,8 @@
 //! The checks that look at one run, row by row.
 
-use super::{Fault, absurd, bunched, frozen, held, outliers, pushed, rectified, repeated, saturated, time, time_unit};
+use super::{
+    Fault, absurd, bunched, frozen, held, outliers, pushed, rate, rectified, repeated, saturated, time, time_unit,
+};
 use crate::log::{RobotFile, Run};
 
 pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
@@ -21,5 +23,6 @@ pub(super) fn check(run: &Run, robot: &RobotFile) -> Vec<Fault> {
     faults.extend(rectified::check(run, robot));
     faults.extend(bunched::check(run, robot));
     faults.extend(pushed::check(run, robot));
+    faults.extend(rate::check(run, robot));
     faults
 }

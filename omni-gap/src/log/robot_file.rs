@@ -122,6 +122,13 @@ impl Default for SensorsFile {
     }
 }
 
+/// What the numbers were identified from, as `identify` leaves it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct IdentifiedFile {
+    /// Rows a second of its recordings (1/s).
+    pub rate_hz: Option<f64>,
+}
+
 /// The supply.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SupplyFile {
@@ -172,6 +179,9 @@ pub struct RobotFile {
     pub sensors: SensorsFile,
     /// One-sigma relative uncertainties that the file states, by key. Ask [`RobotFile::relative_uncertainty`].
     pub uncertainty: BTreeMap<String, f64>,
+    /// What the numbers were identified from, where they were.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub identified: Option<IdentifiedFile>,
     /// The supply.
     pub supply: Option<SupplyFile>,
     /// Limits for experiments.

@@ -16,7 +16,7 @@ use toml_edit::TableLike;
 /// The newest form of the robot file that this program knows.
 const NEWEST_SCHEMA: usize = 1;
 
-const TOP: [&str; 12] = [
+const TOP: [&str; 13] = [
     "schema",
     "name",
     "wheel",
@@ -25,6 +25,7 @@ const TOP: [&str; 12] = [
     "friction",
     "sensors",
     "uncertainty",
+    "identified",
     "supply",
     "limits",
     "controller",
@@ -72,6 +73,7 @@ fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
         friction: section("friction", "[friction]")?.map_or(Ok(FrictionFile::default()), |s| friction(&s))?,
         sensors: section("sensors", "[sensors]")?.map_or(Ok(SensorsFile::default()), |s| sensors(&s))?,
         uncertainty: section("uncertainty", "[uncertainty]")?.map_or(Ok(BTreeMap::new()), |s| uncertainty(&s))?,
+        identified: section("identified", "[identified]")?.map(|s| identified(&s)).transpose()?,
         supply: section("supply", "[supply]")?.map(|s| supply(&s)).transpose()?,
         limits: section("limits", "[limits]")?.map(|s| limits(&s)).transpose()?,
         controller: section("controller", "[controller]")?.map(|s| controller(&s)).transpose()?,
@@ -200,6 +202,11 @@ fn uncertainty(s: &Section) -> Result<BTreeMap<String, f64>> {
     s.only_keys(&IN_THE_FILE.map(|number| number.key))?;
     let relative = |key: &str| plausible::bounded(s, key, plausible::RELATIVE, s.not_negative(key, 0.0)?);
     s.table.iter().map(|(key, _)| Ok((key.to_string(), relative(key)?))).collect()
+}
+
+fn identified(s: &Section) -> Result<IdentifiedFile> {
+    s.only_keys(&["rate_hz"])?;
+    Ok(IdentifiedFile { rate_hz: s.number("rate_hz")?.map(|_| s.positive("rate_hz")).transpose()? })
 }
 
 fn supply(s: &Section) -> Result<SupplyFile> {

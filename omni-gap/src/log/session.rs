@@ -2,6 +2,7 @@
 
 use super::catalogue::Catalogue;
 use super::columns::Columns;
+use super::correct::Change;
 use super::entries::entries;
 use super::robot_file::RobotFile;
 use super::run::Run;
@@ -67,6 +68,19 @@ impl Session {
         }
         session.runs = session.read(&paths, columns.as_ref())?;
         Ok(session)
+    }
+
+    /// Rows a second of its runs, the median of them, to the thousandth (1/s); none where it has no runs.
+    pub fn rate_hz(&self) -> Option<f64> {
+        let mut rates: Vec<f64> = self.runs.iter().map(|run| 1.0 / run.median_step_s()).collect();
+        rates.sort_by(f64::total_cmp);
+        rates.get(rates.len() / 2).map(|rate| (1e3 * rate).round() / 1e3).filter(|rate| rate.is_finite())
+    }
+
+    /// What a robot file says of these recordings once its numbers were identified from them.
+    pub fn identified(&self) -> Vec<Change> {
+        let rate = |value| Change::Number { path: "identified.rate_hz".to_owned(), value };
+        self.rate_hz().map(rate).into_iter().collect()
     }
 
     fn of_robot(path: &Path, catalogue: &Catalogue) -> Result<Session> {

@@ -177,6 +177,11 @@ fn identify_writes_a_robot_file_that_fits_and_says_how_sure_it_is() {
     let (nominal, fitted) = (of(&bench.read("session/robot.toml")), of(&bench.read("fitted.toml")));
     assert!((fitted - 4.3111).abs() < 0.2 * (nominal - 4.3111).abs(), "nominal {nominal}, fitted {fitted}");
     bench.done(&["predict", "fitted.toml", RUN, "--out", "p.csv"]);
+    // it says what it was identified from, and `check` holds other recordings to that
+    assert!(bench.read("fitted.toml").contains("[identified]\nrate_hz = 100.0"), "{}", bench.read("fitted.toml"));
+    bench.write("session/robot.toml", &bench.read("fitted.toml").replace("rate_hz = 100.0", "rate_hz = 50.0"));
+    let said = bench.done(&["check", "session"]).out;
+    assert!(said.contains("identified at 50 rows a second, this run has 100"), "{said}");
 }
 
 #[test]

@@ -27,7 +27,7 @@ pub fn run(asked: Asked, given: &GivenSession, out: &Path, json: Option<&Path>, 
     let session = given.load(console)?;
     console.phase("fitting the numbers to the experiments");
     let answer = api::identify_by_experiment(asked, &session, &given.runs_path())?;
-    let text = corrected(&session.robot_text, &answer.changes(&session.robot))?;
+    let text = corrected(&session.robot_text, &[answer.changes(&session.robot), session.identified()].concat())?;
     let mut said = identified_terminal(&answer);
     if let Some(json) = json {
         let text = identified_json(&answer);
