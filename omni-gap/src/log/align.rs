@@ -31,10 +31,11 @@ impl Part {
 }
 
 /// One run of several parts, no two of which have the same signal.
-pub(super) fn aligned(folder: &Path, parts: Vec<Part>) -> Run {
+pub(super) fn aligned(path: &Path, parts: Vec<Part>) -> Run {
     let (t_s, places) = instants(&parts);
-    let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let mut whole = Run { name, path: folder.into(), t_s, ..Run::default() };
+    let name = if path.is_dir() { path.file_name() } else { path.file_stem() };
+    let name = name.unwrap_or_default().to_string_lossy().into_owned();
+    let mut whole = Run { name, path: path.into(), t_s, ..Run::default() };
     let rows = whole.rows();
     for (Part { run, offset_s }, places) in parts.into_iter().zip(places) {
         let columns = run.signals().into_iter().map(|(name, _)| name).collect();

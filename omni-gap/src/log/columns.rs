@@ -2,6 +2,7 @@
 
 use super::file_table::{FileTable, file_tables};
 use super::mapping::{MAPPING_KEYS, Mapping};
+use super::pattern::fits;
 use super::toml_walk::{Section, Source, read_text};
 use crate::error::{InputKind, Result};
 use std::path::Path;
@@ -46,7 +47,7 @@ impl Columns {
 
     /// Whether a folder is itself a run: whether it holds the first file of one.
     pub fn is_run(&self, folder: &Path) -> bool {
-        self.parts.first().is_some_and(|first| names_in(folder).any(|name| fits(&first.name, &name)))
+        self.parts.first().is_some_and(|first| names_in(folder).any(|name| first.takes(&name)))
     }
 }
 
@@ -61,22 +62,6 @@ fn files(top: &Section) -> Result<Vec<String>> {
     };
     let list = item.as_array().and_then(|list| list.iter().map(|v| v.as_str().map(str::to_string)).collect());
     list.ok_or_else(|| top.key_error("files", "expected a list of file name patterns", "Write files = [\"*.csv\"]"))
-}
-
-/// Whether a file name fits a pattern.
-pub(super) fn fits(pattern: &str, name: &str) -> bool {
-    matches(pattern.as_bytes(), name.as_bytes())
-}
-
-/// Whether a name fits a pattern in which `*` stands for any letters and `?` for one.
-fn matches(pattern: &[u8], name: &[u8]) -> bool {
-    match (pattern, name) {
-        ([], []) => true,
-        ([b'*', rest @ ..], _) => (0..=name.len()).any(|at| matches(rest, &name[at..])),
-        ([b'?', rest @ ..], [_, after @ ..]) => matches(rest, after),
-        ([letter, rest @ ..], [first, after @ ..]) => letter == first && matches(rest, after),
-        _ => false,
-    }
 }
 
 #[cfg(test)]

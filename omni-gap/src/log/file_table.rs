@@ -1,19 +1,37 @@
-//! # `[[file]]`: the files of a run that is a folder, and how their clocks lie to each other
+//! # `[[file]]`: the files of a run that is a folder, or the topics of a recording, and how their clocks lie
 
 use super::mapping::{MAPPING_KEYS, Mapping};
+use super::pattern::fits;
+use super::source::holds_topics;
 use super::toml_walk::{Section, tables};
 use crate::error::{InputKind, Result};
 
-/// One file of a run that is a folder.
+/// One file of a run that is a folder, or one topic of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FileTable {
-    /// Its name, or a pattern of it.
-    pub name: String,
+    /// Its name, or a pattern of it; none where a topic is named, of whatever recording there is.
+    pub name: Option<String>,
     /// A run that lacks the file is read without it.
     pub optional: bool,
     pub offset: Offset,
     /// How its columns are to be read.
     pub mapping: Mapping,
+}
+
+impl FileTable {
+    /// Whether a file of this name is meant.
+    pub fn takes(&self, name: &str) -> bool {
+        self.name.as_ref().map_or_else(|| holds_topics(name), |pattern| fits(pattern, name))
+    }
+
+    /// What is meant, in words: a file name, a topic, or both.
+    pub fn title(&self) -> String {
+        match (&self.name, &self.mapping.topic) {
+            (Some(name), None) => format!("`{name}`"),
+            (Some(name), Some(topic)) => format!("`{name}` with topic `{topic}`"),
+            (None, topic) => format!("topic `{}`", topic.as_deref().unwrap_or_default()),
+        }
+    }
 }
 
 /// How a clock lies to the first file's: what is added to its times.
@@ -38,10 +56,11 @@ pub(super) fn file_tables(top: &Section) -> Result<Vec<FileTable>> {
         let span = first.and_then(|(key, item)| key.span().or_else(|| item.span()));
         let section = Section::of(top.source, &title, table, span);
         let file = file_table(&section, k == 0)?;
-        if all.iter().any(|other| other.name == file.name) {
-            let problem = format!("`{}` stands in two [[file]] tables", file.name);
+        let same = |other: &FileTable| other.name == file.name && other.mapping.topic == file.mapping.topic;
+        if all.iter().any(same) {
+            let problem = format!("{} stands in two [[file]] tables", file.title());
             return Err(section
-                .key_error("name", problem, "Keep one of the two, or name another file")
+                .key_error("name", problem, "Keep one of the two, or name another file or topic")
                 .of_kind(InputKind::Conflict));
         }
         all.push(file);
@@ -51,12 +70,15 @@ pub(super) fn file_tables(top: &Section) -> Result<Vec<FileTable>> {
 
 fn file_table(section: &Section, is_first: bool) -> Result<FileTable> {
     section.only_keys(&[&["name", "optional", "offset_s"], &MAPPING_KEYS[..]].concat())?;
-    let Some(name) = section.text("name")? else {
+    let name = section.text("name")?.map(str::to_owned);
+    let mapping = Mapping::of(section)?;
+    if name.is_none() && mapping.topic.is_none() {
+        let fix = "Add name = \"drive.csv\", a pattern of it, or topic = \"/joint_states\" of a recording";
         return Err(section
-            .error(format!("{} lacks `name`", section.title), "Add name = \"drive.csv\", or a pattern of it")
+            .error(format!("{} lacks `name`", section.title), fix)
             .in_column("name")
             .of_kind(InputKind::Missing));
-    };
+    }
     let optional = section.flag("optional")?.unwrap_or(false);
     for key in ["offset_s", "optional"] {
         if is_first && section.table.contains_key(key) {
@@ -66,7 +88,7 @@ fn file_table(section: &Section, is_first: bool) -> Result<FileTable> {
                 .of_kind(InputKind::Conflict));
         }
     }
-    Ok(FileTable { name: name.to_owned(), optional, offset: offset(section)?, mapping: Mapping::of(section)? })
+    Ok(FileTable { name, optional, offset: offset(section)?, mapping })
 }
 
 fn offset(section: &Section) -> Result<Offset> {

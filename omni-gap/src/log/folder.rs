@@ -1,14 +1,15 @@
-//! # A run that is a folder: its files, and how their clocks lie to each other
+//! # A run that is a folder of files, or a recording of topics, and how their clocks lie to each other
 
 use super::align::{Part, aligned};
 use super::clock_offset::{REACH_S, estimate};
-use super::columns::{Columns, fits};
+use super::columns::Columns;
 use super::entries::entries;
 use super::file_table::{FileTable, Offset};
 use super::motion::Motion;
 use super::read::{Needs, open_bridges_apply_nothing, read};
 use super::robot_file::RobotFile;
 use super::run::Run;
+use super::source::holds_topics;
 use crate::error::{Error, InputKind, Result};
 use std::path::{Path, PathBuf};
 
@@ -21,8 +22,15 @@ impl Run {
     /// Where a file cannot be read or is no log of this robot, and where the files of a folder are not one run.
     pub fn open(path: &Path, robot: &RobotFile, columns: Option<&Columns>) -> Result<(Run, Vec<String>)> {
         match columns {
+            Some(columns) if path.is_dir() && !columns.parts.is_empty() => {
+                let mut notices = Vec::new();
+                let files = found(path, &columns.parts, &mut notices)?;
+                of_files(path, robot, &files, notices)
+            }
+            Some(columns) if is_recording(path) && !columns.parts.is_empty() => {
+                of_files(path, robot, &topics(path, &columns.parts)?, Vec::new())
+            }
             _ if !path.is_dir() => Run::load(path, robot.wheel.len(), columns),
-            Some(columns) if !columns.parts.is_empty() => of_folder(path, robot, &columns.parts),
             _ => {
                 let problem =
                     "this is a folder, expected a run log, or a mapping with a [[file]] table for each file in it";
@@ -33,12 +41,33 @@ impl Run {
     }
 }
 
-fn of_folder(folder: &Path, robot: &RobotFile, tables: &[FileTable]) -> Result<(Run, Vec<String>)> {
-    let mut notices = Vec::new();
+fn is_recording(path: &Path) -> bool {
+    holds_topics(&path.file_name().unwrap_or_default().to_string_lossy())
+}
+
+/// The topics of a run that is one recording, in the tables' order.
+fn topics<'a>(path: &Path, tables: &'a [FileTable]) -> Result<Vec<(&'a FileTable, PathBuf)>> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let meant = |table: &&FileTable| table.mapping.topic.is_some() && table.takes(&name);
+    if let Some(other) = tables.iter().find(|table| !table.optional && !meant(table)) {
+        let problem = format!("the run is one recording of topics, and a [[file]] table names {}", other.title());
+        let fix = "Put the recording and the other file into a folder, runs/NAME/, or give the table a `topic`";
+        return Err(Error::input(path, problem, fix).of_kind(InputKind::Conflict));
+    }
+    Ok(tables.iter().filter(meant).map(|table| (table, path.to_owned())).collect())
+}
+
+/// One run, of several files or topics.
+fn of_files(
+    whole: &Path,
+    robot: &RobotFile,
+    files: &[(&FileTable, PathBuf)],
+    mut notices: Vec<String>,
+) -> Result<(Run, Vec<String>)> {
     let mut parts: Vec<Part> = Vec::new();
-    for (table, path) in found(folder, tables, &mut notices)? {
+    for (table, path) in files {
         let needs = Needs { wheels: robot.wheel.len(), motion: false };
-        let run = read(&path, Some(&table.mapping), needs, &mut notices)?;
+        let run = read(path, Some(&table.mapping), needs, &mut notices)?;
         refuse_twice(&parts, &run)?;
         let offset_s = match table.offset {
             Offset::Known(offset_s) => offset_s,
@@ -50,9 +79,9 @@ fn of_folder(folder: &Path, robot: &RobotFile, tables: &[FileTable]) -> Result<(
     if !parts.iter().any(|part| tells_motion(&part.run)) {
         let problem =
             "found no signal in its files, expected at least one of u<j>_V, i<j>_A, w<j>_rad_s or x_m, y_m, theta_rad";
-        return Err(Error::input(folder, problem, "Map the columns in columns.toml").of_kind(InputKind::Missing));
+        return Err(Error::input(whole, problem, "Map the columns in columns.toml").of_kind(InputKind::Missing));
     }
-    let mut run = aligned(folder, parts);
+    let mut run = aligned(whole, parts);
     open_bridges_apply_nothing(&mut run)?;
     Ok((run, notices))
 }
@@ -71,19 +100,20 @@ fn found<'a>(
     let names: Vec<String> = files.map(|(name, _)| name).collect();
     let mut all = Vec::new();
     for table in tables {
-        let fitting: Vec<&String> = names.iter().filter(|name| fits(&table.name, name)).collect();
+        let fitting: Vec<&String> = names.iter().filter(|name| table.takes(name)).collect();
         match fitting.as_slice() {
             [name] => all.push((table, folder.join(name))),
-            [] if table.optional => notices.push(format!("{}: no file `{}`", folder.display(), table.name)),
+            [] if table.optional => notices.push(format!("{}: no file {}", folder.display(), table.title())),
             [] => {
                 let there =
                     if names.is_empty() { "it is empty".into() } else { format!("it has {}", names.join(", ")) };
-                let problem = format!("the run has no file `{}`; {there}", table.name);
+                let what = if table.name.is_some() { "file" } else { "recording for" };
+                let problem = format!("the run has no {what} {}; {there}", table.title());
                 let fix = "Correct `name` in columns.toml, put the file there, or set optional = true";
                 return Err(Error::input(folder, problem, fix).of_kind(InputKind::Missing));
             }
             [first, second, ..] => {
-                let problem = format!("`{first}` and `{second}` both fit `{}`, expected one file", table.name);
+                let problem = format!("`{first}` and `{second}` both fit {}, expected one file", table.title());
                 let fix = "Name one of them in columns.toml, or move the other out of the run";
                 return Err(Error::input(folder, problem, fix).of_kind(InputKind::Conflict));
             }
@@ -91,13 +121,19 @@ fn found<'a>(
     }
     let path_of = |name: &String| folder.join(name);
     for (k, (table, path)) in all.iter().enumerate() {
-        if let Some((other, _)) = all[..k].iter().find(|(_, other)| other == path) {
-            let problem = format!("the file fits `{}` and `{}`, expected one [[file]] table", other.name, table.name);
+        let same = |(other, file): &&(&FileTable, PathBuf)| file == path && other.mapping.topic == table.mapping.topic;
+        if let Some((other, _)) = all[..k].iter().find(same) {
+            let problem = format!("the file fits {} and {}, expected one [[file]] table", other.title(), table.title());
             let fix = "Name the two files apart in columns.toml";
             return Err(Error::input(path, problem, fix).of_kind(InputKind::Conflict));
         }
     }
-    let unused = names.iter().map(path_of).filter(|path| all.iter().all(|(_, used)| used != path));
+    // what a recorder of ROS 2 writes beside its recording
+    let unused = names
+        .iter()
+        .filter(|name| *name != "metadata.yaml")
+        .map(path_of)
+        .filter(|path| all.iter().all(|(_, used)| used != path));
     notices.extend(unused.map(|path| format!("{}: no [[file]] names it, left out", path.display())));
     Ok(all)
 }

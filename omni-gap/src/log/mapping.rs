@@ -15,6 +15,8 @@ pub(crate) struct Mapping {
     /// When, relative to the row's voltage, its currents were measured; where nothing is said, as the file's format has it.
     pub currents_sampled: Option<Sampled>,
     pub layout: Layout,
+    /// Which topic is read, of a recording of several.
+    pub topic: Option<String>,
     /// Empty where columns have their names in the contract.
     pub rules: Vec<(Target, Rule)>,
     pub groups: BTreeMap<String, Flags>,
@@ -119,8 +121,8 @@ const UNITS: [(&str, Quantity, f64); 16] = [
 const RULE_KEYS: [&str; 9] =
     ["from", "unit", "scale", "sign", "offset", "counts_per_turn", "counts", "running_sum", "optional"];
 /// The keys of a mapping, wherever it stands.
-pub(super) const MAPPING_KEYS: [&str; 6] =
-    ["separator", "skip_lines", "header", "currents_sampled", "columns", "groups"];
+pub(super) const MAPPING_KEYS: [&str; 7] =
+    ["separator", "skip_lines", "header", "topic", "currents_sampled", "columns", "groups"];
 
 impl Mapping {
     /// What a table says of a file.
@@ -146,7 +148,8 @@ impl Mapping {
         let rules = top.table.get("columns").map_or(Ok(Vec::new()), rules)?;
         let of_groups = |item| groups(&Section::new(top.source, "[groups]", item)?);
         let groups = top.table.get("groups").map_or(Ok(BTreeMap::new()), of_groups)?;
-        Ok(Mapping { currents_sampled, layout, rules, groups })
+        let topic = top.text("topic")?.map(str::to_owned);
+        Ok(Mapping { currents_sampled, layout, topic, rules, groups })
     }
 }
 

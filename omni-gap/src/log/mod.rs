@@ -24,6 +24,7 @@ mod file_table;
 mod folder;
 mod mapping;
 mod motion;
+mod pattern;
 mod plausible;
 mod read;
 pub mod records;

@@ -38,12 +38,13 @@ pub(super) struct Needs {
 /// Reads one file, on its own clock.
 pub(super) fn read(path: &Path, columns: Option<&Mapping>, needs: Needs, notices: &mut Vec<String>) -> Result<Run> {
     let layout = columns.map_or_else(Layout::default, |columns| columns.layout.clone());
-    let source = source::open(path, &layout)?;
+    let source = source::open(path, &layout, columns.and_then(|columns| columns.topic.as_deref()))?;
     notices.extend(source.notices());
-    let bindings = match columns.filter(|columns| !columns.rules.is_empty()) {
+    let mut bindings = match columns.filter(|columns| !columns.rules.is_empty()) {
         Some(columns) => mapped(&*source, columns, notices)?,
         None => named(&*source, notices),
     };
+    own_clock(&*source, &mut bindings, notices);
     complete(&*source, &bindings, needs)?;
     let wanted: Vec<usize> = bindings.iter().map(|binding| binding.1).collect();
     let raw = source.columns(&wanted)?;
@@ -116,6 +117,10 @@ fn mapped(table: &dyn Source, columns: &Mapping, notices: &mut Vec<String>) -> R
             }
         }
     }
+    // of messages most is left out: a definition has more in it than a robot says
+    if table.clock().is_some() {
+        return Ok(bindings);
+    }
     let unused = |column: &usize| !bindings.iter().any(|(_, used, _)| used == column);
     let ignored: Vec<String> =
         (0..table.width()).filter(unused).map(|column| format!("`{}`", table.title(column))).collect();
@@ -123,6 +128,15 @@ fn mapped(table: &dyn Source, columns: &Mapping, notices: &mut Vec<String>) -> R
         notices.push(format!("columns that the mapping leaves out: {}", ignored.join(", ")));
     }
     Ok(bindings)
+}
+
+/// Where no column is mapped to the time, the clock that the source itself has.
+fn own_clock(table: &dyn Source, bindings: &mut Vec<Binding>, notices: &mut Vec<String>) {
+    let named = bindings.iter().any(|(target, ..)| *target == Target::Time);
+    if let Some(clock) = table.clock().filter(|_| !named) {
+        bindings.push((Target::Time, clock.column, Rule::default()));
+        notices.push(clock.told.clone());
+    }
 }
 
 /// Refuses a log without a clock, without any signal, or with a group that lacks a wheel.

@@ -89,8 +89,8 @@ impl Session {
         Ok(Session { robot, robot_text, runs: Vec::new(), heldout: Vec::new(), notices: Vec::new() })
     }
 
-    /// The run logs in a folder, by name. Without a mapping they are the `.csv` and `.rec` files; with one that has `[[file]]` tables
-    /// folders are runs too.
+    /// The run logs in a folder, by name. Without a mapping they are the files of known suffixes; with one that
+    /// has `[[file]]` tables folders are runs too.
     fn files_in(&mut self, folder: &Path, columns: Option<&Columns>) -> Result<Vec<PathBuf>> {
         let mut paths = Vec::new();
         for (name, path) in entries(folder)? {
@@ -111,7 +111,7 @@ impl Session {
             true => Err(Error::input(
                 folder,
                 "there is no run log in the folder",
-                "Put run logs into it, named *.csv or *.rec or mapped in columns.toml",
+                "Put run logs into it (`omni-gap explain runs` says which files and columns), or map them in columns.toml",
             )
             .of_kind(InputKind::Missing)),
             false => Ok(paths),

@@ -2,7 +2,7 @@
 //!
 //! A field is a number or empty. A number that is not finite, or text, is refused with line and column.
 
-use super::opened::Source;
+use super::opened::{OwnClock, Source};
 use crate::error::{Error, InputKind, Result};
 use crate::log::channel::{Channel, Missing};
 use crate::log::run::Sampled;
@@ -185,6 +185,10 @@ impl Source for Table {
             }
         }
         Ok(columns)
+    }
+
+    fn clock(&self) -> Option<&OwnClock> {
+        None
     }
 
     fn line_of(&self, row: usize) -> Option<usize> {

@@ -5,6 +5,15 @@ use crate::log::channel::Channel;
 use crate::log::run::Sampled;
 use std::path::Path;
 
+/// A clock that is no matter of a mapping: that of the messages of a topic.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct OwnClock {
+    /// Its column.
+    pub column: usize,
+    /// Whose times they are, for a person.
+    pub told: String,
+}
+
 /// An opened file of samples.
 pub(crate) trait Source {
     /// The file.
@@ -18,6 +27,9 @@ pub(crate) trait Source {
 
     /// Reads the wanted columns.
     fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>>;
+
+    /// The clock that its rows have where no mapping names one; none where a column has to be named `t_s`.
+    fn clock(&self) -> Option<&OwnClock>;
 
     /// The line of the file, counted from 1, on which a row stands, counted from 0; none where the file is not text.
     fn line_of(&self, row: usize) -> Option<usize>;

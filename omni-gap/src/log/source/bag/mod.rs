@@ -1,0 +1,109 @@
+//! # Recordings of topics: MCAP, and the bags of ROS 1 and ROS 2
+//!
+//! A topic is a table: a row for each of its messages, a column for each number in them, and the times at which it was
+//! recorded. Which kind of file it is is told by how it begins, not by its name.
+
+mod container;
+mod decoder;
+mod flatten;
+mod mcap;
+mod ros;
+mod ros1;
+mod rows;
+mod sqlite;
+mod usual;
+mod value;
+
+use super::held::Held;
+use super::opened::OwnClock;
+use crate::error::{Error, InputKind, Result};
+use container::Container;
+use rows::Rows;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Suffixes of recordings of topics.
+pub(super) const SUFFIXES: [&str; 3] = [".mcap", ".db3", ".bag"];
+
+/// How much of a file tells what it is.
+const HEAD: u64 = 4096;
+
+/// Reads one topic of a recording; the only one where none is named.
+pub(super) fn open(path: &Path, topic: Option<&str>) -> Result<Held> {
+    let recording = container(path)?;
+    let topic = match topic {
+        Some(topic) => topic.to_owned(),
+        None => the_only_one(path, &*recording)?,
+    };
+    let mut rows = Rows::default();
+    let mut number = 0;
+    let amiss = recording.messages(&topic, &mut |decoder, recorded| {
+        number += 1;
+        let message = decoder.decode(recorded.bytes).map_err(|reason| {
+            let problem = format!("message {number} of topic `{topic}` does not fit its definition: {reason}");
+            Error::input(path, problem, "Record it again, or map another topic").of_kind(InputKind::Malformed)
+        })?;
+        rows.push(recorded, &message);
+        Ok(())
+    })?;
+    if number == 0 {
+        let problem = format!("there are no messages of topic `{topic}`; it has {}", listed(&*recording)?);
+        return Err(Error::input(path, problem, "Correct `topic` in columns.toml").of_kind(InputKind::Missing));
+    }
+    let (names, columns, clock) = rows.finish();
+    let clock = clock.map(|column| OwnClock {
+        column,
+        told: format!("topic `{topic}`: its times are those of `{}`", names[column]),
+    });
+    let notices = amiss.map(|amiss| format!("{}: {amiss}", path.display())).into_iter().collect();
+    Ok(Held { path: path.into(), names, columns, clock, sampled: None, notices })
+}
+
+fn container(path: &Path) -> Result<Box<dyn Container>> {
+    let unreadable = |reason| {
+        Error::input(path, format!("cannot be read: {reason}"), "Check the path and the file's permissions")
+            .of_kind(InputKind::Unreadable)
+    };
+    let file = File::open(path).map_err(unreadable)?;
+    let mut head = Vec::new();
+    (&file).take(HEAD).read_to_end(&mut head).map_err(unreadable)?;
+    if head.starts_with(::mcap::MAGIC) {
+        return Ok(Box::new(mcap::Mcap::open(path, file)));
+    }
+    if head.starts_with(b"SQLite format 3\0") {
+        return Ok(Box::new(sqlite::Sqlite::open(path)?));
+    }
+    if head.starts_with(b"#ROSBAG V2.0\n") {
+        let length = file.metadata().map_err(unreadable)?.len();
+        return Ok(Box::new(ros1::Ros1::open(path, &head, length)?));
+    }
+    let problem = match head.is_empty() {
+        true => "the file is empty, expected a recording of topics",
+        false => "it begins like no MCAP file, no SQLite database and no ROS 1 bag of format 2.0",
+    };
+    Err(Error::input(path, problem, "Check that it was copied whole; older ROS 1 bags: `rosbag fix`")
+        .of_kind(InputKind::Malformed))
+}
+
+fn the_only_one(path: &Path, recording: &dyn Container) -> Result<String> {
+    let mut topics = recording.topics()?;
+    if let [_] = topics.as_slice() {
+        return Ok(topics.remove(0).topic);
+    }
+    let problem = match topics.as_slice() {
+        [] => "there is no message in the recording".to_owned(),
+        _ => format!("the recording has several topics: {}", listed(recording)?),
+    };
+    let fix = "Say in columns.toml which to read: a [[file]] table with `topic` for each (`omni-gap explain columns`)";
+    Err(Error::input(path, problem, fix).of_kind(InputKind::Missing))
+}
+
+/// The topics of a recording, in words.
+fn listed(recording: &dyn Container) -> Result<String> {
+    let told = |seen: &container::Seen| match seen.of_type.as_str() {
+        "" => format!("`{}` ({})", seen.topic, seen.messages),
+        of_type => format!("`{}` ({}, {of_type})", seen.topic, seen.messages),
+    };
+    Ok(recording.topics()?.iter().map(told).collect::<Vec<_>>().join(", "))
+}
