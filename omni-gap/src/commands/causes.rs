@@ -22,12 +22,12 @@ fn ids() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// The first name that is none, and which one may be meant.
 pub fn all_known(names: &[String]) -> Result<(), CliError> {
-    names.iter().find(|name| !ids().any(|id| id == name.as_str())).map_or(Ok(()), |name| Err(unknown(name)))
+    names.iter().find(|name| !ids().any(|id| id == name.as_str())).map_or(Ok(()), |name| Err(unknown(name, [])))
 }
 
-/// A name that is no cause's.
-pub fn unknown(name: &str) -> CliError {
-    let fix = match nearest(name, ids()) {
+/// A name that is no cause's, and none of what else could have been meant.
+pub fn unknown(name: &str, others: impl IntoIterator<Item = &'static str>) -> CliError {
+    let fix = match nearest(name, ids().chain(others)) {
         Some(near) => format!("Did you mean `{near}`?"),
         None => "`omni-gap explain` lists all names".to_owned(),
     };

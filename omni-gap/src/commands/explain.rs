@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use model_core::effects::card::{Card, Role, Scope};
 use model_core::effects::nominal::{NOMINAL, NominalCard};
 use omni_gap::known_effects;
-use omni_gap::log::{RobotFile, write_whole};
+use omni_gap::log::{FORMATS, RobotFile, write_whole};
 use omni_gap::report::{effect_picture, num, shown_in};
 use omni_gap::simulate::{NOMINAL_KEYS, effect_shown};
 
@@ -18,11 +18,11 @@ use super::demo::ROBOT;
 use super::done::{DONE, Done};
 use super::output_path;
 
-/// Explain an effect or a parameter that can be the cause of a gap; without a name, list all
+/// Explain an effect or a parameter that can be the cause of a gap, or a form of files; without a name, list all
 #[derive(Debug, clap::Args)]
 pub struct Explain {
-    /// The id of an effect or a parameter
-    #[arg(value_name = "EFFECT")]
+    /// The id of an effect or a parameter, or `robot`, `runs` or `columns`
+    #[arg(value_name = "NAME")]
     name: Option<String>,
 
     /// Where to draw what the effect does to a short drive: the signal in which it shows most, without it and with it
@@ -37,17 +37,23 @@ pub struct Explain {
 impl Explain {
     /// Does it.
     pub fn run(&self, console: &Console) -> Done {
-        let page = match &self.name {
-            None => list(),
-            Some(name) => match (cards().find(|c| c.id == name), NOMINAL.iter().find(|p| p.id == name)) {
-                (Some(card), _) => effect(card) + &self.drawn(card)?,
-                (None, Some(_)) if self.out.is_some() => return Err(CliError::Unclear(NO_PICTURE)),
-                (None, Some(parameter)) => parameter_page(parameter),
-                (None, None) => return Err(unknown(name)),
-            },
-        };
+        let page = self.name.as_deref().map_or_else(|| Ok(list()), |name| self.page(name))?;
         console.say(&page)?;
         Ok(DONE)
+    }
+
+    fn page(&self, name: &str) -> Result<String, CliError> {
+        if let Some(card) = cards().find(|card| card.id == name) {
+            return Ok(effect(card) + &self.drawn(card)?);
+        }
+        let parameter =
+            NOMINAL.iter().find(|parameter| parameter.id == name).map(|parameter| parameter_page(parameter));
+        let of_format = || FORMATS.iter().find(|format| format.name == name).map(|format| format.text.to_owned());
+        match parameter.or_else(of_format) {
+            Some(_) if self.out.is_some() => Err(CliError::Unclear(NO_PICTURE)),
+            Some(page) => Ok(page),
+            None => Err(unknown(name, FORMATS.iter().map(|format| format.name))),
+        }
     }
 
     /// Draws the effect where that is asked for, and says so.
@@ -63,7 +69,7 @@ impl Explain {
     }
 }
 
-const NO_PICTURE: &str = "pictures are drawn of effects, and this is a parameter of the robot file: leave out --out, or \
+const NO_PICTURE: &str = "pictures are drawn of effects, and this is none: leave out --out, or \
     name an effect of the list that `omni-gap explain` prints.";
 
 fn list() -> String {
@@ -75,6 +81,10 @@ fn list() -> String {
     page += "\nParameters that a robot file may have wrong:\n";
     for parameter in NOMINAL {
         let _ = writeln!(page, "  {:width$}{}", parameter.id, parameter.title);
+    }
+    page += "\nForms of files:\n";
+    for format in FORMATS {
+        let _ = writeln!(page, "  {:width$}{}", format.name, format.title);
     }
     page + "\n`omni-gap explain NAME` tells more of each.\n"
 }

@@ -39,9 +39,25 @@ fn parameters_are_explained_too() {
 }
 
 #[test]
+fn forms_of_files_are_explained_too() {
+    let bench = Bench::empty();
+    let list = bench.done(&["explain"]).out;
+    for (name, part) in [("robot", "drive_angle_deg"), ("runs", "wset0_rad_s"), ("columns", "pose.orientation.yaw")] {
+        assert!(list.contains(&format!("  {name} ")), "{list}");
+        let page = bench.done(&["explain", name]).out;
+        assert!(page.starts_with("# ") && page.contains(part), "{page}");
+    }
+}
+
+#[test]
 fn an_unknown_name_gets_the_nearest_one() {
     let bench = Bench::empty();
-    for (name, near) in [("weel_slip", "`wheel_slip`"), ("masse", "`mass`"), ("xyzzyxyzzyxyzzy", "omni-gap explain")] {
+    for (name, near) in [
+        ("weel_slip", "`wheel_slip`"),
+        ("masse", "`mass`"),
+        ("colums", "`columns`"),
+        ("xyzzyxyzzyxyzzy", "omni-gap explain"),
+    ] {
         let said = bench.run(&["explain", name]);
         assert_eq!((said.code, said.out.as_str()), (2, ""));
         assert!(said.err.contains(name) && said.err.contains(near), "{}", said.err);
@@ -72,7 +88,7 @@ fn what_cannot_be_drawn_is_told_and_nothing_is_written() {
     bench.write("mine.toml", ROBOT);
     for (args, told) in [
         (&["explain", "mass", "--out", "mass.svg"][..], "name an effect"),
-        (&["explain", "--out", "all.svg"], "EFFECT"),
+        (&["explain", "--out", "all.svg"], "<NAME>"),
         (&["explain", "creep", "--robot", "mine.toml"], "--out"),
         (&["explain", "creep", "--robot", "mine.toml", "--out", "mine.toml"], "it is an input"),
         (&["explain", "creep", "--out", "nowhere/creep.svg"], "there is no folder"),
