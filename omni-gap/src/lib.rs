@@ -10,7 +10,7 @@
 //! programs).
 //!
 //! A room imports only rooms before it; [`diagnosis`] walks through them all, [`synthesize`] makes recordings whose truth is
-//! known, [`wire`] speaks with a robot.
+//! known, [`wire`] speaks with a robot. [`proposal`] looks at logs that some other program wrote and proposes how to read them.
 
 // A unit in brackets, [V], is not a link.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -22,6 +22,8 @@ pub mod vocabulary;
 pub mod log;
 
 pub mod check;
+
+pub mod proposal;
 
 pub mod simulate;
 

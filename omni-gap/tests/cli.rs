@@ -16,6 +16,8 @@ mod explain;
 mod folders;
 #[path = "cli/manners.rs"]
 mod manners;
+#[path = "cli/map.rs"]
+mod map;
 #[path = "cli/next.rs"]
 mod next;
 #[path = "cli/robot.rs"]

@@ -11,8 +11,19 @@ use crate::tree::Source;
 pub const HOUSE: &str = "omni-gap/src/";
 
 /// The rooms, in the order in which evidence walks through them.
-const ORDER: &[&str] =
-    &["error", "vocabulary", "log", "check", "simulate", "identify", "localise", "engine", "comparison", "report"];
+const ORDER: &[&str] = &[
+    "error",
+    "vocabulary",
+    "log",
+    "check",
+    "proposal",
+    "simulate",
+    "identify",
+    "localise",
+    "engine",
+    "comparison",
+    "report",
+];
 
 /// Who stands above all rooms and may import any of them; no room may import these.
 const ABOVE: &[&str] =

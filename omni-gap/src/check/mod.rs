@@ -46,7 +46,7 @@ mod units;
 mod windows;
 
 #[cfg(test)]
-mod synthetic;
+pub(crate) mod synthetic;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Which wheel is which: all orders and signs of the wheels, tried one by one.
 
+use crate::log::permutations;
+
 /// One guess: relation j holds for the channel `place[j]`, times `sign[j]`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Order {
@@ -49,14 +51,6 @@ impl Order {
 
 /// All orders and signs of `wheels` wheels, the given one first.
 pub(super) fn all(wheels: usize) -> Vec<Order> {
-    let mut places = vec![vec![]];
-    for _ in 0..wheels {
-        let longer = |place: Vec<usize>| {
-            let free: Vec<usize> = (0..wheels).filter(|wheel| !place.contains(wheel)).collect();
-            free.into_iter().map(move |wheel| [place.clone(), vec![wheel]].concat())
-        };
-        places = places.into_iter().flat_map(longer).collect();
-    }
     let signs = |place: &Vec<usize>| {
         let place = place.clone();
         (0..1u32 << wheels).map(move |bits| {
@@ -64,7 +58,7 @@ pub(super) fn all(wheels: usize) -> Vec<Order> {
             Order { place: place.clone(), sign }
         })
     };
-    places.iter().flat_map(signs).collect()
+    permutations(wheels).iter().flat_map(signs).collect()
 }
 
 /// The guess that explains best; among those nearly as good, the one that changes least, and moves rather than flips.

@@ -18,6 +18,7 @@ mod explain;
 mod export;
 mod given;
 mod identify;
+mod map;
 mod next;
 mod output_path;
 mod predict;
@@ -54,6 +55,7 @@ enum Command {
     Compare(compare::Compare),
     Next(next::Next),
     Check(check::Check),
+    Map(map::Map),
     Experiment(experiment::Experiments),
     Identify(identify::Identify),
     Predict(predict::Predict),
@@ -80,6 +82,7 @@ impl Cli {
             Command::Compare(c) => c.run(&console),
             Command::Next(c) => c.run(&console),
             Command::Check(c) => c.run(&console),
+            Command::Map(c) => c.run(&console),
             Command::Experiment(c) => c.run(&console),
             Command::Identify(c) => c.run(&console),
             Command::Predict(c) => c.run(&console),

@@ -25,23 +25,7 @@ pub const FORMATS: [FormatPage; 3] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::log::RobotFile;
     use crate::log::target::Target;
-    use std::path::Path;
-
-    #[test]
-    fn the_robot_of_the_page_can_be_read_and_has_every_key() {
-        let page = FORMATS[0].text;
-        let toml = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
-        let robot = RobotFile::parse(toml, Path::new("robot.toml"), &crate::known::known_effects()).unwrap();
-        assert_eq!((robot.wheel.len(), robot.effects.len()), (3, 2));
-        // every member that a robot can have is there: none of the optional ones is null
-        let written = serde_json::to_value(&robot).unwrap();
-        let absent = |table: &str| written[table].as_object().is_none_or(|table| table.values().any(|v| v.is_null()));
-        let silent: Vec<&str> =
-            ["motor", "body", "friction", "sensors", "supply", "limits"].into_iter().filter(|t| absent(t)).collect();
-        assert!(silent.is_empty(), "{silent:?}");
-    }
 
     #[test]
     fn every_column_of_the_page_is_one_and_none_is_left_out() {

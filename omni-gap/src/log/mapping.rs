@@ -121,14 +121,24 @@ const UNITS: [(&str, Quantity, f64); 16] = [
 const RULE_KEYS: [&str; 9] =
     ["from", "unit", "scale", "sign", "offset", "counts_per_turn", "counts", "running_sum", "optional"];
 /// The keys of a mapping, wherever it stands.
-pub(super) const MAPPING_KEYS: [&str; 7] =
-    ["separator", "skip_lines", "header", "topic", "currents_sampled", "columns", "groups"];
+pub(super) const MAPPING_KEYS: [&str; 8] =
+    ["separator", "decimal", "skip_lines", "header", "topic", "currents_sampled", "columns", "groups"];
 
 impl Mapping {
     /// What a table says of a file.
     pub fn of(top: &Section) -> Result<Mapping> {
         let header = top.flag("header")?.unwrap_or(true);
-        let layout = Layout { separator: separator(top)?, skip_lines: top.whole("skip_lines")?.unwrap_or(0), header };
+        let (separator, decimal) = (separator(top)?, decimal(top)?);
+        if separator == decimal {
+            return Err(top
+                .key_error(
+                    "decimal",
+                    "columns cannot be separated by what stands within a number",
+                    "Correct one of both",
+                )
+                .of_kind(InputKind::Conflict));
+        }
+        let layout = Layout { separator, decimal, skip_lines: top.whole("skip_lines")?.unwrap_or(0), header };
         let currents_sampled = match top.text("currents_sampled")? {
             None => None,
             Some("after") => Some(Sampled::After),
@@ -158,6 +168,14 @@ fn separator(top: &Section) -> Result<u8> {
         None => Ok(b','),
         Some([one]) if one.is_ascii() => Ok(*one),
         Some(_) => Err(top.key_error("separator", "expected one ASCII character", "Write \",\", \";\" or \"\\t\"")),
+    }
+}
+
+fn decimal(top: &Section) -> Result<u8> {
+    match top.text("decimal")? {
+        None | Some(".") => Ok(b'.'),
+        Some(",") => Ok(b','),
+        Some(_) => Err(top.key_error("decimal", "expected \".\" or \",\"", "Write one of the two")),
     }
 }
 

@@ -50,6 +50,19 @@ fn forms_of_files_are_explained_too() {
 }
 
 #[test]
+fn the_robot_of_the_page_can_be_read_and_has_every_key() {
+    let page = Bench::empty().done(&["explain", "robot"]).out;
+    let toml = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a robot");
+    let robot = RobotFile::parse(toml, Path::new("robot.toml"), &known_effects()).unwrap();
+    assert_eq!((robot.wheel.len(), robot.effects.len()), (3, 2));
+    let (sensors, limits) = (robot.sensors, robot.limits.expect("limits"));
+    let optional =
+        [sensors.gyro_noise_rad_s, sensors.battery_noise_v, limits.current_a, limits.speed_m_s, limits.field_m];
+    assert!(optional.iter().all(Option::is_some), "{optional:?}");
+    assert!(robot.supply.is_some() && robot.identified.is_some_and(|from| from.rate_hz.is_some()));
+}
+
+#[test]
 fn an_unknown_name_gets_the_nearest_one() {
     let bench = Bench::empty();
     for (name, near) in [

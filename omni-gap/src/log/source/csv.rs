@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Layout {
     pub separator: u8,
+    /// What stands between a number's whole part and the rest: `.` or `,`.
+    pub decimal: u8,
     /// Lines to leave out before the header, or before the first row where there is no header.
     pub skip_lines: usize,
     /// Whether a line of column names follows.
@@ -21,7 +23,7 @@ pub(crate) struct Layout {
 
 impl Default for Layout {
     fn default() -> Self {
-        Layout { separator: b',', skip_lines: 0, header: true }
+        Layout { separator: b',', decimal: b'.', skip_lines: 0, header: true }
     }
 }
 
@@ -37,6 +39,7 @@ pub(super) struct Table {
     start: usize,
     lines_before: usize,
     separator: u8,
+    decimal: u8,
 }
 
 impl Table {
@@ -69,6 +72,7 @@ impl Table {
             start,
             bytes,
             separator: layout.separator,
+            decimal: layout.decimal,
         };
         let mut record = csv::ByteRecord::new();
         let mut reader = table.reader();
@@ -118,6 +122,14 @@ impl Table {
             .flexible(true)
             .buffer_capacity(1 << 17)
             .from_reader(&self.bytes[self.start..])
+    }
+
+    fn number(&self, field: &[u8]) -> Option<f64> {
+        let text = std::str::from_utf8(field).ok()?;
+        match self.decimal {
+            b',' => text.replace(',', ".").parse().ok(),
+            _ => text.parse().ok(),
+        }
     }
 
     fn not_a_number(&self, record: &csv::ByteRecord, column: usize) -> Error {
@@ -178,7 +190,7 @@ impl Source for Table {
                     channel.push_missing(Missing::Blank);
                     continue;
                 }
-                match std::str::from_utf8(field).ok().and_then(|text| text.parse::<f64>().ok()) {
+                match self.number(field) {
                     Some(value) if value.is_finite() => channel.push(value),
                     _ => return Err(self.not_a_number(&record, column)),
                 }

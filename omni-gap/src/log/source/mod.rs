@@ -13,6 +13,7 @@ mod records;
 use crate::error::{Error, InputKind, Result};
 use std::path::Path;
 
+pub(crate) use bag::Seen as Topic;
 pub(crate) use csv::Layout;
 pub(crate) use opened::Source;
 
@@ -34,6 +35,19 @@ pub(crate) fn is_log(name: &str) -> bool {
 /// Whether a file of this name is a recording of topics, each with a clock of its own.
 pub(crate) fn holds_topics(name: &str) -> bool {
     bag::SUFFIXES.iter().any(|suffix| ends_in(name, suffix))
+}
+
+/// The topics that a recording has messages of, by name.
+///
+/// # Errors
+/// Where it cannot be read.
+pub(crate) fn topics(path: &Path) -> Result<Vec<Topic>> {
+    bag::topics(path)
+}
+
+/// Whether a file of this name is a table whose format says where its columns are.
+pub(crate) fn is_table_of_its_own(name: &str) -> bool {
+    [RECORDS, PARQUET].iter().any(|suffix| ends_in(name, suffix))
 }
 
 /// Opens a file of samples; `layout` says how text is laid out, `topic` which one of a recording of topics is meant.

@@ -18,6 +18,7 @@ use super::held::Held;
 use super::opened::OwnClock;
 use crate::error::{Error, InputKind, Result};
 use container::Container;
+pub(crate) use container::Seen;
 use rows::Rows;
 use std::fs::File;
 use std::io::Read;
@@ -58,6 +59,11 @@ pub(super) fn open(path: &Path, topic: Option<&str>) -> Result<Held> {
     });
     let notices = amiss.map(|amiss| format!("{}: {amiss}", path.display())).into_iter().collect();
     Ok(Held { path: path.into(), names, columns, clock, sampled: None, notices })
+}
+
+/// The topics that a recording has messages of.
+pub(super) fn topics(path: &Path) -> Result<Vec<Seen>> {
+    container(path)?.topics()
 }
 
 fn container(path: &Path) -> Result<Box<dyn Container>> {
@@ -101,7 +107,7 @@ fn the_only_one(path: &Path, recording: &dyn Container) -> Result<String> {
 
 /// The topics of a recording, in words.
 fn listed(recording: &dyn Container) -> Result<String> {
-    let told = |seen: &container::Seen| match seen.of_type.as_str() {
+    let told = |seen: &Seen| match seen.of_type.as_str() {
         "" => format!("`{}` ({})", seen.topic, seen.messages),
         of_type => format!("`{}` ({}, {of_type})", seen.topic, seen.messages),
     };
