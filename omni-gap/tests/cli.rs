@@ -18,6 +18,8 @@ mod folders;
 mod manners;
 #[path = "cli/map.rs"]
 mod map;
+#[path = "cli/new.rs"]
+mod new;
 #[path = "cli/next.rs"]
 mod next;
 #[path = "cli/robot.rs"]

@@ -19,6 +19,7 @@ mod export;
 mod given;
 mod identify;
 mod map;
+mod new;
 mod next;
 mod output_path;
 mod predict;
@@ -55,6 +56,7 @@ enum Command {
     Compare(compare::Compare),
     Next(next::Next),
     Check(check::Check),
+    New(new::New),
     Map(map::Map),
     Experiment(experiment::Experiments),
     Identify(identify::Identify),
@@ -82,6 +84,7 @@ impl Cli {
             Command::Compare(c) => c.run(&console),
             Command::Next(c) => c.run(&console),
             Command::Check(c) => c.run(&console),
+            Command::New(c) => c.run(&console),
             Command::Map(c) => c.run(&console),
             Command::Experiment(c) => c.run(&console),
             Command::Identify(c) => c.run(&console),
