@@ -225,8 +225,9 @@ fn page(set: &SetFolder, names: &[String]) -> Result<String> {
 /// The table and its pictures.
 fn lay_table(set: &SetFolder, names: &[String]) -> Result<()> {
     let (about, all) = (set.about()?, answers(set, names)?);
-    golden::record("withheld.md", &table::page(&about, &all), "cargo xtask bench table SET NAME...")?;
-    write_whole(&golden::path("withheld.html"), picture::page(&about, &all).as_bytes())
+    let stem = about.page();
+    golden::record(&format!("{stem}.md"), &table::page(&about, &all), "cargo xtask bench table SET NAME...")?;
+    write_whole(&golden::path(&format!("{stem}.html")), picture::page(&about, &all).as_bytes())
 }
 
 /// The lines, as they stand in the engine's knobs.

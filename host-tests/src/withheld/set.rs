@@ -31,6 +31,13 @@ pub struct About {
     pub commit: String,
 }
 
+impl About {
+    /// What its pages are called, without the suffix: the fresh split's are the benchmark's.
+    pub fn page(&self) -> String {
+        if self.split == "fresh" { "withheld".to_owned() } else { format!("withheld-{}", self.split) }
+    }
+}
+
 /// Holds a set for one contestant. A program that is just being started by another thread has a copy of the file, and the
 /// lock would live on in it for a moment: it is given back by word.
 #[derive(Debug)]

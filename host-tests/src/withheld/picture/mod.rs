@@ -26,11 +26,12 @@ pub fn page(about: &About, contestants: &Contestants) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>The effect withheld</title>\n\
          <style>\n{css}</style>\n</head>\n<body>\n<main>\n<h1>The effect withheld</h1>\n\
          <p>What a diagnosis answers where the cause was sealed before it was asked: pictures of the answers of {}, split {}, \
-         seed {:016x}, recorded at commit {}. The figures stand in <code>withheld.md</code>.</p>\n",
+         seed {:016x}, recorded at commit {}. The figures stand in <code>{}.md</code>.</p>\n",
         escaped(first),
         escaped(&about.split),
         about.seed,
-        escaped(&about.commit)
+        escaped(&about.commit),
+        about.page()
     );
     let shown = &contestants[..contestants.len().min(LINES)];
     html += "<section>\n<h2>How sure, how often right</h2>\n";
