@@ -21,12 +21,13 @@ fn blocks() -> Vec<&'static str> {
 fn the_page_shows_what_the_examples_say() {
     let read = |text: &str| Columns::parse(text, Path::new("columns.toml")).unwrap();
     let blocks = blocks();
-    assert_eq!(blocks.len(), 5);
+    assert_eq!(blocks.len(), 6);
     read(blocks[0]);
-    assert_eq!(read(blocks[1]).parts.len(), 3);
-    assert_eq!(read(blocks[2]), read(ROBOTINO));
-    assert_eq!(read(blocks[3]), read(SSL2018));
-    assert_eq!(read(blocks[4]).parts.len(), 2);
+    read(blocks[1]);
+    assert_eq!(read(blocks[2]).parts.len(), 3);
+    assert_eq!(read(blocks[3]), read(ROBOTINO));
+    assert_eq!(read(blocks[4]), read(SSL2018));
+    assert_eq!(read(blocks[5]).parts.len(), 2);
 }
 
 #[test]
@@ -116,4 +117,25 @@ fn an_optional_column_may_be_missing() {
         gyro_rad_s = { from = \"g\", optional = true }\n";
     let (run, notices) = read(mapping, "t,a\n0,0\n1,0\n", 3).unwrap();
     assert!(run.gyro.is_none() && notices[0].ends_with("no column `g` for gyro_rad_s"), "{notices:?}");
+}
+
+#[test]
+fn a_column_is_computed_of_others_and_a_mistake_in_that_is_told() {
+    let mapping = |expr: &str| {
+        format!(
+            "[columns]\nt_s = {{ from = \"t\" }}\nw0_rad_s = {{ expr = {expr:?}, unit = \"rpm\" }}\nw1_rad_s = {{ from = \"a\" }}\nw2_rad_s = {{ from = \"a\" }}\n"
+        )
+    };
+    let log = "t,a,b [V]\n0,1,2\n1,3,\n";
+    let (run, _) = read(&mapping("a * {b [V]} * 30 / PI"), log, 3).unwrap();
+    let made = &run.w.as_ref().unwrap().channels[0];
+    assert!((made.get(0).unwrap() - 2.0).abs() < 1e-12 && made.get(1).is_err());
+    for (expr, told) in
+        [("a * c", "no column `c` for w0_rad_s"), ("a *", "this is no formula"), ("2", "no column is named")]
+    {
+        let said = read(&mapping(expr), log, 3).unwrap_err().to_string();
+        assert!(said.contains(told) && said.contains("expr"), "{said}");
+    }
+    let both = "[columns]\nt_s = { from = \"t\", expr = \"a\" }\n";
+    assert!(read(both, log, 3).unwrap_err().to_string().contains("Keep one of the two"));
 }

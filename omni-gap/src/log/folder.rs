@@ -1,12 +1,13 @@
 //! # A run that is a folder of files, or a recording of topics, and how their clocks lie to each other
 
 use super::align::{Part, aligned};
+use super::bind::Needs;
 use super::clock_offset::{REACH_S, estimate};
 use super::columns::Columns;
 use super::entries::entries;
 use super::file_table::{FileTable, Offset};
 use super::motion::Motion;
-use super::read::{Needs, open_bridges_apply_nothing, read};
+use super::read::{open_bridges_apply_nothing, read};
 use super::robot_file::RobotFile;
 use super::run::Run;
 use super::source::holds_topics;

@@ -1,13 +1,13 @@
 //! # A mapping: how the columns of one file become those of the contract
 
 use super::catalogue::nearest;
+use super::from::From;
 use super::run::Sampled;
 use super::source::Layout;
 use super::target::{Quantity, Target};
 use super::toml_walk::Section;
 use crate::error::{InputKind, Result};
 use std::collections::BTreeMap;
-use std::fmt;
 
 /// How one file is read.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -29,36 +29,6 @@ pub(crate) struct Flags {
     pub quantum: Option<f64>,
     /// Of wheel speeds taken from the time between edges: edges in a turn of the wheel.
     pub edges_per_turn: Option<f64>,
-}
-
-/// Where a column comes from.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) enum From {
-    #[default]
-    Itself,
-    Name(String),
-    /// Counted from 1.
-    Position(usize),
-}
-
-impl From {
-    pub fn find(&self, names: &[String], width: usize) -> Option<usize> {
-        match self {
-            From::Itself => None,
-            From::Name(name) => names.iter().position(|other| other == name),
-            From::Position(number) => (*number <= width).then(|| number - 1),
-        }
-    }
-}
-
-impl fmt::Display for From {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            From::Itself => write!(f, "of its own name"),
-            From::Name(name) => write!(f, "`{name}`"),
-            From::Position(number) => write!(f, "{number}"),
-        }
-    }
 }
 
 /// How counts become speed.
@@ -118,8 +88,8 @@ const UNITS: [(&str, Quantity, f64); 16] = [
     ("deg", Quantity::Angle, std::f64::consts::PI / 180.0),
 ];
 
-const RULE_KEYS: [&str; 9] =
-    ["from", "unit", "scale", "sign", "offset", "counts_per_turn", "counts", "running_sum", "optional"];
+const RULE_KEYS: [&str; 10] =
+    ["from", "expr", "unit", "scale", "sign", "offset", "counts_per_turn", "counts", "running_sum", "optional"];
 /// The keys of a mapping, wherever it stands.
 pub(super) const MAPPING_KEYS: [&str; 8] =
     ["separator", "decimal", "skip_lines", "header", "topic", "currents_sampled", "columns", "groups"];
@@ -201,26 +171,7 @@ fn rule(columns: &Section, name: &str, item: &toml_edit::Item, header: bool) -> 
     let title = format!("[columns] {name}");
     let s = Section::new(columns.source, &title, item)?;
     s.only_keys(&RULE_KEYS)?;
-    let from = match s.table.get("from") {
-        Some(item) if item.is_integer() => match s.whole("from")? {
-            Some(0) | None => return Err(s.key_error("from", "found position 0", "Positions are counted from 1")),
-            Some(number) => From::Position(number),
-        },
-        Some(item) if item.is_str() && header => From::Name(item.as_str().unwrap_or_default().to_string()),
-        Some(item) if item.is_str() => {
-            return Err(s.key_error(
-                "from",
-                "found a name, but the log has no header",
-                "Give the position, counted from 1",
-            ));
-        }
-        _ => {
-            return Err(s
-                .error("`from` is missing", "Name the source column, or give its position")
-                .in_column(name)
-                .of_kind(InputKind::Missing));
-        }
-    };
+    let from = From::read(&s, name, header)?;
     let sign = s.number("sign")?.unwrap_or(1.0);
     s.checked("sign", sign, sign.abs() == 1.0, "1 or -1")?;
     let scale = s.number("scale")?.unwrap_or(1.0);

@@ -5,10 +5,11 @@
 //!
 //! Reading order: [`Session`] (a folder of files), [`RobotFile`] (the nominal model), [`Run`] (one recording) with its
 //! [`Channel`]s, and [`columns`] (logs in another layout). A recording comes in through `source` (a file of any format →
-//! columns of samples) → `read` (a `mapping` makes SI units of them, on the file's own clock) → `folder` and `align`
+//! columns of samples) → `bind` and `read` (a `mapping` makes SI units of them, on the file's own clock) → `folder` and `align`
 //! (files with a clock each → one run; `clock_offset` compares clocks by the `motion` that each file tells).
 
 mod align;
+mod bind;
 mod body_from_wheels;
 mod catalogue;
 mod channel;
@@ -23,6 +24,8 @@ mod entries;
 mod file_table;
 mod folder;
 mod formats;
+mod formula;
+mod from;
 mod mapping;
 mod motion;
 mod pattern;

@@ -1,5 +1,6 @@
 //! # Mapping: from the columns of a source to a run in SI units, on the clock of its file
 
+use super::bind::{Binding, Needs, bound};
 use super::channel::{Channel, Missing};
 use super::columns::Columns;
 use super::edges::retimed;
@@ -26,30 +27,21 @@ impl Run {
     }
 }
 
-/// What a file must have.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Needs {
-    /// A channel of a group for each wheel of the robot.
-    pub wheels: usize,
-    /// Wheels or pose; a file beside others may have the battery alone.
-    pub motion: bool,
-}
-
 /// Reads one file, on its own clock.
 pub(super) fn read(path: &Path, columns: Option<&Mapping>, needs: Needs, notices: &mut Vec<String>) -> Result<Run> {
     let layout = columns.map_or_else(Layout::default, |columns| columns.layout.clone());
     let source = source::open(path, &layout, columns.and_then(|columns| columns.topic.as_deref()))?;
     notices.extend(source.notices());
-    let mut bindings = match columns.filter(|columns| !columns.rules.is_empty()) {
-        Some(columns) => mapped(&*source, columns, notices)?,
-        None => named(&*source, notices),
+    let bindings = bound(&*source, columns, needs, notices)?;
+    let wanted: Vec<usize> = bindings.iter().flat_map(|binding| binding.columns.clone()).collect();
+    let mut read = source.columns(&wanted)?.into_iter();
+    let made = |Binding { target, columns, rule }: Binding| {
+        let channel = rule.from.channel(read.by_ref().take(columns.len()).collect());
+        (target, rule, channel)
     };
-    own_clock(&*source, &mut bindings, notices);
-    complete(&*source, &bindings, needs)?;
-    let wanted: Vec<usize> = bindings.iter().map(|binding| binding.1).collect();
-    let raw = source.columns(&wanted)?;
-    if raw[0].len() < 2 {
-        let rows = ["no rows", "one row"][raw[0].len()];
+    let mut raw: Vec<(Target, Rule, Channel)> = bindings.into_iter().map(made).collect();
+    if raw[0].2.len() < 2 {
+        let rows = ["no rows", "one row"][raw[0].2.len()];
         return Err(Error::input(
             path,
             format!("there is a header and {rows}, expected at least two rows"),
@@ -57,8 +49,6 @@ pub(super) fn read(path: &Path, columns: Option<&Mapping>, needs: Needs, notices
         )
         .of_kind(InputKind::TooLittle));
     }
-    let mut raw: Vec<(Target, Rule, Channel)> =
-        bindings.into_iter().zip(raw).map(|((target, _, rule), channel)| (target, rule, channel)).collect();
     raw.sort_by_key(|(target, ..)| *target);
     let (_, rule, time) = raw.remove(0);
     let (t_s, first_step_s) = clock(&*source, &rule, &time)?;
@@ -75,117 +65,6 @@ pub(super) fn read(path: &Path, columns: Option<&Mapping>, needs: Needs, notices
     }
     finish(&mut run, columns, needs, notices)?;
     Ok(run)
-}
-
-type Binding = (Target, usize, Rule);
-
-/// Columns of the contract, by name.
-fn named(table: &dyn Source, notices: &mut Vec<String>) -> Vec<Binding> {
-    let mut bindings = Vec::new();
-    let mut ignored = Vec::new();
-    for (column, name) in table.names().iter().enumerate() {
-        match Target::named(name) {
-            Some(target) => bindings.push((target, column, Rule::default())),
-            None => ignored.push(format!("`{name}`")),
-        }
-    }
-    if !ignored.is_empty() {
-        notices.push(format!("{}: columns left out: {}", table.path().display(), ignored.join(", ")));
-    }
-    bindings
-}
-
-/// Columns named by the mapping.
-fn mapped(table: &dyn Source, columns: &Mapping, notices: &mut Vec<String>) -> Result<Vec<Binding>> {
-    let mut bindings = Vec::new();
-    for (target, rule) in &columns.rules {
-        match rule.from.find(table.names(), table.width()) {
-            Some(column) => bindings.push((*target, column, rule.clone())),
-            None if rule.optional => {
-                notices.push(format!("{}: no column {} for {target}", table.path().display(), rule.from));
-            }
-            None => {
-                let names = || table.names().join(", ");
-                let there = if table.names().is_empty() { format!("{} columns", table.width()) } else { names() };
-                let problem = format!("the log has no column {} for {target}; it has {there}", rule.from);
-                return Err(Error::input(
-                    table.path(),
-                    problem,
-                    "Correct `from` in columns.toml, or set optional = true",
-                )
-                .of_kind(InputKind::Missing));
-            }
-        }
-    }
-    // of messages most is left out: a definition has more in it than a robot says
-    if table.clock().is_some() {
-        return Ok(bindings);
-    }
-    let unused = |column: &usize| !bindings.iter().any(|(_, used, _)| used == column);
-    let ignored: Vec<String> =
-        (0..table.width()).filter(unused).map(|column| format!("`{}`", table.title(column))).collect();
-    if !ignored.is_empty() {
-        notices.push(format!("columns that the mapping leaves out: {}", ignored.join(", ")));
-    }
-    Ok(bindings)
-}
-
-/// Where no column is mapped to the time, the clock that the source itself has.
-fn own_clock(table: &dyn Source, bindings: &mut Vec<Binding>, notices: &mut Vec<String>) {
-    let named = bindings.iter().any(|(target, ..)| *target == Target::Time);
-    if let Some(clock) = table.clock().filter(|_| !named) {
-        bindings.push((Target::Time, clock.column, Rule::default()));
-        notices.push(clock.told.clone());
-    }
-}
-
-/// Refuses a log without a clock, without any signal, or with a group that lacks a wheel.
-fn complete(table: &dyn Source, bindings: &[Binding], needs: Needs) -> Result<()> {
-    let wheels = needs.wheels;
-    let has = |target: Target| bindings.iter().any(|binding| binding.0 == target);
-    let missing = |target: Target, why: &str| {
-        let error = Error::input(
-            table.path(),
-            format!("the column is missing: {why}"),
-            "Add the column, or map it in columns.toml",
-        )
-        .of_kind(InputKind::Missing);
-        Err(error.in_column(target.to_string()))
-    };
-    if !has(Target::Time) {
-        return missing(Target::Time, "every run needs a clock");
-    }
-    if let Some((target, ..)) = bindings.iter().find(|(target, ..)| target.wheel().is_some_and(|wheel| wheel >= wheels))
-    {
-        let problem = format!("a column for a wheel that the robot file does not have; it has {wheels} wheels");
-        return Err(Error::input(table.path(), problem, "Describe the wheel in robot.toml, or remove the column")
-            .of_kind(InputKind::Unknown)
-            .in_column(target.to_string()));
-    }
-    for group in [Target::U, Target::I, Target::W, Target::Wset] {
-        let there = (0..wheels).filter(|wheel| has(group(*wheel))).count();
-        if let Some(absent) = (0..wheels).find(|wheel| there > 0 && !has(group(*wheel))) {
-            return missing(group(absent), &format!("{there} of {wheels} wheels have one"));
-        }
-    }
-    let pose = [Target::X, Target::Y, Target::Theta];
-    if let Some(absent) = pose.into_iter().find(|target| !has(*target) && pose.iter().any(|other| has(*other))) {
-        return missing(absent, "a pose is x_m, y_m and theta_rad");
-    }
-    let signal = |target: &Target| match needs.motion {
-        true => target.wheel().is_some() || *target == Target::X,
-        false => *target != Target::Time,
-    };
-    if !bindings.iter().any(|(target, ..)| signal(target)) {
-        let problem = "found no signal, expected at least one of u<j>_V, i<j>_A, w<j>_rad_s or x_m, y_m, theta_rad";
-        return Err(Error::input(
-            table.path(),
-            problem,
-            "Name the columns as the log form says, or map them in columns.toml",
-        )
-        .of_kind(InputKind::Missing));
-    }
-    Ok(())
 }
 
 /// The time of each row (s), and the length of the first row's sample where the log tells it (s).

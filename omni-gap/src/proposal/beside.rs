@@ -69,7 +69,7 @@ impl Beside<'_> {
 
     /// Motor currents. A current leads its speed: how they go together says nothing of its sign.
     pub fn currents(&self, places: &[Place]) -> Vec<Rule> {
-        let mut put = self.put(places);
+        let mut put = self.put_by(places, if self.are_unsigned(places) { f64::abs } else { |value| value });
         put.wheels.iter_mut().for_each(|wheel| wheel.sign = 1.0);
         let column = self.runs[0].column(places[0]);
         let conversion = match column.name.unit {
@@ -83,6 +83,12 @@ impl Beside<'_> {
 
     fn name_of(&self, place: Place) -> Option<&str> {
         self.runs[0].column(place).name.wheel.as_deref()
+    }
+
+    fn are_unsigned(&self, places: &[Place]) -> bool {
+        let channel = |place: &Place| &self.runs[0].column(*place).values;
+        let speeds: Vec<&Channel> = self.speeds.iter().map(|rule| channel(&rule.place)).collect();
+        is_unsigned(&places.iter().map(channel).collect::<Vec<_>>(), &speeds)
     }
 
     fn largest(&self, places: &[Place]) -> f64 {
@@ -99,12 +105,17 @@ impl Beside<'_> {
 
     /// Puts columns to wheels: by the names that they share with the speeds, where these do not go badly together.
     fn put(&self, places: &[Place]) -> PutGroup {
+        self.put_by(places, |value| value)
+    }
+
+    /// The same by what `part` takes of the speeds: their sizes, beside signals that have no sign.
+    fn put_by(&self, places: &[Place], part: fn(f64) -> f64) -> PutGroup {
         if self.speeds.is_empty() {
             let found = Found::new(Certainty::Guess, "in the order of names: no speed tells order and signs");
             let put = |place: &Place| Put { place: *place, sign: 1.0, found: found.clone() };
             return PutGroup { wheels: places.iter().map(put).collect(), times: None, fit: 0.0 };
         }
-        let fits = self.fits(places);
+        let fits = self.fits(places, part);
         let total = |order: &Vec<usize>| -> f64 {
             order.iter().enumerate().map(|(wheel, column)| fits[wheel][*column].fit().abs()).sum()
         };
@@ -138,11 +149,11 @@ impl Beside<'_> {
     }
 
     /// How each column goes with each wheel's speed.
-    fn fits(&self, places: &[Place]) -> Vec<Vec<Together>> {
+    fn fits(&self, places: &[Place], part: fn(f64) -> f64) -> Vec<Vec<Together>> {
         let both = |rule: &Rule, place: &Place| {
             let mut together = Together::default();
             for run in self.runs {
-                let speed = run.column(rule.place).values.map(|_, value| rule.sign * value);
+                let speed = run.column(rule.place).values.map(|_, value| part(rule.sign * value));
                 together.add(&run.onto(*place, rule.place), &speed);
             }
             together

@@ -39,7 +39,7 @@ pub(super) fn find(table: &Table) -> Option<Clock> {
     let stated = column.name.unit.and_then(|unit| UNITS.iter().find(|(known, _)| *known == unit));
     let unit = stated.filter(|unit| fitting.contains(unit)).or(fitting.first().copied()).or(stated)?;
     let of_name = if by_name.is_some() { "by its name; it increases" } else { "it increases from row to row" };
-    let apart = format!("{of_name}, and its rows are {step:.6} {} apart", unit.0).replace("000 ", " ");
+    let apart = format!("{of_name}, and its rows are {} {} apart", three_figures(step), unit.0);
     let certainty = match (by_name.is_some(), fitting.len()) {
         (true, 1) => Certainty::Sure,
         (true, _) if stated == Some(unit) => Certainty::Sure,
@@ -59,4 +59,10 @@ fn step(column: &Column) -> Option<f64> {
     let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let middle = steps.len() / 2;
     Some(*steps.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// A number in three figures, and all that stands before the point.
+fn three_figures(value: f64) -> String {
+    let digits = (2 - value.abs().log10().floor() as i32).clamp(0, 9) as usize;
+    format!("{value:.digits$}")
 }
