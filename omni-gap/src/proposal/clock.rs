@@ -63,6 +63,6 @@ fn step(column: &Column) -> Option<f64> {
 
 /// A number in three figures, and all that stands before the point.
 fn three_figures(value: f64) -> String {
-    let digits = (2 - value.abs().log10().floor() as i32).clamp(0, 9) as usize;
+    let digits = 2_i32.saturating_sub(value.abs().log10().floor() as i32).clamp(0, 9) as usize;
     format!("{value:.digits$}")
 }

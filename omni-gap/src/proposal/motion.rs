@@ -1,5 +1,6 @@
 //! # What all runs together say of wheels and pose
 
+use super::doubt::Certainty;
 use super::groups::Groups;
 use super::kinematics::{self, Poses, Reading};
 use super::logs::LoggedRun;
@@ -11,10 +12,21 @@ use crate::log::RobotFile;
 pub(super) struct Motion {
     pub reading: Reading,
     pub wheels: Wheels,
-    /// Whether another reading fits as well and changes hardly more.
-    pub is_ambiguous: bool,
+    /// How many changes more the next reading takes that fits as well.
+    lead: usize,
     /// Whether the pose's clock is not that of the wheels.
     pub is_apart: bool,
+}
+
+impl Motion {
+    /// How sure order, signs and frame are, beside others that fit as well.
+    pub fn certainty(&self) -> Certainty {
+        match self.lead {
+            0 => Certainty::Guess,
+            1 => Certainty::Likely,
+            _ => Certainty::Sure,
+        }
+    }
 }
 
 /// How far apart clocks are tried (s), and how finely.
@@ -46,13 +58,14 @@ pub(super) fn compare(runs: &[LoggedRun], groups: &Groups, counts: Option<bool>,
     let readings = kinematics::read(&evidence, degrees);
     let of_wheels =
         |reading: &Reading| Reading { columns: reading.columns[..speeds.len()].to_vec(), ..reading.clone() };
-    let turning =
-        readings.iter().filter_map(|reading| Some((reading.clone(), wheels::find(&of_wheels(reading), robot)?)));
-    let (mut turning, strange): (Vec<_>, Vec<_>) = turning.partition(|(_, wheels)| wheels.off_rad < wheels::OFF_RAD);
+    let all = readings.iter().flat_map(|reading| {
+        wheels::find(&of_wheels(reading), robot).into_iter().map(|wheels| (reading.clone(), wheels))
+    });
+    let (mut turning, strange): (Vec<_>, Vec<_>) = all.partition(|(_, wheels)| wheels.off_rad < wheels::OFF_RAD);
     let changes = |(reading, wheels): &(Reading, Wheels)| reading.frame.changes() + wheels.changes();
-    turning.sort_by_key(changes);
-    // the same motion seen from below, wheels turned round and numbered the other way, is always as good
-    let is_ambiguous = turning.get(1).is_some_and(|second| changes(second) < changes(&turning[0]) + 2);
+    turning.sort_by_key(|both| (changes(both), both.1.are_moved()));
+    // what is always as good: the same motion seen from below, and a robot that looks the same after a turn
+    let lead = turning.get(1).map_or(usize::MAX, |second| changes(second) - changes(&turning[0]));
     let turning = turning.into_iter().next().or_else(|| strange.into_iter().next());
     // what changes least of those that fit the drive angles, or what fits them best
     let straight = || {
@@ -62,7 +75,7 @@ pub(super) fn compare(runs: &[LoggedRun], groups: &Groups, counts: Option<bool>,
         fits.or(all.iter().min_by(|a, b| a.1.off_rad.total_cmp(&b.1.off_rad))).cloned()
     };
     let (reading, wheels) = turning.or_else(straight)?;
-    Some(Motion { reading, wheels, is_ambiguous, is_apart: offsets.iter().any(|offset_s| *offset_s != 0.0) })
+    Some(Motion { reading, wheels, lead, is_apart: offsets.iter().any(|offset_s| *offset_s != 0.0) })
 }
 
 /// How the clock of the pose's file lies to that of the wheels' file (s).

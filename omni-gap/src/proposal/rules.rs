@@ -105,7 +105,7 @@ impl Rules<'_> {
         match (self.scales(), self.counts) {
             // 2π/N of a count is an angle
             (Some((scales, certainty)), Some(running)) => counted(
-                (scales.per_rad_s * TAU).round(),
+                (scales.per_rad_s * TAU).round().max(1.0),
                 running,
                 certainty.min(Certainty::Likely),
                 "so many counts make wheels and pose agree; better give the encoder's own number",
@@ -155,10 +155,10 @@ impl Rules<'_> {
             let fit = format!("wheels and pose leave {:.1} % of the motion", 100.0 * motion.reading.rest);
             return match (wheels.off_rad < OFF_RAD && motion.reading.rest < MOST_LEFT, wheels.scales) {
                 (true, Some(_)) => {
-                    let is_one_of_several = !wheels.also_rad.is_empty() && wheels.offset_rad.abs() > NO_OFFSET_RAD;
-                    let certainty = match is_one_of_several || motion.is_ambiguous {
-                        true => Certainty::Guess,
-                        false => Certainty::Sure,
+                    let certainty = motion.certainty();
+                    let fit = match certainty {
+                        Certainty::Sure => fit,
+                        _ => fit + ", and another order with another frame as little",
                     };
                     (wheels.column.clone(), wheels.sign.clone(), Found::new(certainty, fit))
                 }
@@ -214,10 +214,10 @@ impl Rules<'_> {
             return rules.map(|(target, place, conversion)| Rule::new(target, place, conversion)).to_vec();
         };
         let frame = motion.reading.frame;
-        let is_clear = motion.reading.next_best > 2.0 * motion.reading.rest && !motion.is_ambiguous;
+        let is_clear = motion.reading.next_best > 2.0 * motion.reading.rest;
         // without turning a frame and its mirror image are the same, wheels being otherwise
         let certainty = match (is_clear, motion.wheels.scales) {
-            (true, Some(_)) => Certainty::Sure,
+            (true, Some(_)) => motion.certainty(),
             (_, None) if !frame.mirrored && !frame.clockwise => Certainty::Likely,
             _ => Certainty::Guess,
         };
@@ -245,7 +245,7 @@ impl Rules<'_> {
             Rule {
                 sign: if frame.clockwise { -1.0 } else { 1.0 },
                 offset: offset.0,
-                found: angle.found.clone().and(clockwise).and(offset.1),
+                found: angle.found.clone().and(clockwise).and(Found::new(certainty, offset.1)),
                 ..Rule::new(Target::Theta, heading, angle)
             },
         ]
@@ -284,21 +284,13 @@ impl Rules<'_> {
 const NEAR_RAD: f64 = FRAC_PI_2 / 2.0;
 
 /// What is added to the heading (rad), near to a quarter turn exactly that.
-fn offset(wheels: &Wheels) -> (f64, Found) {
+fn offset(wheels: &Wheels) -> (f64, String) {
     let quarter = (wheels.offset_rad / FRAC_PI_2).round() * FRAC_PI_2;
     let offset = if (wheels.offset_rad - quarter).abs() < NO_OFFSET_RAD { quarter } else { wheels.offset_rad };
     if offset == 0.0 {
-        return (0.0, Found::new(Certainty::Sure, ""));
+        return (0.0, String::new());
     }
-    let degrees = offset.to_degrees();
-    match wheels.also_rad.iter().map(|also| also.to_degrees()).reduce(|a, b| if a.abs() < b.abs() { a } else { b }) {
-        Some(also) => {
-            let reason =
-                format!("the marker lies {degrees:.0}° off forward, or {also:.0}° with the wheels numbered otherwise");
-            (offset, Found::new(Certainty::Guess, reason))
-        }
-        None => (offset, Found::new(Certainty::Sure, format!("the marker lies {degrees:.0}° off forward"))),
-    }
+    (offset, format!("the marker lies {:.0}° off forward", offset.to_degrees()))
 }
 
 /// Which way a word for a place points, from the robot's forward axis to the left (rad).

@@ -163,7 +163,8 @@ fn column(rules: &Rules, rule: &Rule) -> Written {
 
 /// Five figures, as TOML has them.
 fn number(value: f64) -> String {
-    let digits = 4 - value.abs().log10().floor() as i32;
+    // of zero the logarithm is less than any number
+    let digits = 4_i32.saturating_sub(value.abs().log10().floor() as i32);
     let text = format!("{value:.*}", digits.clamp(1, 12) as usize);
     let short = text.trim_end_matches('0');
     if short.ends_with('.') { format!("{short}0") } else { short.to_owned() }

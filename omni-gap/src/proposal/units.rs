@@ -59,12 +59,20 @@ pub(super) fn lengths_in_a_metre(unit: &str) -> Option<f64> {
 /// A number may be off by so much, wheel and floor being what they are, and still be of its unit.
 const NEAR: f64 = 0.2;
 
+/// Whether a number can be the size of anything: nothing can, of a robot that stands.
+fn is_size(number: f64) -> bool {
+    number.is_finite() && number > 0.0
+}
+
 fn is_near(a: f64, b: f64) -> bool {
     (a / b).ln().abs() < NEAR
 }
 
 /// The unit of wheel speeds that have `per_rad_s` to a rad/s, of a robot with this gear.
 pub(super) fn of_rate(per_rad_s: f64, stated: Option<&'static str>, gear: f64) -> Conversion {
+    if !is_size(per_rad_s) {
+        return by_name(stated, "rad/s");
+    }
     let told = |per: f64| format!("the pose turns {:.3} as fast as they would", per_rad_s / per);
     if let Some((unit, per)) = stated.and_then(|unit| Some((unit, rates_in_a_rad_s(unit)?))) {
         let unit = (unit != "rad/s").then_some(unit);
@@ -102,6 +110,9 @@ pub(super) fn of_rate(per_rad_s: f64, stated: Option<&'static str>, gear: f64) -
 
 /// The unit of a pose that has `per_m` to a metre.
 pub(super) fn of_length(per_m: f64, stated: Option<&'static str>) -> Conversion {
+    if !is_size(per_m) {
+        return by_name(stated, "m");
+    }
     let near = LENGTHS.iter().find(|(_, per)| is_near(per_m, *per));
     let in_contracts = |unit: &'static str| (unit != "m").then_some(unit);
     match (near, stated) {

@@ -13,8 +13,6 @@ pub(super) struct Wheels {
     pub sign: Vec<f64>,
     /// What the heading lacks (rad).
     pub offset_rad: f64,
-    /// Further turns (rad) of the whole robot that fit as well: wheels that are numbered from another one.
-    pub also_rad: Vec<f64>,
     /// How far the angles are from the robot file's (rad, RMS).
     pub off_rad: f64,
     /// Numbers of the columns in a rad/s, and of the pose in a metre; none where the robot hardly turned.
@@ -24,13 +22,19 @@ pub(super) struct Wheels {
 }
 
 impl Wheels {
+    /// Whether their order is another than that of their names.
+    pub fn are_moved(&self) -> bool {
+        self.column.iter().enumerate().any(|(wheel, column)| wheel != *column)
+    }
+
     /// How many things are otherwise than their names would have it: the order, signs (all at once being one), and a
     /// marker that lies across.
     pub fn changes(&self) -> usize {
-        let moved = self.column.iter().enumerate().any(|(wheel, column)| wheel != *column);
         let turned = self.sign.iter().filter(|sign| **sign < 0.0).count();
         let all = turned == self.sign.len();
-        usize::from(moved) + if all { 1 } else { turned } + usize::from(self.offset_rad.abs() > NO_OFFSET_RAD)
+        usize::from(self.are_moved())
+            + if all { 1 } else { turned }
+            + usize::from(self.offset_rad.abs() > NO_OFFSET_RAD)
     }
 }
 
@@ -50,42 +54,40 @@ pub(super) const OFF_RAD: f64 = 0.35;
 /// Angles nearer to each other than this cannot be told apart (rad).
 const SAME_RAD: f64 = 0.1;
 
-/// Puts columns to wheels; none where the robot turned too little for their signs.
-pub(super) fn find(reading: &Reading, robot: &RobotFile) -> Option<Wheels> {
+/// Puts columns to wheels: every way that fits the drive angles as well as the best, since a robot that looks the same after a
+/// turn has several; none where it turned too little for the signs of its wheels.
+pub(super) fn find(reading: &Reading, robot: &RobotFile) -> Vec<Wheels> {
     const SURE: f64 = 0.2;
     // less than that slip makes of a robot that goes straight on
     const TURNS: f64 = 0.02;
     let by_turning = reading.columns.iter().map(|column| column.by_turning).sum::<f64>() / reading.columns.len() as f64;
     if by_turning < TURNS || reading.columns.iter().any(|column| column.unsure_turn > SURE) {
-        return None;
+        return Vec::new();
     }
     let sign: Vec<f64> = reading.columns.iter().map(|column| column.of[2].signum()).collect();
-    let mut fits: Vec<(Vec<usize>, f64, f64)> = permutations(sign.len())
-        .into_iter()
-        .map(|order| {
-            let (offset, off) = lies(reading, robot, &order, &sign);
-            (order, offset, off)
-        })
-        .collect();
-    let least = fits.iter().map(|fit| fit.2).fold(f64::INFINITY, f64::min);
-    fits.retain(|fit| fit.2 <= least + SAME_RAD);
-    fits.sort_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    let (column, offset_rad, off_rad) = fits.remove(0);
+    let all = permutations(sign.len()).into_iter().map(|column| ordered(reading, robot, column, &sign));
+    let mut all: Vec<Wheels> = all.collect();
+    let least = all.iter().map(|wheels| wheels.off_rad).fold(f64::INFINITY, f64::min);
+    all.retain(|wheels| wheels.off_rad <= least + SAME_RAD);
+    all
+}
+
+fn ordered(reading: &Reading, robot: &RobotFile, column: Vec<usize>, sign: &[f64]) -> Wheels {
+    let (offset_rad, off_rad) = lies(reading, robot, &column, sign);
     // κ = |γ| r/d
     let of_wheel = |wheel: usize| {
         reading.columns[column[wheel]].of[2].abs() * robot.wheel[wheel].radius_m / robot.wheel[wheel].distance_m
     };
     let per_rad_s = (0..column.len()).map(of_wheel).sum::<f64>() / column.len() as f64;
     let per_rad_s_per_m = along(reading, robot, &column);
-    Some(Wheels {
+    Wheels {
         sign: column.iter().map(|column| sign[*column]).collect(),
-        also_rad: fits.iter().map(|fit| fit.1).collect(),
         column,
         offset_rad,
         off_rad,
         scales: Some(Scales { per_rad_s, per_m: per_rad_s / per_rad_s_per_m }),
         per_rad_s_per_m,
-    })
+    }
 }
 
 /// Columns in the order of their names, none turned round: what is left to say where the robot hardly turned.
@@ -94,7 +96,7 @@ pub(super) fn as_named(reading: &Reading, robot: &RobotFile) -> Wheels {
     let sign = vec![1.0; column.len()];
     let (offset_rad, off_rad) = lies(reading, robot, &column, &sign);
     let per_rad_s_per_m = along(reading, robot, &column);
-    Wheels { column, sign, offset_rad, also_rad: Vec::new(), off_rad, scales: None, per_rad_s_per_m }
+    Wheels { column, sign, offset_rad, off_rad, scales: None, per_rad_s_per_m }
 }
 
 /// How the heading lies (rad) if the columns are the wheels in this order and with these signs, and how far their angles are

@@ -78,6 +78,7 @@ fn what_is_missing_or_wrong_is_one_message_and_nothing_is_written() {
         (&["new", "q", "--layout", "three"], "--distance, --radius, --mass and --gear are needed"),
         (&["new", "q", "--angles", "0,90"], "three angles or four"),
         (&["new", "q", "--like", "segway"], "known are feup-3w"),
+        (&["new", "q", "--layout", "three", "--mass", "0"], "expected a number above zero"),
         (
             &["new", "q", "--layout", "three", "--distance", "90", "--radius", "0.03", "--mass", "2", "--gear", "5"],
             "expected a number from 0.005 to 3 m",

@@ -49,31 +49,31 @@ pub struct Starter {
     #[arg(long)]
     name: Option<String>,
     /// From the robot's centre to where a wheel touches the floor [m]; of mecanum wheels half of length and width together
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", value_parser = above_zero)]
     distance: Option<f64>,
     /// Radius of a wheel [m]
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", value_parser = above_zero)]
     radius: Option<f64>,
     /// Mass [kg]
-    #[arg(long, value_name = "KG")]
+    #[arg(long, value_name = "KG", value_parser = above_zero)]
     mass: Option<f64>,
     /// Inertia about the vertical axis [kg·m²]
-    #[arg(long, value_name = "KG_M2")]
+    #[arg(long, value_name = "KG_M2", value_parser = above_zero)]
     inertia: Option<f64>,
     /// Turns of the motor in a turn of the wheel
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = above_zero)]
     gear: Option<f64>,
     /// Speed constant of the motor's data sheet [rpm/V]
-    #[arg(long, value_name = "RPM_PER_V")]
+    #[arg(long, value_name = "RPM_PER_V", value_parser = above_zero)]
     kv: Option<f64>,
     /// Resistance between two terminals of a motor, driver included [Ω]
-    #[arg(long, value_name = "OHM")]
+    #[arg(long, value_name = "OHM", value_parser = above_zero)]
     resistance: Option<f64>,
     /// Voltage of the battery [V]
-    #[arg(long, value_name = "V")]
+    #[arg(long, value_name = "V", value_parser = above_zero)]
     supply: Option<f64>,
     /// Fastest speed that the robot is known to reach [m/s]: tells the motor's constant where --kv is not known
-    #[arg(long, value_name = "M_S")]
+    #[arg(long, value_name = "M_S", value_parser = above_zero)]
     top_speed: Option<f64>,
 }
 
@@ -143,13 +143,10 @@ impl Starter {
 
     /// A robot file of wheels with these drive angles.
     pub fn text(&self, angles_deg: &[f64], is_mecanum: bool) -> std::result::Result<String, CliError> {
-        let needed = |number: Option<f64>| number.filter(|number| *number > 0.0);
-        let (Some(distance), Some(radius), Some(mass), Some(gear)) =
-            (needed(self.distance), needed(self.radius), needed(self.mass), needed(self.gear))
+        let (Some(distance), Some(radius), Some(mass), Some(gear)) = (self.distance, self.radius, self.mass, self.gear)
         else {
-            return Err(CliError::Unclear(
-                "--distance, --radius, --mass and --gear are needed, all above zero: no guess can stand for them",
-            ));
+            let told = "--distance, --radius, --mass and --gear are needed: no guess can stand for them";
+            return Err(CliError::Unclear(told));
         };
         let wheels = angles_deg.len() as f64;
         // rollers at 45°: the floor feels the wheel's rim by its part along the rollers' axis
@@ -260,6 +257,11 @@ heading_noise_rad = 0.01
 [supply]
 ";
 
+fn above_zero(text: &str) -> std::result::Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| "expected a number above zero".into())
+}
+
 /// Kv [V/(rad/s)] of a data sheet's rpm/V
 fn emf_constant_v_s(kv_rpm_per_v: f64) -> f64 {
     60.0 / (2.0 * PI * kv_rpm_per_v)
@@ -267,7 +269,7 @@ fn emf_constant_v_s(kv_rpm_per_v: f64) -> f64 {
 
 /// Four figures, as TOML has a number.
 fn figures(value: f64) -> String {
-    let digits = (3 - value.abs().log10().floor() as i32).clamp(1, 9) as usize;
+    let digits = 3_i32.saturating_sub(value.abs().log10().floor() as i32).clamp(1, 9) as usize;
     let text = format!("{value:.digits$}");
     let short = text.trim_end_matches('0');
     if short.ends_with('.') { format!("{short}0") } else { short.to_owned() }
