@@ -8,6 +8,7 @@ mod causes;
 mod check;
 mod cli_error;
 mod compare;
+mod completions;
 mod console;
 mod convert;
 mod demo;
@@ -29,7 +30,7 @@ mod sensitivity;
 mod simulate;
 mod validate;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use console::Console;
 
@@ -69,6 +70,7 @@ enum Command {
     Export(export::Export),
     Record(record::Record),
     Convert(convert::Convert),
+    Completions(completions::Completions),
 }
 
 /// Exit code for input that cannot be used.
@@ -97,6 +99,7 @@ impl Cli {
             Command::Export(c) => c.run(&console),
             Command::Record(c) => c.run(&console),
             Command::Convert(c) => c.run(&console),
+            Command::Completions(c) => c.run(Cli::command(), &console),
         };
         console.end_phase();
         match done {

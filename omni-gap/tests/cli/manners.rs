@@ -51,3 +51,14 @@ fn the_version_is_the_crates() {
     let said = Bench::empty().done(&["--version"]);
     assert_eq!(said.out.trim(), format!("omni-gap {}", env!("CARGO_PKG_VERSION")));
 }
+
+#[test]
+fn shells_are_told_every_command() {
+    let bench = Bench::empty();
+    for shell in ["bash", "zsh", "fish"] {
+        let script = bench.done(&["completions", shell]).out;
+        for command in ["diagnose", "map", "new", "completions"] {
+            assert!(script.contains(command), "{shell}: {command}");
+        }
+    }
+}

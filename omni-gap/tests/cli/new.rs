@@ -64,8 +64,9 @@ fn mecanum_wheels_are_omni_wheels_across_their_rollers() {
 #[test]
 fn a_robot_that_is_described_already_is_taken_and_changed() {
     let bench = Bench::empty();
-    bench.done(&["new", "r", "--like", "robotino", "--mass", "14", "--radius", "0.06"]);
+    bench.done(&["new", "r", "--like", "robotino", "--mass", "14", "--radius", "0.06", "--name", "ours"]);
     let robot = read(&bench, "r");
+    assert_eq!(robot.name, "ours");
     assert_eq!((robot.body.mass_kg, robot.wheel[2].radius_m, robot.motor.gear_ratio), (14.0, 0.06, 16.0));
     assert!(bench.read("r/robot.toml").contains("# Festo Robotino v2"));
 }

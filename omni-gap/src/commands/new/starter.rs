@@ -119,6 +119,11 @@ impl Starter {
 
     /// A ready-made robot file with these numbers in it.
     pub fn changed(&self, text: &str) -> Result<String> {
+        let named = |line: &str| match &self.name {
+            Some(name) if line.starts_with("name = ") => format!("name = {name:?}\n"),
+            _ => format!("{line}\n"),
+        };
+        let text: String = text.lines().map(named).collect();
         let wheels = text.matches("[[wheel]]").count();
         let number = |path: String, value: Option<f64>| value.map(|value| Change::Number { path, value });
         let of_wheels = (0..wheels).flat_map(|wheel| {
@@ -138,7 +143,7 @@ impl Starter {
             ("supply.voltage_V", self.supply),
         ];
         let others = others.into_iter().map(|(path, value)| number(path.to_owned(), value));
-        corrected(text, &of_wheels.chain(others).flatten().collect::<Vec<_>>())
+        corrected(&text, &of_wheels.chain(others).flatten().collect::<Vec<_>>())
     }
 
     /// A robot file of wheels with these drive angles.
