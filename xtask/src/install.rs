@@ -64,7 +64,7 @@ impl Install {
 fn apt(packages: &str, machine: &Machine) -> Means {
     let lines = |sudo: &str| {
         let line = |what: &str| Line::of(&format!("{sudo} apt-get {what}"));
-        Means::Lines(vec![line("update"), line(&format!("install -y {packages}"))])
+        Means::Lines(vec![line("update"), line(&format!("install -y --no-install-recommends {packages}"))])
     };
     match machine {
         Machine { apt: false, .. } => {
@@ -72,7 +72,7 @@ fn apt(packages: &str, machine: &Machine) -> Means {
         }
         Machine { root: true, .. } => lines(""),
         Machine { sudo: true, .. } => lines("sudo -n"),
-        _ => Means::ByHand(format!("run: sudo apt-get install -y {packages}")),
+        _ => Means::ByHand(format!("run: sudo apt-get install -y --no-install-recommends {packages}")),
     }
 }
 
@@ -98,10 +98,13 @@ mod tests {
     #[test]
     fn packages_are_installed_as_root_or_by_a_silent_sudo() {
         let gcc = |machine| typed(Install::Apt("gcc").on(&machine));
-        assert_eq!(gcc(Machine { apt: true, root: true, ..BARE }), "apt-get update; apt-get install -y gcc");
+        assert_eq!(
+            gcc(Machine { apt: true, root: true, ..BARE }),
+            "apt-get update; apt-get install -y --no-install-recommends gcc"
+        );
         assert_eq!(
             gcc(Machine { apt: true, sudo: true, ..BARE }),
-            "sudo -n apt-get update; sudo -n apt-get install -y gcc"
+            "sudo -n apt-get update; sudo -n apt-get install -y --no-install-recommends gcc"
         );
     }
 
@@ -110,7 +113,7 @@ mod tests {
         let by_hand = |install: Install, machine| typed(install.on(&machine));
         assert_eq!(
             by_hand(Install::Apt("gcc"), Machine { apt: true, ..BARE }),
-            "by hand: run: sudo apt-get install -y gcc"
+            "by hand: run: sudo apt-get install -y --no-install-recommends gcc"
         );
         assert!(by_hand(Install::Apt("gcc"), BARE).contains("this system's package manager"));
         assert!(by_hand(Install::Rustup("component add clippy"), BARE).ends_with("rustup component add clippy"));
