@@ -129,7 +129,7 @@ const POSITION: [&str; 13] = [
     "global",
 ];
 /// Words of what no mapping asks for.
-const OTHER: [&str; 17] = [
+const OTHER: [&str; 21] = [
     "covariance",
     "acc",
     "accel",
@@ -147,7 +147,26 @@ const OTHER: [&str; 17] = [
     "cell",
     "charge",
     "capacity",
+    "status",
+    "health",
+    "technology",
+    "present",
 ];
+
+impl Name {
+    /// The same in a message whose definition has all in SI units, where the name states no other.
+    pub fn in_si(mut self) -> Name {
+        let own = match self.role {
+            Some(Role::X | Role::Y) => Some("m"),
+            Some(Role::Heading) => Some("rad"),
+            Some(Role::Gyro | Role::Speed | Role::SetSpeed) => Some("rad/s"),
+            Some(Role::Battery) => Some("V"),
+            _ => None,
+        };
+        self.unit = self.unit.or(own);
+        self
+    }
+}
 
 /// Reads a name; `of` is what the table itself is called, such as a topic.
 pub(super) fn read(name: &str, of: &str) -> Name {
@@ -175,9 +194,12 @@ pub(super) fn read(name: &str, of: &str) -> Name {
     let wheel = bracketed.or_else(|| take_wheel(&mut words));
     let context = self::words(of).0;
     let mut role = wheel.as_ref().and_then(|_| of_wheel(&words, unit)).or_else(|| of_body(&words, unit));
+    let both: Vec<String> = context.iter().chain(&words).cloned().collect();
     if role.is_none() && wheel.is_some() {
-        let both: Vec<String> = context.iter().chain(&words).cloned().collect();
         role = of_wheel(&both, unit);
+    }
+    if role.is_none() && Words(&words).any(&["voltage", "volts"]) && Words(&context).hold(&BATTERY) {
+        role = Some(Role::Battery);
     }
     Name { role, wheel, stem: words.join("_"), unit, is_a_runs_own: Target::named(name).is_some() }
 }
@@ -205,7 +227,8 @@ impl Words<'_> {
 fn of_wheel(words: &[String], unit: Option<&str>) -> Option<Role> {
     let words = Words(words);
     match unit {
-        _ if words.0.is_empty() || words.any(&OTHER) => None,
+        // what stands in brackets there is a frame
+        _ if words.0.is_empty() || words.any(&OTHER) || words.any(&["transform", "transforms"]) => None,
         Some("A" | "mA") => Some(Role::Current),
         _ if words.hold(&CURRENT) => Some(Role::Current),
         Some("V" | "mV") => Some(Role::Drive),
@@ -363,6 +386,9 @@ mod tests {
             "gyro_x",
             "target_x",
             "pose.covariance[3]",
+            "power_supply_status",
+            "transforms[arm].transform.rotation.w",
+            "transforms[arm].header.stamp",
         ] {
             assert_eq!(told(name).0, None, "{name}");
         }
@@ -374,5 +400,6 @@ mod tests {
         assert_eq!(read("data[1]", "/wheel_cmd_speed").role, Some(Role::SetSpeed));
         assert_eq!(read("data[1]", "/cmd").role, Some(Role::Command));
         assert_eq!(read("data[1]", "/unknown").role, None);
+        assert_eq!(read("voltage", "/battery").role, Some(Role::Battery));
     }
 }

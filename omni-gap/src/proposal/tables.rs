@@ -46,6 +46,9 @@ impl Table {
     }
 }
 
+/// Packages of messages that are in SI units by their definition (ROS Enhancement Proposal 103).
+const SI: [&str; 4] = ["sensor_msgs/", "geometry_msgs/", "nav_msgs/", "tf2_msgs/"];
+
 /// How much of a text shows how it is laid out (bytes).
 const BEGINNING: u64 = 1 << 16;
 
@@ -56,7 +59,11 @@ pub(super) fn open(path: &Path) -> Result<Vec<Table>> {
         let read = |topic: source::Topic| {
             let opened = source::open(path, &Layout::default(), Some(&topic.topic));
             // a topic that cannot be read is none that a mapping could name
-            opened.ok().map(|opened| table(&*opened, None, &[], Some(topic.topic)))
+            let mut table = opened.ok().map(|opened| table(&*opened, None, &[], Some(topic.topic)))?;
+            if SI.iter().any(|package| topic.of_type.starts_with(package)) {
+                table.columns = table.columns.into_iter().map(|c| Column { name: c.name.in_si(), ..c }).collect();
+            }
+            Some(table)
         };
         return Ok(source::topics(path)?.into_iter().filter_map(read).collect());
     }
