@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// Where the folder cannot be read.
-pub(super) fn entries(folder: &Path) -> Result<Vec<(String, PathBuf)>> {
+pub(crate) fn entries(folder: &Path) -> Result<Vec<(String, PathBuf)>> {
     let told = |reason: std::io::Error| {
         Error::input(folder, format!("cannot be read: {reason}"), "Check its permissions")
             .of_kind(InputKind::Unreadable)

@@ -88,6 +88,11 @@ const UNITS: [(&str, Quantity, f64); 16] = [
     ("deg", Quantity::Angle, std::f64::consts::PI / 180.0),
 ];
 
+/// What one of a unit is in the contract's unit.
+pub(crate) fn unit_factor(unit: &str) -> Option<f64> {
+    UNITS.iter().find(|(known, ..)| *known == unit).map(|(.., factor)| *factor)
+}
+
 const RULE_KEYS: [&str; 10] =
     ["from", "expr", "unit", "scale", "sign", "offset", "counts_per_turn", "counts", "running_sum", "optional"];
 /// The keys of a mapping, wherever it stands.

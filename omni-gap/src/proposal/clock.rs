@@ -10,8 +10,6 @@ pub(super) struct Clock {
     /// Its column; none where the messages of a topic have a clock of their own.
     pub column: Option<usize>,
     pub unit: &'static str,
-    /// The column holds the length of each sample.
-    pub running_sum: bool,
     pub found: Found,
     /// The time of each row (s).
     pub t_s: Vec<f64>,
@@ -26,7 +24,7 @@ const STEPS_S: (f64, f64) = (2e-4, 0.3);
 pub(super) fn find(table: &Table) -> Option<Clock> {
     if let Some((name, times)) = &table.own_clock {
         let found = Found::new(Certainty::Sure, format!("the messages' own `{name}`"));
-        return Some(Clock { column: None, unit: "s", running_sum: false, found, t_s: times.clone() });
+        return Some(Clock { column: None, unit: "s", found, t_s: times.clone() });
     }
     let increasing: Vec<(usize, f64)> =
         (0..table.columns.len()).filter_map(|place| Some((place, step(&table.columns[place])?))).collect();
@@ -47,7 +45,7 @@ pub(super) fn find(table: &Table) -> Option<Clock> {
     };
     let t_s = column.values.iter().map(|time| time.map_or(f64::NAN, |time| time / unit.1)).collect();
     let found = Found::new(certainty, apart);
-    Some(Clock { column: Some(place), unit: unit.0, running_sum: false, found, t_s })
+    Some(Clock { column: Some(place), unit: unit.0, found, t_s })
 }
 
 /// The middle step of a column that increases from row to row.

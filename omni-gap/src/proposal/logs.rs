@@ -5,7 +5,7 @@ use super::groups::Place;
 use super::series::Way;
 use super::tables::{self, Column, Table};
 use crate::error::{Error, InputKind, Result};
-use crate::log::{Channel, Missing};
+use crate::log::{Channel, Missing, entries};
 use std::path::{Path, PathBuf};
 
 /// One run.
@@ -74,18 +74,9 @@ fn files(path: &Path) -> Result<Vec<PathBuf>> {
     if !path.is_dir() {
         return Ok(vec![path.to_owned()]);
     }
-    let unreadable = |reason: std::io::Error| {
-        Error::input(path, format!("cannot be read: {reason}"), "Check its permissions").of_kind(InputKind::Unreadable)
-    };
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(path).map_err(unreadable)? {
-        let file = entry.map_err(unreadable)?.path();
-        let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if file.is_file() && !name.starts_with('.') && !name.ends_with(".yaml") && !name.ends_with(".toml") {
-            files.push(file);
-        }
-    }
-    files.sort();
+    let is_log =
+        |(name, file): &(String, PathBuf)| file.is_file() && !name.ends_with(".yaml") && !name.ends_with(".toml");
+    let files: Vec<PathBuf> = entries(path)?.into_iter().filter(is_log).map(|(_, file)| file).collect();
     match files.is_empty() {
         true => Err(Error::input(
             path,

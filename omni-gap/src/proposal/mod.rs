@@ -4,7 +4,7 @@
 //! `columns.toml` in which every line says why it is so and how sure that is.
 //!
 //! Reading order: `tables` (files of any format → columns, `dialect` finds out how text is laid out) and `names` (what a name
-//! says; `nameless` describes columns that have none) → `clock` (what counts time) → `groups` (which columns make a signal) → `kinematics` and `wheels` (what wheels and pose
+//! says, by its `words`; `nameless` describes columns that have none) → `clock` (what counts time) → `groups` (which columns make a signal) → `kinematics` and `wheels` (what wheels and pose
 //! say of each other: order, signs, units, the pose's frame; `motion` asks for all runs, `logs` holds them) → `rules` (with
 //! `units`; `beside` has the signals beside the speeds) → `text`. `doubt` is how sure something is.
 //!
@@ -29,6 +29,7 @@ mod tables;
 mod text;
 mod units;
 mod wheels;
+mod words;
 
 #[cfg(test)]
 mod tests;

@@ -2,6 +2,7 @@
 //!
 //! Names are taken to words (`m1SetVel [rpm]` is `m`, `1`, `set`, `vel`, `rpm`); words decide, never the order of columns.
 
+use super::words::{UNITS, Words, words_of};
 use crate::log::target::Target;
 
 /// What a column is, by its name.
@@ -36,39 +37,6 @@ pub(super) struct Name {
     /// Whether it is a name that needs no mapping.
     pub is_a_runs_own: bool,
 }
-
-/// Words for units, in the spelling of mappings.
-const UNITS: [(&str, &str); 29] = [
-    ("s", "s"),
-    ("sec", "s"),
-    ("secs", "s"),
-    ("seconds", "s"),
-    ("ms", "ms"),
-    ("msec", "ms"),
-    ("millis", "ms"),
-    ("us", "us"),
-    ("usec", "us"),
-    ("micros", "us"),
-    ("ns", "ns"),
-    ("nsec", "ns"),
-    ("nanos", "ns"),
-    ("v", "V"),
-    ("mv", "mV"),
-    ("a", "A"),
-    ("ma", "mA"),
-    ("rpm", "rpm"),
-    ("m", "m"),
-    ("cm", "cm"),
-    ("mm", "mm"),
-    ("rad", "rad"),
-    ("deg", "deg"),
-    ("degrees", "deg"),
-    ("grad", "deg"),
-    ("ticks", "counts"),
-    ("tick", "counts"),
-    ("counts", "counts"),
-    ("count", "counts"),
-];
 
 /// Words for the places of wheels.
 const PLACES: [&str; 22] = [
@@ -170,7 +138,7 @@ impl Name {
 
 /// Reads a name; `of` is what the table itself is called, such as a topic.
 pub(super) fn read(name: &str, of: &str) -> Name {
-    let (mut words, bracketed) = words(name);
+    let (mut words, bracketed) = words_of(name);
     let mut unit = None;
     // a unit stands behind: `speed_rpm`, `x [mm]`; rad_s and deg/s are two words
     if let [.., per, "s"] = words.iter().map(String::as_str).collect::<Vec<_>>().as_slice()
@@ -192,7 +160,7 @@ pub(super) fn read(name: &str, of: &str) -> Name {
         unit = UNITS.iter().find(|(word, _)| *word == words[0] && word.len() > 1).map(|(_, unit)| *unit);
     }
     let wheel = bracketed.or_else(|| take_wheel(&mut words));
-    let context = self::words(of).0;
+    let context = words_of(of).0;
     let mut role = wheel.as_ref().and_then(|_| of_wheel(&words, unit)).or_else(|| of_body(&words, unit));
     let both: Vec<String> = context.iter().chain(&words).cloned().collect();
     if role.is_none() && wheel.is_some() {
@@ -202,25 +170,6 @@ pub(super) fn read(name: &str, of: &str) -> Name {
         role = Some(Role::Battery);
     }
     Name { role, wheel, stem: words.join("_"), unit, is_a_runs_own: Target::named(name).is_some() }
-}
-
-/// The words of a name, and what may be asked of them.
-struct Words<'a>(&'a [String]);
-
-impl Words<'_> {
-    fn any(&self, known: &[&str]) -> bool {
-        self.0.iter().any(|word| known.contains(&word.as_str()))
-    }
-
-    /// Also where words are run together: `setvel`, `motorcurrent`.
-    fn hold(&self, known: &[&str]) -> bool {
-        let within = |word: &String| known.iter().any(|known| known.len() > 2 && word.contains(known));
-        self.any(known) || self.0.iter().any(within)
-    }
-
-    fn last(&self) -> &str {
-        self.0.last().map(String::as_str).unwrap_or_default()
-    }
 }
 
 /// What a column that names a wheel is.
@@ -295,37 +244,6 @@ fn take_wheel(words: &mut Vec<String>) -> Option<String> {
         wheel = format!("{}_{wheel}", words.remove(at - 1));
     }
     Some(wheel)
-}
-
-/// The words of a name in small letters, and what stands in its first brackets where that is no unit.
-fn words(name: &str) -> (Vec<String>, Option<String>) {
-    let mut words: Vec<String> = Vec::new();
-    let mut last = ' ';
-    let kind = |letter: char| (letter.is_ascii_digit(), letter.is_alphabetic());
-    let inside = name.split_once('[').and_then(|(_, rest)| rest.split_once(']')).map(|(inside, _)| inside);
-    let is_unit = |inside: &str| {
-        let small = inside.to_lowercase();
-        UNITS.iter().any(|(word, _)| *word == small) || small.contains('/') || small.contains('°')
-    };
-    let bracketed = inside.filter(|inside| !inside.is_empty() && !is_unit(inside)).map(str::to_owned);
-    let outside = match &bracketed {
-        Some(inside) => name.replacen(&format!("[{inside}]"), "", 1),
-        None => name.to_owned(),
-    };
-    // units with a capital in them are one word
-    let outside =
-        [("mA", "ma"), ("mV", "mv"), ("°", "deg")].iter().fold(outside, |name, (unit, word)| name.replace(unit, word));
-    for letter in outside.chars() {
-        let begins = kind(letter) != kind(last) || letter.is_uppercase() && last.is_lowercase();
-        if letter.is_alphanumeric() {
-            if begins {
-                words.push(String::new());
-            }
-            words.last_mut().into_iter().for_each(|word| word.extend(letter.to_lowercase()));
-        }
-        last = letter;
-    }
-    (words, bracketed)
 }
 
 #[cfg(test)]

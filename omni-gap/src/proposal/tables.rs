@@ -95,9 +95,15 @@ fn beginning(path: &Path) -> Result<String> {
 
 fn table(opened: &dyn Source, layout: Option<Layout>, names: &[String], topic: Option<String>) -> Table {
     let of = topic.clone().unwrap_or_default();
-    let column = |place: usize| {
-        // text is no column of numbers
-        let values = opened.columns(&[place]).ok()?.remove(0);
+    // a column of text is none of numbers, and its reading fails: then each is read alone
+    let all: Vec<usize> = (0..opened.width()).collect();
+    let alone = |place: &usize| opened.columns(&[*place]).ok().map(|mut columns| columns.remove(0));
+    let mut values: Vec<Option<Channel>> = match opened.columns(&all) {
+        Ok(columns) => columns.into_iter().map(Some).collect(),
+        Err(_) => all.iter().map(alone).collect(),
+    };
+    let mut column = |place: usize| {
+        let values = values[place].take()?;
         let named = opened.names().get(place);
         let title = named.or(names.get(place)).cloned();
         Some(Column {
@@ -111,6 +117,6 @@ fn table(opened: &dyn Source, layout: Option<Layout>, names: &[String], topic: O
         let times = opened.columns(&[clock.column]).ok()?.remove(0);
         Some((opened.title(clock.column), times.iter().map(|time| time.unwrap_or(f64::NAN)).collect()))
     });
-    let columns = (0..opened.width()).filter_map(column).collect();
+    let columns = all.iter().filter_map(|place| column(*place)).collect();
     Table { path: opened.path().into(), topic, layout, columns, own_clock }
 }

@@ -9,6 +9,7 @@ use super::series::quantum;
 use super::tables::{From, Table};
 use crate::log::source::Layout;
 use crate::log::target::Target;
+use crate::log::toml_number;
 use std::fmt::Write;
 
 /// What stands in a mapping of one file or topic.
@@ -116,10 +117,9 @@ fn clock(rules: &Rules, table: usize) -> Option<Written> {
     let clock = rules.run().clock(table)?;
     let from = from(&rules.run().column((table, clock.column?)).from);
     let unit = if clock.unit == "s" { String::new() } else { format!(", unit = {:?}", clock.unit) };
-    let sum = if clock.running_sum { ", running_sum = true" } else { "" };
     Some(Written {
         key: Target::Time.to_string(),
-        value: format!("{{ from = {from}{unit}{sum} }}"),
+        value: format!("{{ from = {from}{unit} }}"),
         certainty: clock.found.certainty,
         reason: clock.found.reason.clone(),
     })
@@ -161,13 +161,8 @@ fn column(rules: &Rules, rule: &Rule) -> Written {
     }
 }
 
-/// Five figures, as TOML has them.
 fn number(value: f64) -> String {
-    // of zero the logarithm is less than any number
-    let digits = 4_i32.saturating_sub(value.abs().log10().floor() as i32);
-    let text = format!("{value:.*}", digits.clamp(1, 12) as usize);
-    let short = text.trim_end_matches('0');
-    if short.ends_with('.') { format!("{short}0") } else { short.to_owned() }
+    toml_number(value, 5)
 }
 
 /// What is true of whole groups.

@@ -1,7 +1,7 @@
 //! # Units, told by the size of numbers
 
 use super::doubt::{Certainty, Found};
-use std::f64::consts::PI;
+use crate::log::unit_factor;
 
 /// How a column becomes the contract's unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,29 +31,33 @@ impl Conversion {
 
     /// What a number is multiplied by (counts apart).
     pub fn factor(&self) -> f64 {
-        let of_unit = match self.unit {
-            Some("rpm") => PI / 30.0,
-            Some("deg/s" | "deg") => PI / 180.0,
-            Some("mm" | "mA" | "mV") => 1e-3,
-            Some("cm") => 1e-2,
-            _ => 1.0,
-        };
+        let of_unit = self.unit.and_then(unit_factor).unwrap_or(1.0);
         of_unit * self.scale.unwrap_or(1.0)
     }
 }
 
-/// Rates, and how many of each make a rad/s.
-const RATES: [(&str, f64); 3] = [("rad/s", 1.0), ("rpm", 30.0 / PI), ("deg/s", 180.0 / PI)];
-/// Lengths, and how many of each make a metre.
-const LENGTHS: [(&str, f64); 3] = [("m", 1.0), ("cm", 100.0), ("mm", 1000.0)];
+/// Units of rates, and of lengths.
+const RATES: [&str; 3] = ["rad/s", "rpm", "deg/s"];
+const LENGTHS: [&str; 3] = ["m", "cm", "mm"];
+
 /// How many of a rate make a rad/s, by the name of its unit.
 pub(super) fn rates_in_a_rad_s(unit: &str) -> Option<f64> {
-    RATES.iter().find(|(known, _)| *known == unit).map(|rate| rate.1)
+    in_one(&RATES, unit)
 }
 
 /// How many of a length make a metre, by the name of its unit.
 pub(super) fn lengths_in_a_metre(unit: &str) -> Option<f64> {
-    LENGTHS.iter().find(|(known, _)| *known == unit).map(|length| length.1)
+    in_one(&LENGTHS, unit)
+}
+
+fn in_one(units: &[&str], unit: &str) -> Option<f64> {
+    units.contains(&unit).then(|| unit_factor(unit)).flatten().map(|factor| 1.0 / factor)
+}
+
+/// The units of these of which there may be `per` in one.
+fn near<'a>(units: &'a [&'static str], per: f64) -> impl Iterator<Item = (&'static str, f64)> + 'a {
+    let with = |unit: &&'static str| Some((*unit, in_one(units, unit)?));
+    units.iter().filter_map(with).filter(move |(_, known)| is_near(per, *known))
 }
 
 /// A number may be off by so much, wheel and floor being what they are, and still be of its unit.
@@ -97,7 +101,7 @@ pub(super) fn of_rate(per_rad_s: f64, stated: Option<&'static str>, gear: f64) -
         };
     }
     for (times, of_motor) in [(1.0, false), (gear, true)] {
-        let near: Vec<_> = RATES.iter().filter(|(_, per)| is_near(per_rad_s, per * times)).collect();
+        let near: Vec<_> = near(&RATES, per_rad_s / times).collect();
         if let [(unit, per)] = near.as_slice() {
             let motor = if of_motor { format!(" of the motor in front of the gear of {gear}") } else { String::new() };
             let found = Found::new(Certainty::Sure, format!("{unit}{motor}: {}", told(per * times)));
@@ -113,11 +117,11 @@ pub(super) fn of_length(per_m: f64, stated: Option<&'static str>) -> Conversion 
     if !is_size(per_m) {
         return by_name(stated, "m");
     }
-    let near = LENGTHS.iter().find(|(_, per)| is_near(per_m, *per));
+    let near = near(&LENGTHS, per_m).next();
     let in_contracts = |unit: &'static str| (unit != "m").then_some(unit);
     match (near, stated) {
         (Some((unit, per)), stated) => {
-            let agrees = stated.is_none_or(|stated| stated == *unit);
+            let agrees = stated.is_none_or(|stated| stated == unit);
             let certainty = if agrees { Certainty::Sure } else { Certainty::Guess };
             let reason = format!("{unit}: by the wheels the robot goes {:.3} as far", per_m / per);
             Conversion { unit: in_contracts(unit), ..Conversion::none(certainty, reason) }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use omni_gap::error::Result;
-use omni_gap::log::{Change, corrected};
+use omni_gap::log::{Change, corrected, toml_number};
 
 use super::super::cli_error::CliError;
 
@@ -272,10 +272,6 @@ fn emf_constant_v_s(kv_rpm_per_v: f64) -> f64 {
     60.0 / (2.0 * PI * kv_rpm_per_v)
 }
 
-/// Four figures, as TOML has a number.
 fn figures(value: f64) -> String {
-    let digits = 3_i32.saturating_sub(value.abs().log10().floor() as i32).clamp(1, 9) as usize;
-    let text = format!("{value:.digits$}");
-    let short = text.trim_end_matches('0');
-    if short.ends_with('.') { format!("{short}0") } else { short.to_owned() }
+    toml_number(value, 4)
 }

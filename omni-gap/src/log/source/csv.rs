@@ -2,10 +2,9 @@
 //!
 //! A field is a number or empty. A number that is not finite, or text, is refused with line and column.
 
-use super::opened::{OwnClock, Source};
+use super::opened::Source;
 use crate::error::{Error, InputKind, Result};
 use crate::log::channel::{Channel, Missing};
-use crate::log::run::Sampled;
 use crate::log::toml_walk::read_bytes;
 use std::path::{Path, PathBuf};
 
@@ -199,10 +198,6 @@ impl Source for Table {
         Ok(columns)
     }
 
-    fn clock(&self) -> Option<&OwnClock> {
-        None
-    }
-
     fn line_of(&self, row: usize) -> Option<usize> {
         let mut reader = self.reader();
         let mut record = csv::ByteRecord::new();
@@ -210,14 +205,6 @@ impl Source for Table {
             let _ = reader.read_byte_record(&mut record);
         }
         Some(self.line(&record))
-    }
-
-    fn currents_sampled(&self) -> Option<Sampled> {
-        None
-    }
-
-    fn notices(&self) -> Vec<String> {
-        Vec::new()
     }
 }
 

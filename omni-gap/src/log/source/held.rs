@@ -28,20 +28,12 @@ impl Source for Held {
         &self.names
     }
 
-    fn width(&self) -> usize {
-        self.names.len()
-    }
-
     fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>> {
         Ok(wanted.iter().map(|column| self.columns[*column].clone()).collect())
     }
 
     fn clock(&self) -> Option<&OwnClock> {
         self.clock.as_ref()
-    }
-
-    fn line_of(&self, _: usize) -> Option<usize> {
-        None
     }
 
     fn currents_sampled(&self) -> Option<Sampled> {

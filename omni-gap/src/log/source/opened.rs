@@ -23,22 +23,32 @@ pub(crate) trait Source {
     fn names(&self) -> &[String];
 
     /// How many columns there are.
-    fn width(&self) -> usize;
+    fn width(&self) -> usize {
+        self.names().len()
+    }
 
     /// Reads the wanted columns.
     fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>>;
 
     /// The clock that its rows have where no mapping names one; none where a column has to be named `t_s`.
-    fn clock(&self) -> Option<&OwnClock>;
+    fn clock(&self) -> Option<&OwnClock> {
+        None
+    }
 
     /// The line of the file, counted from 1, on which a row stands, counted from 0; none where the file is not text.
-    fn line_of(&self, row: usize) -> Option<usize>;
+    fn line_of(&self, _row: usize) -> Option<usize> {
+        None
+    }
 
     /// When the currents were sampled, where the format itself says so.
-    fn currents_sampled(&self) -> Option<Sampled>;
+    fn currents_sampled(&self) -> Option<Sampled> {
+        None
+    }
 
     /// What a person should know of the file, one sentence each.
-    fn notices(&self) -> Vec<String>;
+    fn notices(&self) -> Vec<String> {
+        Vec::new()
+    }
 
     /// What a column is called in messages: its name, or its position counted from 1.
     fn title(&self, column: usize) -> String {

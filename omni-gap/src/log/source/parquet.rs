@@ -4,10 +4,9 @@
 //! whatever its unit; a decimal with its scale; a truth value as 1 or 0; null as a missing sample. A member of a struct has
 //! its path for a name, `pose.x`. Text and lists are columns too, and are refused once they are wanted.
 
-use super::opened::{OwnClock, Source};
+use super::opened::Source;
 use crate::error::{Error, InputKind, Result};
 use crate::log::channel::{Channel, Missing};
-use crate::log::run::Sampled;
 use parquet::basic::{LogicalType, TimeUnit, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
@@ -75,28 +74,8 @@ impl Source for Parquet {
         &self.names
     }
 
-    fn width(&self) -> usize {
-        self.names.len()
-    }
-
     fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>> {
         wanted.iter().map(|column| self.column(*column)).collect()
-    }
-
-    fn clock(&self) -> Option<&OwnClock> {
-        None
-    }
-
-    fn line_of(&self, _: usize) -> Option<usize> {
-        None
-    }
-
-    fn currents_sampled(&self) -> Option<Sampled> {
-        None
-    }
-
-    fn notices(&self) -> Vec<String> {
-        Vec::new()
     }
 }
 
