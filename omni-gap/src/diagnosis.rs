@@ -136,7 +136,7 @@ impl Diagnosis {
         let with = |changes: &FileChanges| corrected(&session.robot_text, &changes.changes()).ok();
         Self {
             report: Report::of(&findings, about),
-            pictures: findings.traces.as_ref().map(Pictures::of).unwrap_or_default(),
+            pictures: findings.traces.as_ref().map(Pictures::of).unwrap_or_default().of_robot(&session.robot.wheel),
             refitted_robot: findings.traces.as_ref().and_then(|_| with(&findings.refitted)),
             corrected_robot: (!findings.causes.is_empty()).then(|| with(&findings.corrected)).flatten(),
             next_run: script,

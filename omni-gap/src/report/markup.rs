@@ -2,24 +2,29 @@
 
 use std::fmt::{Display, Write};
 
+use serde::Serialize;
+
 /// Attributes of a tag; values are escaped.
 pub type Attrs<'a> = &'a [(&'a str, &'a dyn Display)];
 
 /// A piece of a page, HTML or SVG.
 #[derive(Debug, Default)]
-pub struct Markup(String);
+pub struct Markup {
+    text: String,
+    has_data: bool,
+}
 
 impl Markup {
     /// A tag around whatever `fill` writes.
     pub fn within(&mut self, tag: &str, attrs: Attrs, fill: impl FnOnce(&mut Self)) {
-        self.0.push('<');
-        self.0.push_str(tag);
+        self.text.push('<');
+        self.text.push_str(tag);
         for (name, value) in attrs {
-            let _ = write!(self.0, " {name}=\"{}\"", escape(&value.to_string()));
+            let _ = write!(self.text, " {name}=\"{}\"", escape(&value.to_string()));
         }
-        self.0.push('>');
+        self.text.push('>');
         fill(self);
-        let _ = write!(self.0, "</{tag}>");
+        let _ = write!(self.text, "</{tag}>");
     }
 
     /// A tag around text.
@@ -29,17 +34,30 @@ impl Markup {
 
     /// Text, escaped.
     pub fn text(&mut self, text: &str) {
-        self.0.push_str(&escape(text));
+        self.text.push_str(&escape(text));
     }
 
     /// Markup of this program's own, as it stands.
     pub fn own(&mut self, markup: &'static str) {
-        self.0.push_str(markup);
+        self.text.push_str(markup);
+    }
+
+    /// Numbers for the page's own scripts, as JSON.
+    pub fn data(&mut self, value: &impl Serialize) {
+        let json = serde_json::to_string(value).unwrap_or_else(|_| "null".to_owned());
+        // in a script only a `<` could end the numbers before their end
+        let _ = write!(self.text, "<script type=\"application/json\">{}</script>", json.replace('<', "\\u003c"));
+        self.has_data = true;
+    }
+
+    /// True where scripts find something to work on.
+    pub fn has_data(&self) -> bool {
+        self.has_data
     }
 
     /// The text of the page.
     pub fn finish(self) -> String {
-        self.0
+        self.text
     }
 }
 
@@ -83,6 +101,13 @@ mod tests {
         let mut m = Markup::default();
         m.leaf("p", &[("title", &"a\"b")], "<b> & 'c'\u{0}");
         assert_eq!(m.finish(), "<p title=\"a&quot;b\">&lt;b&gt; &amp; &#39;c&#39;\u{fffd}</p>");
+    }
+
+    #[test]
+    fn numbers_for_scripts_never_end_before_their_end() {
+        let mut m = Markup::default();
+        m.data(&["</script><b>", "µ"]);
+        assert_eq!(m.finish(), "<script type=\"application/json\">[\"\\u003c/script>\\u003cb>\",\"µ\"]</script>");
     }
 
     #[test]

@@ -6,6 +6,7 @@
 //! over its recordings, [`comparison`] for two sessions beside each other, [`design`] for what to record next; [`effect_picture()`] shows what an effect of the catalogue does, and [`shown_in()`] says
 //! where. Neither prose nor page computes anything: every sentence traces to a number in the report.
 
+mod chart_data;
 mod columns;
 pub mod comparison;
 mod decimate;
@@ -21,6 +22,7 @@ mod number;
 mod phrases;
 mod picture;
 mod rich_instructions;
+mod robot_picture;
 #[cfg(test)]
 mod sample;
 mod scale;

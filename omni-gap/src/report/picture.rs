@@ -1,10 +1,12 @@
 //! Signals over time as line charts.
 
+use super::chart_data::ChartData;
 use super::decimate::{STRIPS, stretches};
 use super::markup::{Markup, Px};
 use super::scale::Scale;
 use crate::engine::findings::{SignalTrace, Traces};
 use crate::localise::validation::Signal;
+use crate::log::WheelFile;
 
 /// Name of the series that was measured: drawn below the others, and not broken where predictions restart.
 pub const MEASURED: &str = "measured";
@@ -25,6 +27,8 @@ pub struct Pictures {
     pub restarts_s: Vec<f64>,
     /// One chart each.
     pub panels: Vec<Panel>,
+    /// The robot's wheels, to draw it from above; empty where it is not drawn.
+    pub wheels: Vec<WheelFile>,
 }
 
 /// One chart.
@@ -55,6 +59,12 @@ impl Pictures {
         Self::beside(traces, ["nominal", "corrected"])
     }
 
+    /// The same beside a drawing of the robot.
+    #[must_use]
+    pub fn of_robot(self, wheels: &[WheelFile]) -> Pictures {
+        Pictures { wheels: wheels.to_vec(), ..self }
+    }
+
     /// Signals measured, and by two models of these names.
     pub(super) fn beside(traces: &Traces, [before, after]: [&str; 2]) -> Pictures {
         let Traces { run, shown_s, horizon_s, restarts_s, t_s, signals } = traces;
@@ -76,6 +86,7 @@ impl Pictures {
             ),
             restarts_s: restarts_s.clone(),
             panels: signals.iter().map(panel).collect(),
+            wheels: Vec::new(),
         }
     }
 }
@@ -110,8 +121,20 @@ pub(super) fn ink(name: &str, at: usize) -> String {
     }
 }
 
+/// One panel under its title, with its numbers for the script that makes it one to zoom.
+pub(super) fn figure(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
+    m.within("figure", &[("class", &"chart")], |m| {
+        m.within("figcaption", &[], |m| {
+            m.text(&panel.title);
+            m.leaf("span", &[("class", &"unit")], &panel.unit);
+        });
+        chart(m, panel, restarts_s);
+        m.data(&ChartData::of(panel, restarts_s));
+    });
+}
+
 /// Draws one panel.
-pub(super) fn chart(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
+fn chart(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
     let cuts = |name: &str| if name == MEASURED { &[] } else { restarts_s };
     let lines: Vec<_> =
         panel.series.iter().map(|s| (s, stretches(&panel.t_s, &s.values, cuts(&s.name), STRIPS))).collect();

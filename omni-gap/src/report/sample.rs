@@ -3,6 +3,7 @@
 use super::model::*;
 use super::picture::{MEASURED, Panel, Pictures, Series};
 use crate::engine::findings::*;
+use crate::log::WheelFile;
 use crate::vocabulary::{Kind, Stage, Verdict};
 
 /// All samples with the name of their golden file.
@@ -318,5 +319,8 @@ pub fn pictures() -> Pictures {
         caption: "Run heldout/05.csv, 4.0 to 6.0 s, where the nominal error is largest".into(),
         restarts_s,
         panels,
+        wheels: [90.0, 180.0, 270.0, 0.0]
+            .map(|drive_angle_deg| WheelFile { drive_angle_deg, distance_m: 0.089, radius_m: 0.0325 })
+            .to_vec(),
     }
 }

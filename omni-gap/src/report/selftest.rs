@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use super::columns::table;
-use super::html::page::{page, section};
+use super::html::page::{self, page, section};
 use super::write::put;
 use crate::engine::findings::{SelfTest, WithSensor};
 use crate::error::Result;
@@ -83,7 +83,7 @@ pub fn selftest_html(said: &SelfTest) -> String {
             imitate, and the angle to the causes that it could be taken for.";
         section(m, "Sizes", explained, |m| {
             m.within("table", &[], |m| {
-                m.within("tr", &[], |m| heads(verified).iter().for_each(|head| m.leaf("th", &[], head)));
+                page::heads(m, &heads(verified));
                 for cause in &said.causes {
                     m.within("tr", &[], |m| line(cause, verified).iter().for_each(|cell| m.leaf("td", &[], cell)));
                 }

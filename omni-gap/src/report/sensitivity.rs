@@ -6,10 +6,10 @@ mod phrases;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::html::page::{page, section};
+use super::html::page::{heads, page, section};
 use super::markup::Markup;
 use super::number::num;
-use super::picture::{Panel, Series, chart, ink};
+use super::picture::{Panel, Series, figure, ink};
 use super::write::{put, unwritable};
 use crate::error::Result;
 use crate::simulate::{AxisSensitivity, Influence, NOMINAL_KEYS, NominalKey, Sensitivity};
@@ -172,7 +172,7 @@ fn curves(m: &mut Markup, axis: &AxisSensitivity) {
     let place = |i: &Influence| NOMINAL_KEYS.iter().position(|k| k.key == i.key);
     let lines: Vec<_> = axis.influences.iter().take(MOST_CURVES).filter_map(|i| Some((i.key, place(i)?))).collect();
     let panel = Panel {
-        title: "Sensitivity of the speed".into(),
+        title: "Sensitivity of the speed, from the step on".into(),
         unit: "%/%".into(),
         t_s: axis.curve.iter().map(|p| p.time).collect(),
         series: lines
@@ -183,28 +183,21 @@ fn curves(m: &mut Markup, axis: &AxisSensitivity) {
             })
             .collect(),
     };
-    m.within("figure", &[], |m| {
-        m.leaf("figcaption", &[], "Sensitivity of the speed, from the step on");
+    m.within("div", &[], |m| {
         m.within("p", &[("class", &"legend")], |m| {
             for (at, (key, _)) in lines.iter().enumerate() {
                 m.leaf("span", &[("class", &format!("key {}", ink(key, at)))], key);
             }
         });
-        chart(m, &panel, &[]);
+        figure(m, &panel, &[]);
     });
 }
 
 fn table(m: &mut Markup, axis: &AxisSensitivity, time_s: f64) {
     let (some, none) = split(axis);
     m.within("table", &[("class", &"numbers")], |m| {
-        m.within("thead", &[], |m| {
-            m.within("tr", &[], |m| {
-                let speed = format!("Speed after {} s", short(time_s));
-                for name in ["Per cent for one per cent of", "In the file", &speed, "Final speed", "Distance"] {
-                    m.leaf("th", &[("scope", &"col")], name);
-                }
-            });
-        });
+        let speed = format!("Speed after {} s", short(time_s));
+        heads(m, &["Per cent for one per cent of", "In the file", &speed, "Final speed", "Distance"]);
         m.within("tbody", &[], |m| {
             for i in some {
                 m.within("tr", &[], |m| {

@@ -5,7 +5,7 @@ use super::phrases::{headline, in_order, measure, nothing_to_play, script, worth
 use super::terminal::{HEADS, line};
 use crate::engine::findings::Design;
 use crate::log::Run;
-use crate::report::html::page::{page, section};
+use crate::report::html::page::{heads, page, section};
 use crate::report::html::signals::charts_under;
 use crate::report::instructions::floor_in_words;
 use crate::report::markup::Markup;
@@ -56,7 +56,7 @@ fn play(m: &mut Markup, report: &DesignReport, design: &Design) {
 
 fn questions(m: &mut Markup, design: &Design) {
     m.within("table", &[("class", &"numbers")], |m| {
-        m.within("tr", &[], |m| HEADS.iter().for_each(|head| m.leaf("th", &[], head)));
+        heads(m, &HEADS);
         for question in in_order(design) {
             m.within("tr", &[], |m| line(question).iter().for_each(|cell| m.leaf("td", &[], cell)));
         }
@@ -77,5 +77,5 @@ fn drawn(run: Option<&Run>) -> Pictures {
         }],
     };
     let panels = group.iter().flat_map(|group| &group.channels).enumerate().map(panel).collect();
-    Pictures { caption: String::new(), restarts_s: Vec::new(), panels }
+    Pictures { panels, ..Pictures::default() }
 }

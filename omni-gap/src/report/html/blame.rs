@@ -1,11 +1,13 @@
 //! Where the gap lies, and which cause is behind it.
 
-use super::page::section;
+use super::page::{heads, section};
 use crate::engine::findings::{Where, Which};
+use crate::log::WheelFile;
 use crate::report::markup::Markup;
 use crate::report::model::Report;
 use crate::report::number::{estimate, percent};
 use crate::report::phrases;
+use crate::report::robot_picture::{Marked, robot_picture, words};
 use crate::vocabulary::{Kind, Stage, Verdict};
 
 /// Causes less probable than this are summed up in a line.
@@ -14,8 +16,8 @@ const WORTH_A_ROW: f64 = 0.005;
 /// Causes shown at most, so that the page stays one a person reads.
 const MOST_ROWS: usize = 10;
 
-/// Each stage's share of a gap, and where in it that sits.
-pub(in crate::report) fn places(m: &mut Markup, places: &[Where]) {
+/// Each stage's share of a gap, and where in it that sits, beside the robot that is drawn if its wheels are given.
+pub(in crate::report) fn places(m: &mut Markup, places: &[Where], drawn: Option<(&[WheelFile], Marked)>) {
     if places.is_empty() {
         return;
     }
@@ -43,19 +45,32 @@ pub(in crate::report) fn places(m: &mut Markup, places: &[Where]) {
                 });
             }
         });
-        m.within("ul", &[("class", &"plain")], |m| {
-            for w in places.iter().filter(|w| w.regime.is_some() || w.wheel.is_some() || w.axis.is_some()) {
-                let regime = w
-                    .regime
-                    .as_ref()
-                    .map(|r| format!(". {} of it where {}", percent(r.share), phrases::open_ended(&r.text)));
-                let spot = phrases::spot(w.wheel, w.axis);
-                m.within("li", &[], |m| {
-                    m.leaf("strong", &[], &format!("{}{spot}: {}", w.stage.name(), percent(w.share)));
-                    m.text(&format!("{}.", regime.unwrap_or_default()));
+        m.within("div", &[("class", &"placed")], |m| {
+            if let Some((wheels, marked)) = drawn {
+                m.within("figure", &[], |m| {
+                    robot_picture(m, wheels, &marked);
+                    m.leaf("p", &[("class", &"how")], &format!("From above, forward is up; {}.", words(&marked)));
                 });
             }
+            spots(m, places);
         });
+    });
+}
+
+/// The places that are a wheel, an axis or a regime.
+fn spots(m: &mut Markup, places: &[Where]) {
+    m.within("ul", &[("class", &"plain")], |m| {
+        for w in places.iter().filter(|w| w.regime.is_some() || w.wheel.is_some() || w.axis.is_some()) {
+            let regime = w
+                .regime
+                .as_ref()
+                .map(|r| format!(". {} of it where {}", percent(r.share), phrases::open_ended(&r.text)));
+            let spot = phrases::spot(w.wheel, w.axis);
+            m.within("li", &[], |m| {
+                m.leaf("strong", &[], &format!("{}{spot}: {}", w.stage.name(), percent(w.share)));
+                m.text(&format!("{}.", regime.unwrap_or_default()));
+            });
+        }
     });
 }
 
@@ -67,17 +82,10 @@ pub(super) fn causes(m: &mut Markup, report: &Report) {
     let shown: Vec<_> = report.which.iter().filter(worth).take(MOST_ROWS).collect();
     section(m, "Which cause?", "The causes considered, most probable first; probabilities sum to 100 %.", |m| {
         m.within("table", &[("class", &"causes")], |m| {
-            m.within("thead", &[], |m| {
-                m.within("tr", &[], |m| {
-                    let parameters = shown.iter().any(|w| !w.parameters.is_empty());
-                    let alike = shown.iter().any(|w| !w.not_told_apart_from.is_empty());
-                    let names = ["Cause", "Probability"].into_iter();
-                    let names = names.chain([if parameters { "Parameters" } else { "" }]);
-                    for name in names.chain([if alike { "Not told apart from" } else { "" }]) {
-                        m.leaf("th", &[("scope", &"col")], name);
-                    }
-                });
-            });
+            let named = |there: bool, name| if there { name } else { "" };
+            let parameters = named(shown.iter().any(|w| !w.parameters.is_empty()), "Parameters");
+            let alike = named(shown.iter().any(|w| !w.not_told_apart_from.is_empty()), "Not told apart from");
+            heads(m, &["Cause", "Probability", parameters, alike]);
             m.within("tbody", &[], |m| shown.iter().for_each(|w| cause(m, report, w)));
         });
         let rest = report.which.len() - shown.len();

@@ -1,10 +1,10 @@
-//! Parameters, what to do next, what could not be seen, what is wrong with the log.
+//! Parameters, noise, what could not be seen, what is wrong with the log.
 
-use super::page::section;
-use crate::engine::findings::Corrected;
+use super::page::{heads, section};
+use crate::engine::findings::{ChannelNoise, Corrected};
 use crate::report::markup::Markup;
 use crate::report::model::{Fault, Report};
-use crate::report::number::{estimate, figures};
+use crate::report::number::{estimate, figures, num};
 use crate::report::phrases;
 use crate::report::terminal::place_in_log;
 
@@ -36,13 +36,7 @@ pub(super) fn parameters(m: &mut Markup, report: &Report) {
     let how = "One standard deviation on both sides; the last column is the change in stated uncertainties.";
     section(m, "Parameters, nominal and corrected", how, |m| {
         m.within("table", &[("class", &"numbers")], |m| {
-            m.within("thead", &[], |m| {
-                m.within("tr", &[], |m| {
-                    for name in ["Parameter", "Nominal", "Corrected", "Change"] {
-                        m.leaf("th", &[("scope", &"col")], name);
-                    }
-                });
-            });
+            heads(m, &["Parameter", "Nominal", "Corrected", "Change"]);
             m.within("tbody", &[], |m| report.parameters.iter().for_each(|p| parameter(m, p)));
         });
     });
@@ -68,22 +62,30 @@ fn parameter(m: &mut Markup, p: &Corrected) {
     });
 }
 
-pub(super) fn next(m: &mut Markup, report: &Report) {
-    let Some(next) = &report.next_experiment else { return };
-    section(m, "The next experiment", "", |m| {
-        m.within("div", &[("class", &"next")], |m| {
-            m.leaf("p", &[], &phrases::sentence(&next.why));
-            let names: Vec<_> = next.tells_apart.iter().map(|id| phrases::title(report, id).into_owned()).collect();
-            if !names.is_empty() {
-                m.leaf("p", &[("class", &"how")], &format!("Tells apart: {}.", phrases::list(&names)));
-            }
-            if let Some(file) = &next.file {
-                m.within("p", &[("class", &"how")], |m| {
-                    m.text("Input to play: ");
-                    m.leaf("code", &[], file);
-                });
-            }
+/// The noise of each sensor, as stated and as found.
+pub(super) fn noise(m: &mut Markup, report: &Report) {
+    if report.noise.is_empty() {
+        return;
+    }
+    let how =
+        "One sigma of each sensor: as the robot file states it, and by what the best model leaves of the recordings.";
+    section(m, "Noise, stated and found", how, |m| {
+        m.within("table", &[("class", &"numbers")], |m| {
+            heads(m, &["Sensor", "Stated", "Found", "Correlated over"]);
+            m.within("tbody", &[], |m| report.noise.iter().for_each(|n| noise_of(m, n)));
         });
+    });
+}
+
+fn noise_of(m: &mut Markup, n: &ChannelNoise) {
+    m.within("tr", &[], |m| {
+        m.leaf("th", &[("scope", &"row")], &n.sensor.replace('_', " "));
+        for (name, sigma) in [("stated", n.stated), ("found", n.found)] {
+            m.leaf("td", &[("data-name", &name)], &format!("{}\u{a0}{}", num(sigma), n.unit));
+        }
+        let memory = n.correlation_time_s;
+        let alike = if memory > 0.0 { format!("{}\u{a0}ms", num(1e3 * memory)) } else { "–".to_owned() };
+        m.leaf("td", &[("data-name", &"correlated over")], &alike);
     });
 }
 

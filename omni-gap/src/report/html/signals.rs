@@ -3,7 +3,7 @@
 use super::page::section;
 use crate::report::markup::Markup;
 use crate::report::phrases;
-use crate::report::picture::{Pictures, chart, ink};
+use crate::report::picture::{Pictures, figure, ink};
 
 /// Every panel under one legend.
 pub(in crate::report) fn charts(m: &mut Markup, pictures: &Pictures) {
@@ -36,10 +36,7 @@ pub(in crate::report) fn charts_under(m: &mut Markup, heading: &str, pictures: &
         });
         m.within("div", &[("class", &"panels")], |m| {
             for panel in &pictures.panels {
-                m.within("figure", &[], |m| {
-                    m.leaf("figcaption", &[], &panel.title);
-                    chart(m, panel, &pictures.restarts_s);
-                });
+                figure(m, panel, &pictures.restarts_s);
             }
         });
     });

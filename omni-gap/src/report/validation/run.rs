@@ -2,11 +2,11 @@
 
 use super::phrases;
 use crate::localise::validation::{RunFigures, RunTraces, Signal, SignalFigures, Trace};
-use crate::report::html::page::section;
+use crate::report::html::page::{heads, scrolling, section};
 use crate::report::markup::Markup;
 use crate::report::number::num;
 use crate::report::phrases::sentence;
-use crate::report::picture::{MEASURED, Panel, SIMULATED, Series, chart};
+use crate::report::picture::{MEASURED, Panel, SIMULATED, Series, figure};
 
 pub(super) fn run(m: &mut Markup, figures: &RunFigures, traces: &RunTraces) {
     let driven =
@@ -65,22 +65,13 @@ fn panel(m: &mut Markup, t_s: &[f64], trace: &Trace) {
         t_s: t_s.to_vec(),
         series: vec![series(MEASURED, &trace.measured), series(SIMULATED, &trace.simulated)],
     };
-    m.within("figure", &[], |m| {
-        m.leaf("figcaption", &[], &panel.title);
-        chart(m, &panel, &[]);
-    });
+    figure(m, &panel, &[]);
 }
 
 fn merits(m: &mut Markup, run: &RunFigures, pick: fn(Signal) -> bool) {
-    m.within("div", &[("class", &"scroll")], |m| {
+    scrolling(m, "Figures of merit", |m| {
         m.within("table", &[("class", &"merits")], |m| {
-            m.within("thead", &[], |m| {
-                m.within("tr", &[], |m| {
-                    for name in ["", "fit %", "of at most", "RMS", "RMS/σ", "largest"] {
-                        m.leaf("th", &[("scope", &"col")], name);
-                    }
-                });
-            });
+            heads(m, &["", "fit %", "of at most", "RMS", "RMS/σ", "largest"]);
             m.within("tbody", &[], |m| run.signals.iter().filter(|f| pick(f.signal)).for_each(|f| merit(m, f)));
         });
     });
