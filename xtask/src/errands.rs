@@ -6,7 +6,7 @@ use std::ffi::OsString;
 
 use crate::line::Line;
 use crate::python::Environment;
-use crate::{invented, real, steps, tool};
+use crate::{browser, invented, real, steps, tool};
 
 /// One thing to ask for.
 #[derive(Clone, Copy, Debug)]
@@ -116,6 +116,12 @@ pub const ERRANDS: &[Errand] = &[
         takes: "[FOLDER]",
         does: "compare whole reports with the frozen ones, with FOLDER real recordings' too (BLESS=1: freeze anew)",
         run: frozen,
+    },
+    Errand {
+        name: "browser",
+        takes: "[PAGE.html...]",
+        does: "open every kind of page in Chromium, three widths, light and dark: charts, switches, accessibility",
+        run: in_browser,
     },
     Errand {
         name: "invented",
@@ -267,6 +273,10 @@ fn frozen(given: &[OsString]) -> Result<(), String> {
         true => line.word(real::folder(given.first().cloned(), variable)?),
         false => line,
     })
+}
+
+fn in_browser(further: &[OsString]) -> Result<(), String> {
+    browser::perform(further)
 }
 
 fn invented(_: &[OsString]) -> Result<(), String> {

@@ -2,6 +2,7 @@
 //!
 //! Exit code: 0 done, 1 failed, 2 asked for in the wrong way.
 
+mod browser;
 mod errands;
 mod install;
 mod invented;
