@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use omni_gap::api;
 use omni_gap::log::write_whole_with;
 
+use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
 use super::given::robot_and_run;
@@ -21,9 +22,9 @@ pub struct Simulate {
     #[arg(long, value_name = "RUN.csv")]
     input: PathBuf,
 
-    /// Seed of the noise; the same seed gives the same file
+    /// Seed of the noise; the same seed gives the same file. Without noise none is needed
     #[arg(long, value_name = "N")]
-    seed: u64,
+    seed: Option<u64>,
 
     /// The file to write
     #[arg(long, value_name = "RUN.csv")]
@@ -38,13 +39,21 @@ pub struct Simulate {
     columns: Option<PathBuf>,
 }
 
+/// What is said where noise is asked for without a seed.
+const NO_SEED: &str = "noise is drawn from a seed, and none is given. Name one with --seed N (the same seed gives the same \
+                       file), or go without noise: --noise false";
+
 impl Simulate {
     /// Does it.
     pub fn run(&self, console: &Console) -> Done {
+        let seed = match (self.noise, self.seed) {
+            (true, None) => return Err(CliError::Unclear(NO_SEED)),
+            (noise, seed) => seed.filter(|_| noise),
+        };
         output_path::file(&self.out, &[&self.robot, &self.input])?;
         let given = robot_and_run(&self.robot, &self.input, self.columns.as_deref(), console)?;
         console.phase("simulating");
-        let run = api::simulate(&given.robot, &given.run, self.noise.then_some(self.seed))?;
+        let run = api::simulate(&given.robot, &given.run, seed)?;
         write_whole_with(&self.out, |out| run.write_csv(out))?;
         console.say(&format!("{} rows simulated, written to {}\n", run.rows(), self.out.display()))?;
         Ok(DONE)

@@ -279,3 +279,10 @@ fn a_step_that_cannot_be_taken() {
     }
     assert_eq!(bench.all(), before);
 }
+
+#[test]
+fn noise_without_a_seed_says_both_ways_out() {
+    let bench = Bench::with_session();
+    let args = ["simulate", "session/robot.toml", "--input", RUN, "--out", "s.csv"];
+    refused(&bench, &args, &["none is given", "--seed N", "--noise false"]);
+}
