@@ -9,8 +9,6 @@ mod commands;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
 fn main() -> ExitCode {
-    ExitCode::from(commands::Cli::parse().run())
+    ExitCode::from(commands::Cli::asked().run())
 }

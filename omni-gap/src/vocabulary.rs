@@ -3,6 +3,7 @@
 //! What an answer is in one word, what sort of cause there is, and where on the robot it can sit. Files write these words
 //! as serde does here; readers rely on them.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use model_core::effects::card::Stage;
@@ -11,7 +12,7 @@ pub use model_core::effects::card::Stage;
 pub type Progress<'a> = &'a (dyn Fn(&str) + Sync);
 
 /// The answer in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// One or more effects of the catalogue explain the gap.
@@ -40,7 +41,7 @@ impl Verdict {
 }
 
 /// What sort of cause.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// Something the model lacks.
@@ -69,7 +70,7 @@ pub(crate) mod stage_name {
 }
 
 /// A body axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Axis {
     /// Forward.

@@ -14,6 +14,8 @@ mod experiments;
 mod explain;
 #[path = "cli/folders.rs"]
 mod folders;
+#[path = "cli/json.rs"]
+mod json;
 #[path = "cli/manners.rs"]
 mod manners;
 #[path = "cli/map.rs"]

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use model_core::effects::card::Role;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::check::checked;
@@ -25,7 +26,7 @@ const NO_SURER: f64 = 0.9;
 const FINER: u16 = 2;
 
 /// What became of a number in a fit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FitRemark {
     /// It is known better than the file stated.
@@ -41,7 +42,7 @@ pub enum FitRemark {
 }
 
 /// A fitted number of the robot file.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct FittedNumber {
     /// Its key in the robot file.
     pub key: &'static str,
@@ -63,7 +64,7 @@ pub struct FittedNumber {
 
 /// A fitted number of an effect that the robot file carries. Nothing is stated of its uncertainty: it is fitted within the
 /// bounds of the effect's card.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct FittedEffectNumber {
     /// The effect's id.
     pub effect: &'static str,
@@ -84,7 +85,7 @@ pub struct FittedEffectNumber {
 }
 
 /// A robot file's numbers, fitted to recordings within their stated uncertainty.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Identification {
     /// All nominal numbers, in the order of the file.
     pub numbers: Vec<FittedNumber>,
@@ -99,6 +100,7 @@ pub struct Identification {
     /// True where what is left is more than noise: the model lacks something.
     pub lacks_something: bool,
     /// The text of the robot file with the fitted numbers in it.
+    #[serde(skip)]
     pub robot_text: String,
 }
 

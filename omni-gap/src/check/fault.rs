@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::log::Run;
 
 /// What is wrong with a recording, where, and how to mend it.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, schemars::JsonSchema, serde::Serialize)]
 pub struct Fault {
     /// A stable name of the kind of fault.
     pub code: &'static str,

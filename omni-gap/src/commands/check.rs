@@ -5,6 +5,7 @@ use std::path::Path;
 use omni_gap::Verdict;
 use omni_gap::check::{Fault, check};
 
+use super::answer::{AnswerForm, RunsChecked, SCHEMA};
 use super::console::Console;
 use super::console::wrapped;
 use super::done::{DONE, Done};
@@ -19,6 +20,9 @@ pub struct Check {
     /// Exit with 40 where a fault makes the recordings unfit for a diagnosis
     #[arg(long)]
     exit_code: bool,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 impl Check {
@@ -38,7 +42,9 @@ impl Check {
             (n, 0) => format!("{runs} run(s) checked: {n} fault(s), none of which forbids a diagnosis.\n"),
             (n, _) => format!("{runs} run(s) checked: {n} fault(s), {fatal} to be mended before a diagnosis.\n"),
         };
-        console.say(&page)?;
+        let runs_checked =
+            RunsChecked { schema: SCHEMA, runs, usable: fatal == 0, faults: &faults, notices: &session.notices };
+        self.form.say(console, &page, &runs_checked)?;
         Ok(if fatal > 0 && self.exit_code { Verdict::UnfitData.exit_code() } else { DONE })
     }
 }

@@ -8,6 +8,7 @@ use omni_gap::error::InputKind;
 use omni_gap::report::comparison::{self as report, Against, FILES};
 use omni_gap::{Error, Session, known_effects};
 
+use super::answer::AnswerForm;
 use super::causes::all_known;
 use super::cli_error::CliError;
 use super::console::Console;
@@ -49,6 +50,9 @@ pub struct Compare {
     /// Exit with 0 alike, 20 different, 30 unknown, 40 unfit data
     #[arg(long)]
     exit_code: bool,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 /// One side as it is named on the command line.
@@ -75,7 +79,7 @@ impl Compare {
         let folder = NewFolder::make(&self.out)?;
         let written = report::write(&self.out, &compared.report, &page)?;
         folder.keep();
-        console.say(&report::terminal(&compared.report, Some(&written)))?;
+        self.form.say(console, &report::terminal(&compared.report, Some(&written)), &compared.report)?;
         Ok(if self.exit_code { compared.report.comparison.verdict.exit_code() } else { DONE })
     }
 

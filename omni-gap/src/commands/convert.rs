@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use omni_gap::log::{Sampled, write_whole_with};
 
+use super::answer::{AnswerForm, RunWritten};
 use super::console::{Console, wrapped};
 use super::done::{DONE, Done};
 use super::given::robot_and_run;
@@ -27,6 +28,9 @@ pub struct Convert {
     /// A mapping from another log layout
     #[arg(long, value_name = "COLUMNS.toml")]
     columns: Option<PathBuf>,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 impl Convert {
@@ -35,18 +39,21 @@ impl Convert {
         output_path::file(&self.out, &[&self.robot, &self.run])?;
         let run = robot_and_run(&self.robot, &self.run, self.columns.as_deref(), console)?.run;
         write_whole_with(&self.out, |out| run.write_csv(out))?;
+        let mut answer = RunWritten::of(&self.out, run.rows());
         let mut text = format!("{} rows written to {}\n", run.rows(), self.out.display());
         if run.currents_sampled == Sampled::Before && run.i.is_some() {
             let told = "its currents were sampled before the voltage of their row was applied, which a table cannot say: put \
                         currents_sampled = \"before\" into the columns.toml of a session that reads it";
             text += &wrapped(2, told);
+            answer.notices.push(told.to_owned());
         }
         if run.opens_single_bridges() {
             let told = "on some rows single bridges were open, which a table cannot say: its empty voltages will be taken for \
                         ones that were lost; diagnose the records themselves";
             text += &wrapped(2, told);
+            answer.notices.push(told.to_owned());
         }
-        console.say(&text)?;
+        self.form.say(console, &text, &answer)?;
         Ok(DONE)
     }
 }

@@ -9,6 +9,7 @@ use omni_gap::simulate::EffectInstance;
 use omni_gap::synthesize::{Scenario, synthesize};
 use omni_gap::{Error, Report, Session, known_effects};
 
+use super::answer::AnswerForm;
 use super::console::Console;
 use super::console::wrapped;
 use super::diagnose::{FILES, diagnosed};
@@ -21,6 +22,9 @@ pub struct Demo {
     /// Folder for the recording (DIR/session) and the report (DIR/report)
     #[arg(long, value_name = "DIR", default_value = "omni-gap-demo")]
     out: PathBuf,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 /// The robot of the demo, and of whatever is shown where no robot is named.
@@ -59,9 +63,9 @@ impl Demo {
         folder.keep();
 
         let runs = session.runs.len();
-        console.say(&format!("Recorded {runs} runs of {} into {}.\n\n", session.robot.name, at.display()))?;
-        console.say(&report::terminal(&report, Some(&written)))?;
-        console.say(&format!("\n{}", unveiled(&report)))?;
+        let recorded = format!("Recorded {runs} runs of {} into {}.", session.robot.name, at.display());
+        let answer = report::terminal(&report, Some(&written));
+        self.form.say(console, &format!("{recorded}\n\n{answer}\n{}", unveiled(&report)), &report)?;
         Ok(DONE)
     }
 }

@@ -8,6 +8,7 @@ use omni_gap::report::{self, Beside, NextExperiment, Written};
 use omni_gap::simulate::HORIZON_S;
 use omni_gap::{Diagnosis, Options, Report, Session};
 
+use super::answer::AnswerForm;
 use super::causes::all_known;
 use super::cli_error::CliError;
 use super::console::Console;
@@ -40,6 +41,9 @@ pub struct Diagnose {
     /// Exit with 0 no gap, 10 parameter, 20 effect, 30 unknown, 40 unfit data
     #[arg(long)]
     exit_code: bool,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 /// The files of a report.
@@ -58,7 +62,7 @@ impl Diagnose {
         let also = self.also.load(&self.session.robot_path(), self.session.columns())?;
         let what = Options { session: self.session.name(), also: &also, knobs, ..Options::default() };
         let (report, written) = diagnosed(&session, &what, &self.out, console)?;
-        console.say(&report::terminal(&report, Some(&written)))?;
+        self.form.say(console, &report::terminal(&report, Some(&written)), &report)?;
         Ok(if self.exit_code { report.verdict.exit_code() } else { DONE })
     }
 }

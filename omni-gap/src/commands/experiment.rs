@@ -10,6 +10,7 @@ use omni_gap::report::{Instructions, ScriptSaid, instructions, num};
 use omni_gap::simulate::{Experiment, Lowered, Plan, Sensing, USUAL_FIELD, usual_voltage};
 use omni_gap::simulate_experiments::drag_a_load;
 
+use super::answer::{AnswerForm, FilesWritten, SCHEMA};
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
@@ -66,6 +67,9 @@ pub struct Experiments {
     /// Seed of the noise of a rehearsal; the same seed gives the same files
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 /// Rows a second where nothing else is asked [1/s]
@@ -87,7 +91,8 @@ impl Experiments {
         }
         let file = RobotFile::load(&self.robot, &known_effects())?;
         let said = if self.rich { self.rich_written(&file, console)? } else { self.paper_written(&file, console)? };
-        console.say(&said)?;
+        let files = MADE.iter().map(|name| self.out.join(name)).collect();
+        self.form.say(console, &said, &FilesWritten { schema: SCHEMA, files, notices: Vec::new() })?;
         Ok(DONE)
     }
 

@@ -10,6 +10,7 @@ use omni_gap::log::{FORMATS, RobotFile, write_whole};
 use omni_gap::report::{effect_picture, num, shown_in};
 use omni_gap::simulate::{NOMINAL_KEYS, effect_shown};
 
+use super::answer::{AnswerForm, Entry, Explained, SCHEMA};
 use super::causes::{cards, unknown};
 use super::cli_error::CliError;
 use super::console::Console;
@@ -32,13 +33,19 @@ pub struct Explain {
     /// The robot of the picture; without it the paper's on four wheels
     #[arg(long, value_name = "ROBOT.toml", requires = "out")]
     robot: Option<PathBuf>,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 impl Explain {
     /// Does it.
     pub fn run(&self, console: &Console) -> Done {
         let page = self.name.as_deref().map_or_else(|| Ok(list()), |name| self.page(name))?;
-        console.say(&page)?;
+        let asked = |entry: &Entry| self.name.as_deref().is_none_or(|name| name == entry.id);
+        let page_asked_for = self.name.is_some().then(|| page.clone());
+        let answer = Explained { schema: SCHEMA, entries: entries().filter(asked).collect(), page: page_asked_for };
+        self.form.say(console, &page, &answer)?;
         Ok(DONE)
     }
 
@@ -67,6 +74,20 @@ impl Explain {
         write_whole(out, effect_picture(&effect_shown(&robot, card)).as_bytes())?;
         Ok(format!("\nwritten to {}\n", out.display()))
     }
+}
+
+/// Everything that has a page.
+fn entries() -> impl Iterator<Item = Entry> {
+    let effect = |card: &'static Card| Entry {
+        id: card.id,
+        title: card.title,
+        kind: "effect",
+        stage: Some(card.stage().name()),
+    };
+    let parameters =
+        NOMINAL.iter().map(|card| Entry { id: card.id, title: card.title, kind: "parameter", stage: None });
+    let files = FORMATS.iter().map(|form| Entry { id: form.name, title: form.title, kind: "file", stage: None });
+    cards().map(effect).chain(parameters).chain(files)
 }
 
 const NO_PICTURE: &str = "pictures are drawn of effects, and this is none: leave out --out, or \

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use omni_gap::api::{Exported, RobotFile, export, known_effects};
 use omni_gap::log::write_whole;
 
+use super::answer::{AnswerForm, BlockWritten, SCHEMA};
 use super::console::Console;
 use super::console::wrapped;
 use super::done::{DONE, Done};
@@ -20,6 +21,9 @@ pub struct Export {
     /// The file to write
     #[arg(long, value_name = "BLOCK.bin")]
     out: PathBuf,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 impl Export {
@@ -31,7 +35,15 @@ impl Export {
         write_whole(&self.out, &exported.bytes)?;
         let (bytes, check) = (exported.bytes.len(), exported.checksum);
         let written = format!("{}: {bytes} bytes, checksum {check:08x}, written to {}", robot.name, self.out.display());
-        console.say(&(written + "\n" + &summary(&exported)))?;
+        let answer = BlockWritten {
+            schema: SCHEMA,
+            file: self.out.clone(),
+            bytes,
+            checksum: check,
+            undone: exported.undone.iter().map(|effect| effect.to_string()).collect(),
+            not_undone: exported.left.iter().map(|(name, why)| format!("{name}: {why}")).collect(),
+        };
+        self.form.say(console, &(written + "\n" + &summary(&exported)), &answer)?;
         Ok(DONE)
     }
 }

@@ -1,6 +1,7 @@
 //! `identify`: the best nominal numbers, and how sure they are.
 
 mod by_experiment;
+mod outputs;
 
 use std::path::PathBuf;
 
@@ -9,10 +10,12 @@ use omni_gap::identify::Asked;
 use omni_gap::log::write_whole;
 use omni_gap::report::num;
 
+use super::answer::{NumbersFitted, SCHEMA};
 use super::console::Console;
 use super::done::{DONE, Done};
 use super::given::GivenSession;
 use super::output_path;
+use outputs::Outputs;
 
 /// Fit the robot file's numbers, and those of the effects in it, to the recordings
 #[derive(Debug, clap::Args)]
@@ -29,24 +32,31 @@ pub struct Identify {
     #[arg(long, value_name = "WHICH", value_parser = by_experiment::asked)]
     experiment: Option<Asked>,
 
-    /// With --experiment: a file for all numbers, in JSON
-    #[arg(long, value_name = "FILE", requires = "experiment")]
-    json: Option<PathBuf>,
+    /// All numbers as JSON: into FILE beside the text, or printed in its place; `omni-gap schema` tells the form
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    json: Option<Option<PathBuf>>,
 }
 
 impl Identify {
     /// Does it.
     pub fn run(&self, console: &Console) -> Done {
         output_path::file(&self.out, &[&self.session.robot_path()])?;
+        self.outputs().are_two(&self.session.robot_path())?;
         if let Some(asked) = self.experiment {
-            return by_experiment::run(asked, &self.session, &self.out, self.json.as_deref(), console);
+            return by_experiment::run(asked, &self.session, self.outputs(), console);
         }
         let session = self.session.load(console)?;
         console.phase("fitting the numbers of the robot file");
         let found = api::identify(&session)?;
         write_whole(&self.out, found.robot_text.as_bytes())?;
-        console.say(&format!("{}\nwritten to {}\n", table(&found), self.out.display()))?;
+        let answer = NumbersFitted { schema: SCHEMA, file: self.out.clone(), found: &found };
+        let said = format!("{}\nwritten to {}\n", table(&found), self.out.display());
+        self.outputs().say(console, said, &answer)?;
         Ok(DONE)
+    }
+
+    fn outputs(&self) -> Outputs<'_> {
+        Outputs { robot: &self.out, json: self.json.as_ref().map(Option::as_deref) }
     }
 }
 

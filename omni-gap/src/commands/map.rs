@@ -7,6 +7,7 @@ use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, write_whole};
 use omni_gap::proposal::{Proposal, propose};
 
+use super::answer::{AnswerForm, MappingProposed, SCHEMA};
 use super::console::{Console, wrapped};
 use super::done::{DONE, Done};
 use super::output_path;
@@ -29,6 +30,9 @@ pub struct Map {
     /// Take the best guess where the logs do not decide; without it such lines stand in the mapping as comments
     #[arg(long)]
     yes: bool,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 impl Map {
@@ -43,13 +47,18 @@ impl Map {
         let proposal = propose(&self.logs, &robot)?;
         let text = proposal.text(self.yes);
         match &self.out {
-            None => console.say(&text)?,
+            None => self.form.say(console, &text, &self.answer(&proposal))?,
             Some(out) => {
                 write_whole(out, text.as_bytes())?;
-                console.say(&(summary(&proposal, self.yes) + &format!("\nwritten to {}\n", out.display())))?;
+                let said = summary(&proposal, self.yes) + &format!("\nwritten to {}\n", out.display());
+                self.form.say(console, &said, &self.answer(&proposal))?;
             }
         }
         Ok(DONE)
+    }
+
+    fn answer<'a>(&self, proposal: &'a Proposal) -> MappingProposed<'a> {
+        MappingProposed { schema: SCHEMA, file: self.out.clone(), proposal }
     }
 }
 

@@ -1,9 +1,10 @@
 //! # Commands: one file a verb
 //!
-//! [`causes`] knows their names, [`cli_error`] is why a command ends early, [`console`] says things on the terminal, [`given`] reads what the command line
+//! [`answer`] is what is answered, in words or as JSON, [`causes`] knows their names, [`cli_error`] is why a command ends early, [`console`] says things on the terminal, [`given`] reads what the command line
 //! names, [`output_path`] looks at outputs before any work is done for them. Bad input ends with one message on standard error
 //! and exit code 2; what a command writes is whole or not there.
 
+mod answer;
 mod causes;
 mod check;
 mod cli_error;
@@ -14,23 +15,26 @@ mod convert;
 mod demo;
 mod diagnose;
 mod done;
+mod examples;
 mod experiment;
 mod explain;
 mod export;
 mod given;
 mod identify;
+mod man;
 mod map;
 mod new;
 mod next;
 mod output_path;
 mod predict;
 mod record;
+mod schema;
 mod selftest;
 mod sensitivity;
 mod simulate;
 mod validate;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use console::Console;
 
@@ -71,12 +75,25 @@ enum Command {
     Record(record::Record),
     Convert(convert::Convert),
     Completions(completions::Completions),
+    Man(man::Man),
+    Schema(schema::SchemaOf),
 }
 
 /// Exit code for input that cannot be used.
 const BAD_INPUT: u8 = 2;
 
 impl Cli {
+    /// What the command line asks for; ends the program where it asks for help, or cannot be understood.
+    pub fn asked() -> Cli {
+        let mut program = Cli::program();
+        Cli::from_arg_matches(&program.get_matches_mut()).unwrap_or_else(|why| why.format(&mut program).exit())
+    }
+
+    /// The program with the examples of its commands.
+    fn program() -> clap::Command {
+        examples::with_examples(Cli::command())
+    }
+
     /// Does what was asked and returns the exit code.
     pub fn run(self) -> u8 {
         let console = Console::new(self.quiet, self.verbose);
@@ -99,7 +116,9 @@ impl Cli {
             Command::Export(c) => c.run(&console),
             Command::Record(c) => c.run(&console),
             Command::Convert(c) => c.run(&console),
-            Command::Completions(c) => c.run(Cli::command(), &console),
+            Command::Completions(c) => c.run(Cli::program(), &console),
+            Command::Man(c) => c.run(Cli::program(), &console),
+            Command::Schema(c) => c.run(&console),
         };
         console.end_phase();
         match done {

@@ -11,6 +11,7 @@ use omni_gap::Error;
 use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, write_whole};
 
+use super::answer::{AnswerForm, FilesWritten, SCHEMA};
 use super::cli_error::CliError;
 use super::console::{Console, wrapped};
 use super::done::{DONE, Done};
@@ -20,12 +21,7 @@ use ready_made::ReadyMade;
 use starter::{Layout, Starter};
 
 /// Begin a session for a robot of one's own: a robot file with a drawing of it, in which guesses are marked as guesses
-///
-/// Examples:
-///   omni-gap new my-robot --layout plus --distance 0.09 --radius 0.03 --mass 2.4 --gear 5 --kv 380 --supply 12
-///   omni-gap new my-robot --like robotino --mass 14
 #[derive(Debug, clap::Args)]
-#[command(verbatim_doc_comment)]
 pub struct New {
     /// The folder to make; robot.toml and runs/ will be in it
     #[arg(value_name = "SESSION")]
@@ -51,6 +47,9 @@ pub struct New {
 
     #[command(flatten)]
     starter: Starter,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 impl New {
@@ -70,7 +69,8 @@ impl New {
         let runs = self.folder.join("runs");
         std::fs::create_dir_all(&runs).map_err(|why| Error::output(&runs, why.to_string(), "Name another folder"))?;
         write_whole(&path, format!("{}{text}", commented(&drawing)).as_bytes())?;
-        console.say(&(drawing + &next_steps(&self.folder, &text)))?;
+        let answer = FilesWritten { schema: SCHEMA, files: vec![path], notices: Vec::new() };
+        self.form.say(console, &(drawing + &next_steps(&self.folder, &text)), &answer)?;
         Ok(DONE)
     }
 

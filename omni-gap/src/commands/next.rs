@@ -8,6 +8,7 @@ use omni_gap::report::NextExperiment;
 use omni_gap::report::design::{self as report, DesignReport, FILES, SCHEMA};
 use omni_gap::{Options, Session};
 
+use super::answer::AnswerForm;
 use super::causes::all_known;
 use super::cli_error::CliError;
 use super::console::Console;
@@ -43,6 +44,9 @@ pub struct Next {
     /// Causes to leave out, as if the catalogue did not have them
     #[arg(long, value_name = "ID,ID", value_delimiter = ',')]
     without: Vec<String>,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 /// Lengths of a script that has room for its pieces, and that nobody waits for in vain [s]
@@ -64,7 +68,7 @@ impl Next {
         let written = report::write(&self.out, &report, &page, script)?;
         folder.keep();
         console.end_phase();
-        console.say(&report::terminal(&report, &written))?;
+        self.form.say(console, &report::terminal(&report, &written), &report)?;
         Ok(DONE)
     }
 

@@ -6,6 +6,7 @@ use omni_gap::api;
 use omni_gap::log::{Channel, Group, Run, write_whole_with};
 use omni_gap::simulate::HORIZON_S;
 
+use super::answer::{AnswerForm, RunWritten};
 use super::console::Console;
 use super::done::{DONE, Done};
 use super::given::{robot_and_run, seconds};
@@ -33,6 +34,9 @@ pub struct Predict {
     /// A mapping from another log layout
     #[arg(long, value_name = "COLUMNS.toml")]
     columns: Option<PathBuf>,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 impl Predict {
@@ -47,7 +51,8 @@ impl Predict {
         }
         let predicted = api::predict(&given.robot, &run, self.horizon)?;
         write_whole_with(&self.out, |out| predicted.write_csv(out))?;
-        console.say(&format!("{} rows predicted, written to {}\n", predicted.rows(), self.out.display()))?;
+        let text = format!("{} rows predicted, written to {}\n", predicted.rows(), self.out.display());
+        self.form.say(console, &text, &RunWritten::of(&self.out, predicted.rows()))?;
         Ok(DONE)
     }
 }

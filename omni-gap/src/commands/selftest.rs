@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use omni_gap::api::{Driven, PlannedRuns, RobotFile, SelftestKnobs, known_effects, selftest, verify};
-use omni_gap::report::{selftest_json, selftest_terminal, write_selftest};
+use omni_gap::report::{selftest_terminal, write_selftest};
 use omni_gap::simulate::{SignalGroup, usual_voltage};
 
+use super::answer::AnswerForm;
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
@@ -59,9 +60,8 @@ pub struct Selftest {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Print selftest.json in place of the table
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 /// The files of the command.
@@ -88,16 +88,14 @@ impl Selftest {
         if self.verify {
             verify(&file, &plan, &mut said, &knobs, &|phrase| console.phase(phrase))?;
         }
-        let mut text = if self.json { selftest_json(&said) } else { selftest_terminal(&said) };
+        let mut text = selftest_terminal(&said);
         if let Some(out) = &self.out {
             let folder = NewFolder::make(out)?;
             let [_, page] = write_selftest(out, &said)?;
             folder.keep();
-            if !self.json {
-                text += &format!("\nwritten to {} and selftest.json beside it\n", page.display());
-            }
+            text += &format!("\nwritten to {} and selftest.json beside it\n", page.display());
         }
-        console.say(&text)?;
+        self.form.say(console, &text, &said)?;
         Ok(DONE)
     }
 

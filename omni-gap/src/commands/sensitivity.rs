@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use omni_gap::api::{RobotFile, StepPlan, known_effects, sensitivity};
 use omni_gap::report::{sensitivity_terminal, write_sensitivity};
 
+use super::answer::AnswerForm;
 use super::console::Console;
 use super::done::{DONE, Done};
 use super::given::{volts, within_supply};
@@ -28,6 +29,9 @@ pub struct Sensitivity {
     /// Folder for sensitivity.json and sensitivity.html; made if need be
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 /// The files of the command.
@@ -53,7 +57,7 @@ impl Sensitivity {
             folder.keep();
             text += &format!("\nwritten to {} and sensitivity.json beside it\n", page.display());
         }
-        console.say(&text)?;
+        self.form.say(console, &text, &said)?;
         Ok(DONE)
     }
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use omni_gap::api;
 use omni_gap::log::write_whole_with;
 
+use super::answer::{AnswerForm, RunWritten};
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
@@ -37,6 +38,9 @@ pub struct Simulate {
     /// A mapping from another log layout, for the input
     #[arg(long, value_name = "COLUMNS.toml")]
     columns: Option<PathBuf>,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 /// What is said where noise is asked for without a seed.
@@ -55,7 +59,8 @@ impl Simulate {
         console.phase("simulating");
         let run = api::simulate(&given.robot, &given.run, seed)?;
         write_whole_with(&self.out, |out| run.write_csv(out))?;
-        console.say(&format!("{} rows simulated, written to {}\n", run.rows(), self.out.display()))?;
+        let text = format!("{} rows simulated, written to {}\n", run.rows(), self.out.display());
+        self.form.say(console, &text, &RunWritten::of(&self.out, run.rows()))?;
         Ok(DONE)
     }
 }

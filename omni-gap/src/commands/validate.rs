@@ -8,6 +8,7 @@ use omni_gap::localise::validation::{HORIZONS_S, Validated, validate};
 use omni_gap::log::write_whole;
 use omni_gap::report::validation as report;
 
+use super::answer::AnswerForm;
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
@@ -27,6 +28,9 @@ pub struct Validate {
     /// Folder for validation.json and validation.html, made if need be; without it only the table is said
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 /// The files of a validation.
@@ -54,7 +58,7 @@ impl Validate {
                 said += &format!("{:12}{}\n", "file", file.display());
             }
         }
-        console.say(&said)?;
+        self.form.say(console, &said, &validated.validation)?;
         Ok(DONE)
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::options::ComparisonKnobs;
@@ -9,7 +10,7 @@ use crate::engine::findings::{Estimate, Where};
 use crate::vocabulary::{Axis, Kind, Stage, stage_name};
 
 /// The answer in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ComparisonVerdict {
     /// What differs is named.
@@ -35,7 +36,7 @@ impl ComparisonVerdict {
 }
 
 /// What two sessions say of each other.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Comparison {
     /// The answer in one word.
     pub verdict: ComparisonVerdict,
@@ -73,7 +74,7 @@ impl Comparison {
 }
 
 /// How two sessions were laid over each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AlignedBy {
     /// Every run of B was driven by the input of a run of A, row by row.
@@ -83,7 +84,7 @@ pub enum AlignedBy {
 }
 
 /// A cause of the difference.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Difference {
     /// Id of the catalogue.
     pub cause: String,
@@ -93,6 +94,7 @@ pub struct Difference {
     pub kind: Kind,
     /// Stage of the signal path.
     #[serde(with = "stage_name")]
+    #[schemars(with = "String")]
     pub stage: Stage,
     /// Wheel, where it sits on one.
     pub wheel: Option<usize>,
@@ -107,7 +109,7 @@ pub struct Difference {
 }
 
 /// A number in A and in B.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct NumberCompared {
     /// Its key: `body.mass_kg`, `effects.dead_time.voltage_loss_V (wheel 1)`.
     pub key: String,
@@ -124,7 +126,7 @@ pub struct NumberCompared {
 }
 
 /// The error of free runs in one signal group, RMS in units of each sensor's sigma.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct GapCompared {
     /// Of A by its own model.
     pub a: f64,

@@ -1,5 +1,6 @@
 //! How two sessions are compared, and from what size on a difference counts.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::engine::Knobs;
@@ -29,7 +30,7 @@ impl Default for Options<'_> {
 }
 
 /// From what size on a difference counts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ComparisonKnobs {
     /// Standard errors by which a number has to differ to have changed [1]: with twenty numbers compared, one pair of alike

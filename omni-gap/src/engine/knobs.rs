@@ -8,6 +8,7 @@ mod design;
 mod probability;
 mod selftest;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use design::DesignKnobs;
@@ -22,7 +23,7 @@ use crate::simulate::HORIZON_S;
 pub const KNOBS_VERSION: u32 = 2;
 
 /// All thresholds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Knobs {
     /// Version of the names and meanings below.
@@ -48,7 +49,7 @@ pub struct Knobs {
 }
 
 /// How recordings are laid out.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LayoutKnobs {
     /// One run of this many is held out where the session holds out none [runs]: a third to judge by, two thirds to fit.
@@ -60,7 +61,7 @@ pub struct LayoutKnobs {
 }
 
 /// Which causes are worth a fit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ScreenKnobs {
     /// Runs that the screen looks at, at the most where they are long enough [runs]: four tell candidates apart, and more only
@@ -119,7 +120,7 @@ pub struct ScreenKnobs {
 }
 
 /// Which causes a corrected model takes up.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SearchKnobs {
     /// Effects that one corrected model may need, at the most [effects]: a limit of time. More than 3 counts as 3: a model has
@@ -156,7 +157,7 @@ pub struct SearchKnobs {
 }
 
 /// What noise is believed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct NoiseKnobs {
     /// Noise that differs from what is stated by less than this factor is as stated [1]: a fit's own errors are as large.
@@ -178,7 +179,7 @@ pub struct NoiseKnobs {
 }
 
 /// When causes explain a gap.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct OutcomeKnobs {
     /// Least share of the gap that known causes have to close; with less the answer is `unknown` [1]: more than half.
@@ -190,7 +191,7 @@ pub struct OutcomeKnobs {
 }
 
 /// How the gap is measured.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MeasureKnobs {
     /// Time between restarts of the free runs [s]: long enough for a wrong force to show, short enough that a wheel that
@@ -211,7 +212,7 @@ pub struct MeasureKnobs {
 }
 
 /// Where the gap is said to lie.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PlacesKnobs {
     /// A wheel that holds this many times its fair share of the error is named [1]: nearly two wheels' share.

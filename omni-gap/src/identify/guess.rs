@@ -2,12 +2,13 @@
 //! number's card says where.
 
 use model_core::effects::nominal;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::log::RobotFile;
 
 /// A number that began at a guess.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Guessed {
     /// Its key in the robot file, which ends with its unit.
     pub key: &'static str,

@@ -13,7 +13,7 @@ const TRACELESS: f64 = 0.5;
 const PART: f64 = 0.1;
 
 /// What became of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, schemars::JsonSchema, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Identifiability {
     /// Known on its own.

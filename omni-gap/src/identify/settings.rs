@@ -1,9 +1,10 @@
 //! What decides how a fit goes, and so what comes out of it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Settings of a fit whose dispersion suits what it finds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct FitSettings {
     /// Rounds of a fit at one dispersion, at the most [rounds]: steps are quadratic near the end, six are seldom all taken.

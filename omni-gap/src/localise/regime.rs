@@ -1,5 +1,6 @@
 //! In which regime of the motion the error is largest: a fixed menu of features, each cut into equal parts.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::simulate::{AlignedRun, Prediction};
@@ -20,7 +21,7 @@ pub struct Hotspot {
 }
 
 /// What counts as a hotspot.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RegimeSettings {
     /// Equal parts of the samples into which each feature's range is cut [parts]: fine enough to say low, middle or high.

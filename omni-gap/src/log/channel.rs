@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 
 /// Why a sample is missing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, schemars::JsonSchema, serde::Serialize)]
 pub enum Missing {
     /// The field was left empty: nothing was measured on this row.
     Blank,

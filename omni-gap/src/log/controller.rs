@@ -23,10 +23,11 @@
 
 use super::toml_walk::Section;
 use crate::error::Result;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// What only the robot's own controller needs to know, in the units that the keys name.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, JsonSchema, Serialize)]
 #[allow(missing_docs)]
 pub struct ControllerFile {
     /// Whether a loop holds the currents; otherwise the wheels are driven by the model's voltages alone.

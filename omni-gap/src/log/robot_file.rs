@@ -8,11 +8,12 @@
 use super::controller::ControllerFile;
 use model_core::effects::nominal;
 use model_core::geometry::kinematics::Wheel;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// One wheel. Wheel j rolls along (cos a, sin a) of the body axes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, JsonSchema, Serialize)]
 pub struct WheelFile {
     /// Direction of rolling in body axes (degrees).
     pub drive_angle_deg: f64,
@@ -30,7 +31,7 @@ impl WheelFile {
 }
 
 /// The motor and its gear, one model for all wheels.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, JsonSchema, Serialize)]
 pub struct MotorFile {
     /// Motor speed over wheel speed (1).
     pub gear_ratio: f64,
@@ -45,7 +46,7 @@ pub struct MotorFile {
 }
 
 /// The body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, JsonSchema, Serialize)]
 pub struct BodyFile {
     /// Mass (kg).
     pub mass_kg: f64,
@@ -54,7 +55,7 @@ pub struct BodyFile {
 }
 
 /// Viscous and Coulomb friction along v, vn and about the vertical axis.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, JsonSchema, Serialize)]
 pub struct FrictionFile {
     /// In N·s/m.
     #[serde(rename = "viscous_v_N_s_per_m")]
@@ -77,7 +78,7 @@ pub struct FrictionFile {
 }
 
 /// One-sigma noise of each measured signal.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, JsonSchema, Serialize)]
 pub struct SensorsFile {
     /// In A.
     #[serde(rename = "current_noise_A")]
@@ -123,14 +124,14 @@ impl Default for SensorsFile {
 }
 
 /// What the numbers were identified from, as `identify` leaves it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, JsonSchema, Serialize)]
 pub struct IdentifiedFile {
     /// Rows a second of its recordings (1/s).
     pub rate_hz: Option<f64>,
 }
 
 /// The supply.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, JsonSchema, Serialize)]
 pub struct SupplyFile {
     /// In V.
     #[serde(rename = "voltage_V")]
@@ -138,7 +139,7 @@ pub struct SupplyFile {
 }
 
 /// What an experiment may ask of the robot; absent means no limit stated.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, JsonSchema, Serialize)]
 pub struct LimitsFile {
     /// Largest motor current (A).
     #[serde(rename = "current_A")]
@@ -150,7 +151,7 @@ pub struct LimitsFile {
 }
 
 /// One effect that the nominal model includes.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize)]
 pub struct EffectEntry {
     /// Its id in the catalogue.
     pub id: String,
@@ -161,7 +162,7 @@ pub struct EffectEntry {
 }
 
 /// A sound robot file.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, JsonSchema, Serialize)]
 pub struct RobotFile {
     /// Version of the form; 1 where absent.
     pub schema: Option<u32>,

@@ -35,7 +35,7 @@ impl Group {
 }
 
 /// Whether the currents of a row were measured before or after the row's voltage was applied.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, schemars::JsonSchema, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sampled {
     /// Just before: the current still answers to the voltage of the row above.

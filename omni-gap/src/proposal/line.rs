@@ -1,7 +1,7 @@
 //! A line of a proposed mapping, for whoever lists them.
 
 /// A proposed line of a mapping.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, schemars::JsonSchema, serde::Serialize)]
 pub struct Line {
     /// The column of a run, such as `w0_rad_s`.
     pub column: String,

@@ -45,7 +45,7 @@ pub use doubt::Certainty;
 pub use line::Line;
 
 /// A proposed mapping.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, schemars::JsonSchema, serde::Serialize)]
 pub struct Proposal {
     /// Its lines, in the order of the mapping.
     pub lines: Vec<Line>,

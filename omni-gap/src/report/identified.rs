@@ -21,11 +21,6 @@ pub fn identified_terminal(answer: &Answer) -> String {
     page.0.replace(NBSP, " ")
 }
 
-/// The answer for programs, in JSON.
-pub fn identified_json(answer: &Answer) -> serde_json::Result<String> {
-    Ok(serde_json::to_string_pretty(answer)? + "\n")
-}
-
 #[cfg(test)]
 pub(super) mod sample {
     use crate::identify::*;
@@ -132,7 +127,7 @@ mod tests {
 
     #[test]
     fn the_json_has_every_number_with_its_key() {
-        let json: serde_json::Value = serde_json::from_str(&identified_json(&sample::answer()).unwrap()).unwrap();
+        let json: serde_json::Value = serde_json::to_value(sample::answer()).unwrap();
         assert_eq!((json["schema"].as_u64(), json["asked"].as_str()), (Some(1), Some("all")));
         assert_eq!(json["numbers"][0]["key"], "resistance_ohm");
         assert_eq!(json["numbers"][0]["together"]["value"], 4.31);

@@ -36,7 +36,7 @@ mod write;
 
 pub use effect_picture::effect_picture;
 pub use html::html;
-pub use identified::{identified_json, identified_terminal};
+pub use identified::identified_terminal;
 pub use instructions::{Instructions, ScriptSaid, instructions};
 pub use model::{About, Fault, Report, SCHEMA};
 pub use number::{estimate, num, percent};

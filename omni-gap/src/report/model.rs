@@ -1,5 +1,6 @@
 //! The report as data. The field names are those of `report.json`; readers rely on them.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::check;
@@ -12,7 +13,7 @@ use crate::vocabulary::Verdict;
 pub const SCHEMA: u32 = 1;
 
 /// One diagnosis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Report {
     /// Version of this form.
     pub schema: u32,
@@ -104,7 +105,7 @@ impl Report {
 }
 
 /// Something wrong with the log.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 pub struct Fault {
     /// Short name for programs.
     pub code: String,

@@ -1,6 +1,7 @@
 //! How much floor a script takes: where the robot of a file goes when it plays it.
 
 use model_core::geometry::frames::{BodyTwist, Pose};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::model::Model;
@@ -8,7 +9,7 @@ use super::script::Script;
 use super::step_lengths::LONGEST_OF_THE_QUICKEST_S;
 
 /// The box around everywhere a robot goes, seen from where it starts and the way it looks then.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Floor {
     /// Along v, ahead [m]
     pub ahead: f64,

@@ -18,6 +18,7 @@ use std::f64::consts::TAU;
 use model_core::plant::robot::Robot;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::model::Model;
@@ -43,7 +44,7 @@ pub struct RichPlan {
 }
 
 /// What scripts do most.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Emphasis {
     /// A bit of everything.

@@ -18,6 +18,7 @@ use model_core::number::scalar::Real;
 use model_core::plant::robot::{Nominal, Robot};
 use model_core::plant::{Input, Plant, State};
 use nalgebra::{DMatrix, DVector};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::keys::NOMINAL_KEYS;
@@ -63,7 +64,7 @@ impl StepPlan {
 }
 
 /// How the motion of a robot depends on the numbers of its file.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Sensitivity {
     /// The robot's name.
     pub robot: String,
@@ -79,7 +80,7 @@ pub struct Sensitivity {
 }
 
 /// One axis.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct AxisSensitivity {
     /// `v`, `vn` or `w`.
     pub axis: &'static str,
@@ -102,7 +103,7 @@ pub struct AxisSensitivity {
 }
 
 /// What one number of the robot file does: per cent for one per cent of the number.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Influence {
     /// Its key.
     pub key: &'static str,

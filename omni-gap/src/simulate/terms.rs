@@ -6,10 +6,11 @@
 
 use model_core::geometry::frames::BodyTwist;
 use model_core::plant::robot::Robot;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// What pushes and brakes one axis of the plain model, other axes at rest.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Terms {
     /// Braking by the motors' back-EMF, per speed [1/s]
     pub back_emf_per_s: f64,

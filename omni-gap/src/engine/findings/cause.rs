@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::vocabulary::{Axis, Kind};
 
 /// One cause that was considered.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Which {
     /// Id of the catalogue, or `unknown` or `no_gap`.
     pub cause: String,
@@ -32,7 +33,7 @@ pub struct Which {
 }
 
 /// A number with its uncertainty.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Estimate {
     /// Value, SI.
     pub value: f64,
@@ -43,7 +44,7 @@ pub struct Estimate {
 }
 
 /// A parameter of the robot file, before and after.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Corrected {
     /// Its key in `robot.toml`, with table and wheel where needed.
     pub key: String,
@@ -65,7 +66,7 @@ impl NextExperiment {
 }
 
 /// The run that would tell apart what this session could not.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct NextExperiment {
     /// What to do, and why, in a sentence.
     pub why: String,

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::log::{Change, EffectEntry, RobotFile};
 
 /// Changes to a robot file.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct FileChanges {
     /// Numbers that are set, in the order of the file's keys.
     pub numbers: Vec<NumberChange>,
@@ -16,7 +17,7 @@ pub struct FileChanges {
 }
 
 /// A number that is set.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct NumberChange {
     /// Its path, such as `body.mass_kg` or `wheel[2].radius_m`.
     pub path: String,
@@ -25,7 +26,7 @@ pub struct NumberChange {
 }
 
 /// An effect that is written in.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct EffectChange {
     /// Its id in the catalogue.
     pub id: String,

@@ -1,12 +1,13 @@
 //! Which cause would be taken for which.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::selftest::Rival;
 use crate::vocabulary::{Axis, Kind};
 
 /// The angles between all causes of typical size, on recordings of one kind.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Confusion {
     /// The robot's name.
     pub robot: String,
@@ -19,7 +20,7 @@ pub struct Confusion {
 }
 
 /// A cause of typical size, and what it would be taken for.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct ConfusedCause {
     /// Its id.
     pub cause: &'static str,

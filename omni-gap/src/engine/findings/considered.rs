@@ -1,11 +1,12 @@
 //! Every cause that was considered, named or not, with its estimate: what can be compared over many robots.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::vocabulary::{Axis, Kind};
 
 /// A cause that was considered on top of one model.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct ConsideredCause {
     /// Id of the catalogue.
     pub id: String,
@@ -32,7 +33,7 @@ pub struct ConsideredCause {
 }
 
 /// Where an estimate comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EstimatedBy {
     /// A fit of the model with the cause: within bounds, standard errors robust.
@@ -43,7 +44,7 @@ pub enum EstimatedBy {
 }
 
 /// A free number of a cause.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct EstimatedNumber {
     /// Its key.
     pub key: String,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::engine::findings::Estimate;
@@ -9,7 +10,7 @@ use crate::simulate::{Emphasis, Floor};
 use crate::vocabulary::{Axis, Kind};
 
 /// An experiment designed for what recordings have left open.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Design {
     /// Name of the robot, from its file.
     pub robot: String,
@@ -28,7 +29,7 @@ pub struct Design {
 }
 
 /// What an experiment is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Aim {
     /// To tell apart causes that the recordings so far cannot.
@@ -38,7 +39,7 @@ pub enum Aim {
 }
 
 /// A cause in question, as the recordings so far estimate it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct DesignSuspect {
     /// Id of the catalogue.
     pub cause: String,
@@ -53,7 +54,7 @@ pub struct DesignSuspect {
 }
 
 /// One question: whether a cause is told from a rival, or shows at all.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Question {
     /// The cause.
     pub cause: String,
@@ -94,7 +95,7 @@ impl Design {
 }
 
 /// The script that was chosen.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct ChosenScript {
     /// What it does most.
     pub emphasis: Emphasis,
@@ -112,7 +113,7 @@ pub struct ChosenScript {
 }
 
 /// Something to measure in place of another recording, or beside it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Measure {
     /// The number of the robot file, or the signal group to log.
     pub what: String,

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Errors of free runs, RMS in units of each sensor's nominal sigma.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Gap {
     /// Error per signal group: `i`, `w`, `pose`; a group that is not logged is left out.
     pub signals: BTreeMap<String, SignalGap>,
@@ -17,7 +18,7 @@ pub struct Gap {
 }
 
 /// Error of one signal group (sigma).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct SignalGap {
     /// With the nominal model.
     pub before: f64,
@@ -28,7 +29,7 @@ pub struct SignalGap {
 }
 
 /// Total error over windows of one length (sigma).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct HorizonError {
     /// Window length (s).
     pub horizon_s: f64,
@@ -41,7 +42,7 @@ pub struct HorizonError {
 }
 
 /// How far the causes close the gap, on runs held out (sigma; fractions 0 to 1).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Shrink {
     /// Error of the nominal model.
     pub before: Option<f64>,

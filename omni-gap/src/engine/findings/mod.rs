@@ -14,6 +14,7 @@ mod place;
 mod selftest;
 mod traces;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use cause::{Corrected, Estimate, NextExperiment, Which};
@@ -31,7 +32,7 @@ use super::knobs::Knobs;
 use crate::vocabulary::Verdict;
 
 /// Which engine found it, and with which thresholds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct EngineRecord {
     /// The engine's name.
     pub name: String,
@@ -42,7 +43,7 @@ pub struct EngineRecord {
 }
 
 /// What an engine found.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Findings {
     /// Who found it; none where no engine was asked.
     pub engine: Option<EngineRecord>,

@@ -1,11 +1,12 @@
 //! What noise the recordings show.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::log::SensorsFile;
 
 /// The noise of one sensor, as it is stated and as it was found.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct ChannelNoise {
     /// `current`, `wheel_speed`, `position`, `heading`, `gyro` or `battery`.
     pub sensor: String,

@@ -1,14 +1,16 @@
 //! Where a gap can lie.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::vocabulary::{Axis, Stage, stage_name};
 
 /// A place of the robot and its share of the gap.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Where {
     /// Stage of the signal path.
     #[serde(with = "stage_name")]
+    #[schemars(with = "String")]
     pub stage: Stage,
     /// Body axis, where the gap sits on one.
     pub axis: Option<Axis>,
@@ -21,7 +23,7 @@ pub struct Where {
 }
 
 /// The condition under which a stage's error is largest.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Regime {
     /// The quantity that tells the regime.
     pub feature: String,

@@ -1,11 +1,12 @@
 //! What the self-test says: of each cause, from what size on it would be found and told from its rivals.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::vocabulary::{Axis, Kind};
 
 /// What recordings of a robot could show.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct SelfTest {
     /// The robot's name.
     pub robot: String,
@@ -20,7 +21,7 @@ pub struct SelfTest {
 }
 
 /// A cause, and how well recordings show it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct SeenCause {
     /// Its id.
     pub cause: &'static str,
@@ -69,7 +70,7 @@ impl SeenCause {
 }
 
 /// The size from which on simulated recordings of a robot that has a cause show it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct VerifiedSize {
     /// The size, in the unit of the cause's own number; none where the number has no such value.
     pub from: Option<f64>,
@@ -80,7 +81,7 @@ pub struct VerifiedSize {
 }
 
 /// What simulated recordings show of a cause, without noise.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct ShownThere {
     /// What the model with the cause betters the score by, its price aside [1].
     pub gain: f64,
@@ -96,7 +97,7 @@ pub struct ShownThere {
 }
 
 /// A number of the robot file that helps to imitate a cause.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Imitating {
     /// Its key.
     pub number: &'static str,
@@ -109,7 +110,7 @@ pub struct Imitating {
 }
 
 /// A cause that another can be mistaken for.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Rival {
     /// Its id.
     pub cause: &'static str,
@@ -129,7 +130,7 @@ impl Rival {
 }
 
 /// What a sensor would bring.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct WithSensor {
     /// The group of signals, or what takes the place of one.
     pub sensor: &'static str,

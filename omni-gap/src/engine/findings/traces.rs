@@ -1,11 +1,12 @@
 //! The signals of one held-out run: measured, by the nominal and by the corrected model.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::localise::validation::Signal;
 
 /// A stretch of a run, as measured and as two models say it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Traces {
     /// The run's name.
     pub run: String,
@@ -22,7 +23,7 @@ pub struct Traces {
 }
 
 /// One signal.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct SignalTrace {
     /// Which; numbers are in its unit.
     pub signal: Signal,

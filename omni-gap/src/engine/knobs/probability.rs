@@ -1,9 +1,10 @@
 //! How scores become probabilities, and probabilities calibrated ones.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How scores become probabilities.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ProbabilityKnobs {
     /// Score differences are divided by this [1]: they are worth less than their face, models are never quite right.
@@ -23,7 +24,7 @@ pub struct ProbabilityKnobs {
 
 /// How often answers of each kind were right, by the probability that scores gave them (Platt 1999); fitted on recordings whose
 /// truth is known, by `bench calibrate`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CalibrationKnobs {
     /// What the lines were fitted on.
@@ -37,7 +38,7 @@ pub struct CalibrationKnobs {
 }
 
 /// ln(p/(1 − p)) = slope·ln(p₀/(1 − p₀)) + offset
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct LogitLine {
     /// How much is kept of what the scores say [1]
     pub slope: f64,

@@ -1,5 +1,6 @@
 //! The answer itself: numbers in the unit that their key ends with.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::super::guess::Guessed;
@@ -19,7 +20,7 @@ pub enum Asked {
 }
 
 /// A number and its one-sigma uncertainty, in the unit of the number's key.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Value {
     /// The number.
     pub value: f64,
@@ -28,7 +29,7 @@ pub struct Value {
 }
 
 /// What was found of one number; all values are in the unit that the key ends with.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Number {
     /// Its key in the robot file.
     pub key: &'static str,
@@ -51,7 +52,7 @@ pub struct Number {
 }
 
 /// Numbers that could move together without being noticed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Together {
     /// The numbers, the one that moves most first.
     pub moves: Vec<Moved>,
@@ -62,7 +63,7 @@ pub struct Together {
 }
 
 /// How a number moves.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Moved {
     /// Its key.
     pub key: &'static str,
@@ -71,7 +72,7 @@ pub struct Moved {
 }
 
 /// A product of powers of two numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Product {
     /// The two.
     pub powers: [Power; 2],
@@ -80,7 +81,7 @@ pub struct Product {
 }
 
 /// A power of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Power {
     /// The number's key.
     pub key: &'static str,
@@ -89,7 +90,7 @@ pub struct Power {
 }
 
 /// The runs of an experiment.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Counted {
     /// Its title.
     pub experiment: &'static str,
@@ -98,7 +99,7 @@ pub struct Counted {
 }
 
 /// The noise of a sensor, as the recordings show it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct SensorNoise {
     /// Its key in `[sensors]`, which ends with the unit.
     pub key: &'static str,
@@ -111,7 +112,7 @@ pub struct SensorNoise {
 }
 
 /// What one experiment says of a number that another says otherwise.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Side {
     /// Which experiment.
     pub by: &'static str,
@@ -121,7 +122,7 @@ pub struct Side {
 }
 
 /// Two experiments that disagree.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Apart {
     /// About which number.
     pub key: &'static str,
@@ -132,7 +133,7 @@ pub struct Apart {
 }
 
 /// Runs that the fit of all runs together leaves out.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct LeftOut {
     /// Their names.
     pub runs: Vec<String>,
@@ -141,7 +142,7 @@ pub struct LeftOut {
 }
 
 /// All that experiments tell.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Answer {
     /// Version of this form.
     pub schema: u32,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::signal::Signal;
@@ -10,7 +11,7 @@ use super::signal::Signal;
 pub const SCHEMA: u32 = 1;
 
 /// A model beside all runs of a session.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Validation {
     /// Version of this form.
     pub schema: u32,
@@ -31,7 +32,7 @@ pub struct Validation {
 }
 
 /// One run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct RunFigures {
     /// Its name.
     pub run: String,
@@ -52,7 +53,7 @@ pub struct RunFigures {
 }
 
 /// What the measured speeds of the body were taken from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SpeedsFrom {
     /// The wheel speeds, by least squares.
@@ -62,7 +63,7 @@ pub enum SpeedsFrom {
 }
 
 /// How near one signal comes. What ends in `_si` is in the unit that the signal's name carries.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct SignalFigures {
     /// The signal.
     pub signal: Signal,
@@ -85,7 +86,7 @@ pub struct SignalFigures {
 }
 
 /// The signal that lacks most of the fit that its noise allows.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Worst {
     /// The signal.
     pub signal: Signal,
@@ -98,7 +99,7 @@ pub struct Worst {
 }
 
 /// Errors of free runs restarted every `horizon_s`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct HorizonFigures {
     /// Time between restarts [s]
     pub horizon_s: f64,
@@ -109,7 +110,7 @@ pub struct HorizonFigures {
 }
 
 /// An error and what noise alone would give.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct GroupError {
     /// RMS of measured minus simulated in units of the sensor's sigma.
     pub rms_sigma: f64,

@@ -1,12 +1,14 @@
 //! The signals that are compared, and what they are called.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::simulate::{Channels, SignalGroup};
 
 /// A signal; its name in files carries its unit, as in the logs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
+#[schemars(with = "String")]
 pub enum Signal {
     /// Forward speed of the body, v [m/s]
     V,

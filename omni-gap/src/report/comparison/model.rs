@@ -1,5 +1,6 @@
 //! The report as data. The field names are those of `compare.json`; readers rely on them.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::comparison::Comparison;
@@ -9,7 +10,7 @@ use crate::report::Fault;
 pub const SCHEMA: u32 = 1;
 
 /// One comparison.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct ComparisonReport {
     /// Version of this form.
     pub schema: u32,
@@ -31,7 +32,7 @@ pub struct ComparisonReport {
 }
 
 /// What the first session is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Against {
     /// Recordings of a robot, as the second's.

@@ -9,6 +9,7 @@ mod terminal;
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::write::{put, unwritable};
@@ -27,7 +28,7 @@ pub const SCHEMA: u32 = 1;
 pub const FILES: [&str; 3] = ["next.json", "next.html", NextExperiment::FILE];
 
 /// What to record or measure next.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct DesignReport {
     /// Version of this form.
     pub schema: u32,
