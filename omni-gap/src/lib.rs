@@ -29,6 +29,8 @@ pub mod simulate;
 
 pub mod identify;
 
+pub mod mjcf;
+
 pub mod localise;
 
 pub mod engine;

@@ -52,12 +52,7 @@ pub fn lines(further: &[std::ffi::OsString]) -> Vec<Line> {
 /// What to tell the person.
 pub fn perform(further: &[std::ffi::OsString]) -> Result<(), String> {
     ensure(TOOLS)?;
-    for line in lines(further) {
-        println!("{}", line.shown());
-        if !line.succeeds() {
-            return Err(format!("failed: {}", line.shown()));
-        }
-    }
+    lines(further).iter().try_for_each(Line::announced)?;
     println!("pictures: {FOLDER}/pictures");
     Ok(())
 }

@@ -6,7 +6,7 @@ use std::ffi::OsString;
 
 use crate::line::Line;
 use crate::python::Environment;
-use crate::{browser, invented, real, steps, tool};
+use crate::{browser, invented, mjcf, real, steps, tool};
 
 /// One thing to ask for.
 #[derive(Clone, Copy, Debug)]
@@ -80,6 +80,12 @@ pub const ERRANDS: &[Errand] = &[
         takes: "",
         does: "time step and fit beside MuJoCo's, which it installs under target/ (BLESS=1: rewrite the golden page)",
         run: mujoco,
+    },
+    Errand {
+        name: "mjcf",
+        takes: "",
+        does: "play exported models in MuJoCo, which it installs under target/, beside the product's own simulator",
+        run: in_mujoco,
     },
     Errand {
         name: "peers",
@@ -236,6 +242,10 @@ fn mujoco(_: &[OsString]) -> Result<(), String> {
     announced(Line::of("cargo run --release -p host-tests --bin mujoco --").word(python))
 }
 
+fn in_mujoco(_: &[OsString]) -> Result<(), String> {
+    mjcf::perform(&MUJOCO.ensure()?)
+}
+
 fn peers(_: &[OsString]) -> Result<(), String> {
     let python = PEERS.ensure()?;
     announced(Line::of("cargo build --release -p omni-gap"))?;
@@ -289,8 +299,7 @@ fn help(_: &[OsString]) -> Result<(), String> {
 }
 
 fn announced(line: Line) -> Result<(), String> {
-    println!("{}", line.shown());
-    if line.succeeds() { Ok(()) } else { Err(format!("failed: {}", line.shown())) }
+    line.announced()
 }
 
 #[cfg(test)]

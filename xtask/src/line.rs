@@ -49,6 +49,12 @@ impl Line {
         }
     }
 
+    /// Announces it and runs it in the open; otherwise what to tell the person.
+    pub fn announced(&self) -> Result<(), String> {
+        println!("{}", self.shown());
+        if self.succeeds() { Ok(()) } else { Err(format!("failed: {}", self.shown())) }
+    }
+
     /// Runs it in silence; what it printed, or nothing if it could not be started or failed.
     pub fn answer(&self) -> Option<String> {
         let out = self.command().stdin(Stdio::null()).output().ok()?;

@@ -7,6 +7,7 @@ mod errands;
 mod install;
 mod invented;
 mod line;
+mod mjcf;
 mod python;
 mod real;
 mod steps;

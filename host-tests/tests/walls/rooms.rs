@@ -18,6 +18,7 @@ const ORDER: &[&str] = &[
     "check",
     "proposal",
     "simulate",
+    "mjcf",
     "identify",
     "localise",
     "engine",

@@ -39,7 +39,7 @@ pub const EXAMPLES: [(&str, &[&str]); 21] = [
         ],
     ),
     ("explain", &["explain", "explain wheel_slip --out slip.svg", "explain columns"]),
-    ("export", &["export robot.toml --out block.bin"]),
+    ("export", &["export robot.toml --out block.bin", "export report/corrected_robot.toml --out robot.xml"]),
     ("record", &["record --from /dev/ttyACM0 --robot robot.toml --seconds 20 --out my-robot"]),
     ("convert", &["convert robot.toml run.rec --out run.csv"]),
     ("completions", &["completions bash"]),

@@ -1,25 +1,26 @@
-//! `export`: the parameter block that makes the firmware drive the robot of a file.
+//! `export`: a robot file in another form: the parameter block of the firmware, a model of MuJoCo.
 
 use std::path::PathBuf;
 
 use omni_gap::api::{Exported, RobotFile, export, known_effects};
 use omni_gap::log::write_whole;
+use omni_gap::mjcf::mjcf;
 
-use super::answer::{AnswerForm, BlockWritten, SCHEMA};
+use super::answer::{AnswerForm, BlockWritten, FilesWritten, SCHEMA};
 use super::console::Console;
 use super::console::wrapped;
 use super::done::{DONE, Done};
 use super::output_path;
 
-/// Write the parameter block that a robot accepts, from a robot file with its [controller] table
+/// Write a robot file in another form: the parameter block that a robot accepts, or a model of MuJoCo (MJCF)
 #[derive(Debug, clap::Args)]
 pub struct Export {
-    /// The robot file, with the effects that the robot should undo
+    /// The robot file, with the effects that the robot should undo, or that MuJoCo should have
     #[arg(value_name = "ROBOT.toml")]
     robot: PathBuf,
 
-    /// The file to write
-    #[arg(long, value_name = "BLOCK.bin")]
+    /// The file to write: a model of MuJoCo where it ends in .xml, else a parameter block
+    #[arg(long, value_name = "BLOCK.bin | MODEL.xml")]
     out: PathBuf,
 
     #[command(flatten)]
@@ -31,6 +32,9 @@ impl Export {
     pub fn run(&self, console: &Console) -> Done {
         output_path::file(&self.out, &[&self.robot])?;
         let robot = RobotFile::load(&self.robot, &known_effects())?;
+        if self.out.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("xml")) {
+            return self.model_of_mujoco(&robot, console);
+        }
         let exported = export(&robot, &self.robot)?;
         write_whole(&self.out, &exported.bytes)?;
         let (bytes, check) = (exported.bytes.len(), exported.checksum);
@@ -44,6 +48,18 @@ impl Export {
             not_undone: exported.left.iter().map(|(name, why)| format!("{name}: {why}")).collect(),
         };
         self.form.say(console, &(written + "\n" + &summary(&exported)), &answer)?;
+        Ok(DONE)
+    }
+
+    fn model_of_mujoco(&self, robot: &RobotFile, console: &Console) -> Done {
+        let model = mjcf(robot);
+        write_whole(&self.out, model.text.as_bytes())?;
+        let left = model.left.iter().map(|(effect, why)| format!("not in it: {effect}: {why}"));
+        let notices: Vec<String> = model.nearly.iter().map(|note| format!("nearly: {note}")).chain(left).collect();
+        let mut said = format!("{}: a model of MuJoCo, written to {}\n", robot.name, self.out.display());
+        said += &notices.iter().map(|notice| wrapped(2, notice)).collect::<String>();
+        let answer = FilesWritten { schema: SCHEMA, files: vec![self.out.clone()], notices };
+        self.form.say(console, &said, &answer)?;
         Ok(DONE)
     }
 }

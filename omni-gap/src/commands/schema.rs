@@ -24,7 +24,7 @@ pub struct SchemaOf {
 type FormOf = fn() -> Schema;
 
 /// The form of each command's answer.
-const FORMS: [(&str, FormOf); 19] = [
+const FORMS: [(&str, FormOf); 20] = [
     ("diagnose", || schema_for!(Report)),
     ("demo", || schema_for!(Report)),
     ("compare", || schema_for!(ComparisonReport)),
@@ -43,6 +43,7 @@ const FORMS: [(&str, FormOf); 19] = [
     ("selftest", || schema_for!(SelfTest)),
     ("explain", || schema_for!(Explained)),
     ("export", || schema_for!(BlockWritten)),
+    ("export-mjcf", || schema_for!(FilesWritten)),
     ("convert", || schema_for!(RunWritten)),
 ];
 

@@ -6,12 +6,12 @@
 //! over its recordings, [`comparison`] for two sessions beside each other, [`design`] for what to record next; [`effect_picture()`] shows what an effect of the catalogue does, and [`shown_in()`] says
 //! where. Neither prose nor page computes anything: every sentence traces to a number in the report.
 
-mod chart_data;
 mod columns;
 pub mod comparison;
 mod decimate;
 pub mod design;
 mod effect_picture;
+mod figure;
 mod horizons;
 mod html;
 mod identified;

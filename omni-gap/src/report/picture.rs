@@ -1,6 +1,5 @@
 //! Signals over time as line charts.
 
-use super::chart_data::ChartData;
 use super::decimate::{STRIPS, stretches};
 use super::markup::{Markup, Px};
 use super::scale::Scale;
@@ -121,20 +120,8 @@ pub(super) fn ink(name: &str, at: usize) -> String {
     }
 }
 
-/// One panel under its title, with its numbers for the script that makes it one to zoom.
-pub(super) fn figure(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
-    m.within("figure", &[("class", &"chart")], |m| {
-        m.within("figcaption", &[], |m| {
-            m.text(&panel.title);
-            m.leaf("span", &[("class", &"unit")], &panel.unit);
-        });
-        chart(m, panel, restarts_s);
-        m.data(&ChartData::of(panel, restarts_s));
-    });
-}
-
 /// Draws one panel.
-fn chart(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
+pub(super) fn chart(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
     let cuts = |name: &str| if name == MEASURED { &[] } else { restarts_s };
     let lines: Vec<_> =
         panel.series.iter().map(|s| (s, stretches(&panel.t_s, &s.values, cuts(&s.name), STRIPS))).collect();

@@ -6,10 +6,11 @@ mod phrases;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use super::figure::figure;
 use super::html::page::{heads, page, section};
 use super::markup::Markup;
 use super::number::num;
-use super::picture::{Panel, Series, figure, ink};
+use super::picture::{Panel, Series, ink};
 use super::write::{put, unwritable};
 use crate::error::Result;
 use crate::simulate::{AxisSensitivity, Influence, NOMINAL_KEYS, NominalKey, Sensitivity};

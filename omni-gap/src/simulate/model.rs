@@ -29,6 +29,19 @@ pub struct EffectInstance {
 }
 
 impl EffectInstance {
+    /// The effect of a robot file; what the file does not state of it is typical. None where the catalogue lacks it.
+    pub fn of(entry: &EffectEntry) -> Option<Self> {
+        let card = EffectKind::find(&entry.id)?.card();
+        let params = card.params.iter().map(|p| entry.params.get(p.key).copied().unwrap_or(p.typical)).collect();
+        Some(EffectInstance { id: card.id, wheel: entry.wheel, params })
+    }
+
+    /// A number by its key; zero where the effect has none of that name.
+    pub fn number(&self, key: &str) -> f64 {
+        let at = self.card().params.iter().position(|p| p.key == key);
+        at.map_or(0.0, |at| self.params[at])
+    }
+
     /// The effect at its typical size.
     pub fn typical(card: &'static Card, wheel: Option<usize>) -> Self {
         Self { id: card.id, wheel, params: card.params.iter().map(|p| p.typical).collect() }
@@ -94,10 +107,9 @@ impl<const N: usize> Model<N> {
         let mut model =
             Self { file: Arc::new(file.clone()), robot, factor: [1.0; Nominal::COUNT], effects: Vec::new() };
         for entry in &file.effects {
-            let Some(effect) = EffectKind::find(&entry.id) else { continue };
-            let card = effect.card();
-            let params = card.params.iter().map(|p| entry.params.get(p.key).copied().unwrap_or(p.typical)).collect();
-            model.add_effect(EffectInstance { id: card.id, wheel: entry.wheel, params });
+            if let Some(effect) = EffectInstance::of(entry) {
+                model.add_effect(effect);
+            }
         }
         model
     }

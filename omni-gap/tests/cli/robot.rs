@@ -139,3 +139,13 @@ fn bad_input_ends_with_one_message_and_leaves_nothing() {
     let said = bench.run(&["record", "--robot", "robot.toml", "--out", "s", "--from", "frames.bin", "--name", "../x"]);
     assert_eq!((said.code, bench.all()), (2, before));
 }
+
+#[test]
+fn a_robot_file_is_exported_as_a_model_of_mujoco() {
+    let bench = bench();
+    let said = bench.done(&["export", "robot.toml", "--out", "robot.xml"]).out;
+    assert!(said.contains("a model of MuJoCo, written to robot.xml") && said.contains("[effects.coriolis]"), "{said}");
+    let model = bench.read("robot.xml");
+    assert!(model.starts_with("<mujoco model=") && model.ends_with("</mujoco>\n"), "{model}");
+    assert_eq!(model.matches("<general name=\"motor").count(), 4);
+}

@@ -1,9 +1,10 @@
 //! What was measured, and what either model predicts, over time.
 
 use super::page::section;
+use crate::report::figure::figure;
 use crate::report::markup::Markup;
 use crate::report::phrases;
-use crate::report::picture::{Pictures, figure, ink};
+use crate::report::picture::{Pictures, ink};
 
 /// Every panel under one legend.
 pub(in crate::report) fn charts(m: &mut Markup, pictures: &Pictures) {

@@ -2,11 +2,12 @@
 
 use super::phrases;
 use crate::localise::validation::{RunFigures, RunTraces, Signal, SignalFigures, Trace};
+use crate::report::figure::figure;
 use crate::report::html::page::{heads, scrolling, section};
 use crate::report::markup::Markup;
 use crate::report::number::num;
 use crate::report::phrases::sentence;
-use crate::report::picture::{MEASURED, Panel, SIMULATED, Series, figure};
+use crate::report::picture::{MEASURED, Panel, SIMULATED, Series};
 
 pub(super) fn run(m: &mut Markup, figures: &RunFigures, traces: &RunTraces) {
     let driven =

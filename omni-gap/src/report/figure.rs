@@ -1,15 +1,28 @@
-//! The numbers of a chart, for the script that makes it one to zoom and to read under the pointer.
+//! A chart under its title: drawn, and with its numbers for the script that makes it one to zoom and to read under the pointer.
 
 use serde::Serialize;
 
-use super::picture::{Panel, ink};
+use super::markup::Markup;
+use super::picture::{Panel, chart, ink};
 
 /// Steps into which the span of a signal is cut: finer than any screen shows, and short to write.
 const STEPS: f64 = 2e4;
 
+/// One panel under its title, with its numbers for the script that makes it one to zoom.
+pub(super) fn figure(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
+    m.within("figure", &[("class", &"chart")], |m| {
+        m.within("figcaption", &[], |m| {
+            m.text(&panel.title);
+            m.leaf("span", &[("class", &"unit")], &panel.unit);
+        });
+        chart(m, panel, restarts_s);
+        m.data(&ChartData::of(panel, restarts_s));
+    });
+}
+
 /// A chart as its script reads it.
 #[derive(Debug, Serialize)]
-pub(super) struct ChartData<'a> {
+struct ChartData<'a> {
     unit: &'a str,
     /// Time of every row [s]
     t: Vec<Option<f64>>,
@@ -27,7 +40,7 @@ struct SeriesData<'a> {
 }
 
 impl<'a> ChartData<'a> {
-    pub(super) fn of(panel: &'a Panel, restarts: &'a [f64]) -> Self {
+    fn of(panel: &'a Panel, restarts: &'a [f64]) -> Self {
         let series = panel.series.iter().enumerate().map(|(at, series)| SeriesData {
             name: &series.name,
             ink: ink(&series.name, at),
