@@ -5,7 +5,7 @@ use super::mapping::{MAPPING_KEYS, Mapping};
 use super::pattern::fits;
 use super::toml_walk::{Section, Source, read_text};
 use crate::error::{InputKind, Result};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A mapping from another layout to the contract's columns.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -47,13 +47,12 @@ impl Columns {
 
     /// Whether a folder is itself a run: whether it holds the first file of one.
     pub fn is_run(&self, folder: &Path) -> bool {
-        self.parts.first().is_some_and(|first| names_in(folder).any(|name| first.takes(&name)))
+        self.parts.first().is_some_and(|first| files_in(folder).any(|file| first.takes(&file)))
     }
 }
 
-fn names_in(folder: &Path) -> impl Iterator<Item = String> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    entries.map(|entry| entry.file_name().to_string_lossy().into_owned())
+fn files_in(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path())
 }
 
 fn files(top: &Section) -> Result<Vec<String>> {

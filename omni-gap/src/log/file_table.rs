@@ -2,9 +2,10 @@
 
 use super::mapping::{MAPPING_KEYS, Mapping};
 use super::pattern::fits;
-use super::source::holds_topics;
+use super::source::{holds_topics, names_topics_so};
 use super::toml_walk::{Section, tables};
 use crate::error::{InputKind, Result};
+use std::path::Path;
 
 /// One file of a run that is a folder, or one topic of a recording.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,9 +20,15 @@ pub(crate) struct FileTable {
 }
 
 impl FileTable {
-    /// Whether a file of this name is meant.
-    pub fn takes(&self, name: &str) -> bool {
-        self.name.as_ref().map_or_else(|| holds_topics(name), |pattern| fits(pattern, name))
+    /// Whether a file is meant.
+    pub fn takes(&self, path: &Path) -> bool {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        self.name.as_ref().map_or_else(|| holds_topics(path), |pattern| fits(pattern, &name))
+    }
+
+    /// Whether a file that is meant is more likely so than others: whether its kind names topics as the table does.
+    pub fn prefers(&self, path: &Path) -> bool {
+        self.name.is_none() && self.mapping.topic.as_ref().is_some_and(|topic| names_topics_so(path, topic))
     }
 
     /// What is meant, in words: a file name, a topic, or both.

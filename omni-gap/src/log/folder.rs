@@ -28,7 +28,7 @@ impl Run {
                 let files = found(path, &columns.parts, &mut notices)?;
                 of_files(path, robot, &files, notices)
             }
-            Some(columns) if is_recording(path) && !columns.parts.is_empty() => {
+            Some(columns) if holds_topics(path) && !columns.parts.is_empty() => {
                 of_files(path, robot, &topics(path, &columns.parts)?, Vec::new())
             }
             _ if !path.is_dir() => Run::load(path, robot.wheel.len(), columns),
@@ -42,14 +42,9 @@ impl Run {
     }
 }
 
-fn is_recording(path: &Path) -> bool {
-    holds_topics(&path.file_name().unwrap_or_default().to_string_lossy())
-}
-
 /// The topics of a run that is one recording, in the tables' order.
 fn topics<'a>(path: &Path, tables: &'a [FileTable]) -> Result<Vec<(&'a FileTable, PathBuf)>> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let meant = |table: &&FileTable| table.mapping.topic.is_some() && table.takes(&name);
+    let meant = |table: &&FileTable| table.mapping.topic.is_some() && table.takes(path);
     if let Some(other) = tables.iter().find(|table| !table.optional && !meant(table)) {
         let problem = format!("the run is one recording of topics, and a [[file]] table names {}", other.title());
         let fix = "Put the recording and the other file into a folder, runs/NAME/, or give the table a `topic`";
@@ -101,7 +96,10 @@ fn found<'a>(
     let names: Vec<String> = files.map(|(name, _)| name).collect();
     let mut all = Vec::new();
     for table in tables {
-        let fitting: Vec<&String> = names.iter().filter(|name| table.takes(name)).collect();
+        let mut fitting: Vec<&String> = names.iter().filter(|name| table.takes(&folder.join(name))).collect();
+        if fitting.len() > 1 && fitting.iter().any(|name| table.prefers(&folder.join(name))) {
+            fitting.retain(|name| table.prefers(&folder.join(name)));
+        }
         match fitting.as_slice() {
             [name] => all.push((table, folder.join(name))),
             [] if table.optional => notices.push(format!("{}: no file {}", folder.display(), table.title())),

@@ -94,7 +94,7 @@ impl Session {
     fn files_in(&mut self, folder: &Path, columns: Option<&Columns>) -> Result<Vec<PathBuf>> {
         let mut paths = Vec::new();
         for (name, path) in entries(folder)? {
-            let fits = columns.map_or_else(|| is_log(&name), |columns| columns.takes(&name));
+            let fits = columns.map_or_else(|| is_log(&path), |columns| columns.takes(&name));
             let is_run = columns.is_some_and(|columns| !columns.parts.is_empty());
             match path.is_dir() {
                 false if fits => paths.push(path),

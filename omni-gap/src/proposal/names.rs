@@ -122,10 +122,11 @@ const OTHER: [&str; 21] = [
 ];
 
 impl Name {
-    /// The same in a message whose definition has all in SI units, where the name states no other.
-    pub fn in_si(mut self) -> Name {
+    /// The same in a message whose definition has lengths in this unit and all else in SI units, where the name states no
+    /// other.
+    pub fn by_definition(mut self, length: &'static str) -> Name {
         let own = match self.role {
-            Some(Role::X | Role::Y) => Some("m"),
+            Some(Role::X | Role::Y) => Some(length),
             Some(Role::Heading) => Some("rad"),
             Some(Role::Gyro | Role::Speed | Role::SetSpeed) => Some("rad/s"),
             Some(Role::Battery) => Some("V"),

@@ -54,25 +54,29 @@ const BEGINNING: u64 = 1 << 16;
 
 /// Opens a log: a table, or a table for each topic.
 pub(super) fn open(path: &Path) -> Result<Vec<Table>> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    if source::holds_topics(&name) {
+    if source::holds_topics(path) {
         let read = |topic: source::Topic| {
             let opened = source::open(path, &Layout::default(), Some(&topic.topic));
             // a topic that cannot be read is none that a mapping could name
             let mut table = opened.ok().map(|opened| table(&*opened, None, &[], Some(topic.topic)))?;
-            if SI.iter().any(|package| topic.of_type.starts_with(package)) {
-                table.columns = table.columns.into_iter().map(|c| Column { name: c.name.in_si(), ..c }).collect();
+            let length = match topic.of_type.as_str() {
+                source::ROBOT_TYPE => Some("mm"),
+                of_type => SI.iter().any(|package| of_type.starts_with(package)).then_some("m"),
+            };
+            if let Some(length) = length {
+                let defined = |c: Column| Column { name: c.name.by_definition(length), ..c };
+                table.columns = table.columns.into_iter().map(defined).collect();
             }
             Some(table)
         };
         return Ok(source::topics(path)?.into_iter().filter_map(read).collect());
     }
-    if source::is_table_of_its_own(&name) {
+    if source::is_table_of_its_own(path) {
         return Ok(vec![table(&*source::open(path, &Layout::default(), None)?, None, &[], None)]);
     }
     let Dialect { layout, names } = dialect::guess(&beginning(path)?).ok_or_else(|| {
         let problem = "found no rows of numbers in its first lines, expected a table of text";
-        let fix = "Name the log itself: text (any separator), Parquet, MCAP, or a ROS bag";
+        let fix = "Name the log itself: text (any separator), Parquet, MCAP, a ROS bag, or a game log";
         Error::input(path, problem, fix).of_kind(InputKind::Malformed)
     })?;
     let opened = source::open(path, &layout, None)?;

@@ -9,13 +9,18 @@ mod held;
 mod opened;
 mod parquet;
 mod records;
+mod suffix;
+mod topic;
+mod vision;
 
 use crate::error::{Error, InputKind, Result};
 use std::path::Path;
+use suffix::ends_in;
 
-pub(crate) use bag::Seen as Topic;
 pub(crate) use csv::Layout;
 pub(crate) use opened::Source;
+pub(crate) use topic::Seen as Topic;
+pub(crate) use vision::ROBOT_TYPE;
 
 /// Suffix of a robot's records.
 const RECORDS: &str = ".rec";
@@ -23,18 +28,19 @@ const RECORDS: &str = ".rec";
 /// Suffix of tables in Parquet.
 const PARQUET: &str = ".parquet";
 
-fn ends_in(name: &str, suffix: &str) -> bool {
-    name.to_ascii_lowercase().ends_with(suffix)
+/// Whether a file is a log where no mapping says which are.
+pub(crate) fn is_log(path: &Path) -> bool {
+    ends_in(path, &[".csv", RECORDS, PARQUET]) || holds_topics(path)
 }
 
-/// Whether a file of this name is a log where no mapping says which are.
-pub(crate) fn is_log(name: &str) -> bool {
-    [".csv", RECORDS, PARQUET].iter().any(|suffix| ends_in(name, suffix)) || holds_topics(name)
+/// Whether a file is a recording of topics, each with a clock of its own.
+pub(crate) fn holds_topics(path: &Path) -> bool {
+    ends_in(path, &bag::SUFFIXES) || vision::is_game_log(path)
 }
 
-/// Whether a file of this name is a recording of topics, each with a clock of its own.
-pub(crate) fn holds_topics(name: &str) -> bool {
-    bag::SUFFIXES.iter().any(|suffix| ends_in(name, suffix))
+/// Whether a recording is of the kind that names its topics so: robots are topics of game logs.
+pub(crate) fn names_topics_so(path: &Path, topic: &str) -> bool {
+    vision::is_game_log(path) == vision::is_robot(topic)
 }
 
 /// The topics that a recording has messages of, by name.
@@ -42,12 +48,12 @@ pub(crate) fn holds_topics(name: &str) -> bool {
 /// # Errors
 /// Where it cannot be read.
 pub(crate) fn topics(path: &Path) -> Result<Vec<Topic>> {
-    bag::topics(path)
+    if vision::is_game_log(path) { vision::topics(path) } else { bag::topics(path) }
 }
 
-/// Whether a file of this name is a table whose format says where its columns are.
-pub(crate) fn is_table_of_its_own(name: &str) -> bool {
-    [RECORDS, PARQUET].iter().any(|suffix| ends_in(name, suffix))
+/// Whether a file is a table whose format says where its columns are.
+pub(crate) fn is_table_of_its_own(path: &Path) -> bool {
+    ends_in(path, &[RECORDS, PARQUET])
 }
 
 /// Opens a file of samples; `layout` says how text is laid out, `topic` which one of a recording of topics is meant.
@@ -55,19 +61,23 @@ pub(crate) fn is_table_of_its_own(name: &str) -> bool {
 /// # Errors
 /// Where there is no such file, or it is not of its format.
 pub(crate) fn open(path: &Path, layout: &Layout, topic: Option<&str>) -> Result<Box<dyn Source>> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    if holds_topics(&name) {
+    if vision::is_game_log(path) || topic.is_some() && vision::is_named_as_one(path) {
+        return vision::open(path, topic);
+    }
+    if holds_topics(path) {
         return Ok(Box::new(bag::open(path, topic)?));
     }
     if let Some(topic) = topic {
-        let problem = format!("it has no topics, expected one named `{topic}`: a recording in MCAP or a ROS bag");
+        let problem = format!(
+            "it has no topics, expected one named `{topic}`: a recording in MCAP, a ROS bag, or a game log of SSL-Vision"
+        );
         return Err(Error::input(path, problem, "Remove `topic` in columns.toml, or name another file")
             .of_kind(InputKind::Conflict));
     }
-    if ends_in(&name, RECORDS) {
+    if ends_in(path, &[RECORDS]) {
         return Ok(Box::new(records::open(path)?));
     }
-    if ends_in(&name, PARQUET) {
+    if ends_in(path, &[PARQUET]) {
         return Ok(Box::new(parquet::Parquet::open(path)?));
     }
     Ok(Box::new(csv::Table::open(path, layout)?))

@@ -3,15 +3,7 @@
 use super::decoder::Decoder;
 use super::rows::Recorded;
 use crate::error::Result;
-
-/// A topic that a recording has messages of.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Seen {
-    pub topic: String,
-    /// The type of its messages.
-    pub of_type: String,
-    pub messages: usize,
-}
+pub(super) use crate::log::source::topic::Seen;
 
 /// What is done with each message.
 pub(super) type Take<'a> = dyn FnMut(&Decoder, Recorded) -> Result<()> + 'a;

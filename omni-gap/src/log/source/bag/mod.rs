@@ -16,9 +16,9 @@ mod value;
 
 use super::held::Held;
 use super::opened::OwnClock;
+use super::topic::{Seen, absent, the_only_one};
 use crate::error::{Error, InputKind, Result};
 use container::Container;
-pub(crate) use container::Seen;
 use rows::Rows;
 use std::fs::File;
 use std::io::Read;
@@ -35,7 +35,7 @@ pub(super) fn open(path: &Path, topic: Option<&str>) -> Result<Held> {
     let recording = container(path)?;
     let topic = match topic {
         Some(topic) => topic.to_owned(),
-        None => the_only_one(path, &*recording)?,
+        None => the_only_one(path, &recording.topics()?)?,
     };
     let mut rows = Rows::default();
     let mut number = 0;
@@ -49,8 +49,7 @@ pub(super) fn open(path: &Path, topic: Option<&str>) -> Result<Held> {
         Ok(())
     })?;
     if number == 0 {
-        let problem = format!("there are no messages of topic `{topic}`; it has {}", listed(&*recording)?);
-        return Err(Error::input(path, problem, "Correct `topic` in columns.toml").of_kind(InputKind::Missing));
+        return Err(absent(path, &topic, &recording.topics()?));
     }
     let (names, columns, clock) = rows.finish();
     let clock = clock.map(|column| OwnClock {
@@ -90,26 +89,4 @@ fn container(path: &Path) -> Result<Box<dyn Container>> {
     };
     Err(Error::input(path, problem, "Check that it was copied whole; older ROS 1 bags: `rosbag fix`")
         .of_kind(InputKind::Malformed))
-}
-
-fn the_only_one(path: &Path, recording: &dyn Container) -> Result<String> {
-    let mut topics = recording.topics()?;
-    if let [_] = topics.as_slice() {
-        return Ok(topics.remove(0).topic);
-    }
-    let problem = match topics.as_slice() {
-        [] => "there is no message in the recording".to_owned(),
-        _ => format!("the recording has several topics: {}", listed(recording)?),
-    };
-    let fix = "Say in columns.toml which to read: a [[file]] table with `topic` for each (`omni-gap explain columns`)";
-    Err(Error::input(path, problem, fix).of_kind(InputKind::Missing))
-}
-
-/// The topics of a recording, in words.
-fn listed(recording: &dyn Container) -> Result<String> {
-    let told = |seen: &Seen| match seen.of_type.as_str() {
-        "" => format!("`{}` ({})", seen.topic, seen.messages),
-        of_type => format!("`{}` ({}, {of_type})", seen.topic, seen.messages),
-    };
-    Ok(recording.topics()?.iter().map(told).collect::<Vec<_>>().join(", "))
 }
