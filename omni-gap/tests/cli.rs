@@ -30,3 +30,5 @@ mod robot;
 mod selftest;
 #[path = "cli/validate.rs"]
 mod validate;
+#[path = "cli/vision.rs"]
+mod vision;

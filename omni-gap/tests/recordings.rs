@@ -280,3 +280,24 @@ fn broken_files_are_refused_with_a_reason_and_never_with_a_panic() {
         assert!(refused > 100, "{name}: {refused}");
     }
 }
+
+#[test]
+fn broken_game_logs_are_read_or_refused_and_never_end_in_a_panic() {
+    let columns = "[columns]\nx_m = { from = \"x\" }\ny_m = { from = \"y\" }\ntheta_rad = { from = \"orientation\" }";
+    let columns = Columns::parse(&format!("topic = \"yellow/3\"\n{columns}"), Path::new("columns.toml")).unwrap();
+    for name in ["game.log", "game.log.gz"] {
+        let whole = std::fs::read(folder().join("vision").join(name)).unwrap();
+        let to = tempfile::tempdir().unwrap();
+        let path = to.path().join(name);
+        let mut refused = 0;
+        for place in (0..whole.len()).step_by(1 + whole.len() / 400) {
+            let mut spoiled = whole.clone();
+            spoiled[place] ^= 0xff;
+            for bytes in [&spoiled, &whole[..place]] {
+                std::fs::write(&path, bytes).unwrap();
+                refused += usize::from(Run::open(&path, &robot(), Some(&columns)).is_err());
+            }
+        }
+        assert!(refused > 10, "{name}: {refused}");
+    }
+}

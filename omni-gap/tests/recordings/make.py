@@ -3,7 +3,7 @@
     pip install -r requirements.txt && python make.py
 
 The run is three tenths of a second of formulas: no robot drove it, and nothing of this project wrote it. `drive.csv` and
-`camera.csv` hold the same numbers as text.
+`camera.csv` hold the same numbers as text, and `vision/yellow3.csv` what two cameras of a game log saw of it.
 """
 
 import math
@@ -20,6 +20,8 @@ from mcap_ros2.writer import Writer as Ros2Writer
 from rosbags.rosbag1 import Writer as Bag1
 from rosbags.rosbag2 import StoragePlugin, Writer as Bag2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+import game_log
 
 HERE = Path(__file__).parent
 START_NS = 1_700_000_000_000_000_000
@@ -54,10 +56,11 @@ def stamp(ns):
     return dict(sec=(START_NS + ns) // 10**9, nanosec=(START_NS + ns) % 10**9)
 
 
-def csv():
-    def seconds(ns):
-        return f"{(START_NS + ns) // 10**9}.{(START_NS + ns) % 10**9:09d}"
+def seconds(ns):
+    return f"{(START_NS + ns) // 10**9}.{(START_NS + ns) % 10**9:09d}"
 
+
+def csv():
     with open(fresh("csv/drive.csv"), "w") as out:
         out.write("t_s,u0_V,u1_V,u2_V,w0_rad_s,w1_rad_s,w2_rad_s,vbat_V,gyro_rad_s\n")
         for ns in DRIVE_NS:
@@ -68,6 +71,15 @@ def csv():
         for ns in CAMERA_NS:
             x, y, theta = pose(ns * 1e-9)
             out.write(",".join([seconds(ns), repr(x), repr(y), repr(wrapped(theta))]) + "\n")
+
+
+def vision():
+    """A game log of the camera's frames, and of a second camera's between some of them."""
+    game_log.write(HERE / "vision", START_NS, CAMERA_NS, pose)
+    with open(fresh("vision/yellow3.csv"), "w") as out:
+        out.write("t_s,x_m,y_m,theta_rad\n")
+        for ns, x, y, theta in game_log.rows(CAMERA_NS, pose):
+            out.write(f"{seconds(ns)},{x!r},{y!r},{wrapped(theta)!r}\n")
 
 
 def fresh(name):
@@ -269,6 +281,7 @@ def parquet(name, compression, unit):
 
 if __name__ == "__main__":
     csv()
+    vision()
     for compression in (CompressionType.NONE, CompressionType.LZ4, CompressionType.ZSTD):
         ros2_mcap(f"ros2-{compression.name.lower()}.mcap", compression)
     ros2_bag("ros2-sqlite", keep_definitions=True)
