@@ -17,7 +17,7 @@ pub struct Convert {
     #[arg(value_name = "ROBOT.toml")]
     robot: PathBuf,
 
-    /// The run: CSV, Parquet, MCAP, a ROS bag, a robot's records (.rec), a log in another layout, or a folder
+    /// The run: CSV, Parquet, MCAP, a ROS bag, a game log of SSL-Vision, a robot's records (.rec), a log in another layout, or a folder
     #[arg(value_name = "RUN")]
     run: PathBuf,
 

@@ -15,7 +15,7 @@ use super::output_path;
 /// Look at foreign logs and propose a mapping, columns.toml: which column is what, in which unit, with which sign, and why
 #[derive(Debug, clap::Args)]
 pub struct Map {
-    /// Logs of one layout: text with any separator, Parquet, MCAP, ROS bags; or folders whose files make a run each
+    /// Logs of one layout: text with any separator, Parquet, MCAP, ROS bags, game logs of SSL-Vision; or folders whose files make a run each
     #[arg(value_name = "LOG", required = true)]
     logs: Vec<PathBuf>,
 

@@ -21,13 +21,14 @@ fn blocks() -> Vec<&'static str> {
 fn the_page_shows_what_the_examples_say() {
     let read = |text: &str| Columns::parse(text, Path::new("columns.toml")).unwrap();
     let blocks = blocks();
-    assert_eq!(blocks.len(), 6);
+    assert_eq!(blocks.len(), 7);
     read(blocks[0]);
     read(blocks[1]);
     assert_eq!(read(blocks[2]).parts.len(), 3);
-    assert_eq!(read(blocks[3]), read(ROBOTINO));
-    assert_eq!(read(blocks[4]), read(SSL2018));
-    assert_eq!(read(blocks[5]).parts.len(), 2);
+    assert_eq!(read(blocks[3]).parts.len(), 2);
+    assert_eq!(read(blocks[4]), read(ROBOTINO));
+    assert_eq!(read(blocks[5]), read(SSL2018));
+    assert_eq!(read(blocks[6]).parts.len(), 2);
 }
 
 #[test]

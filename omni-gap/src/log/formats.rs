@@ -17,7 +17,7 @@ pub const FORMATS: [FormatPage; 3] = [
     FormatPage { name: "runs", title: "sessions, and the columns of a run", text: include_str!("runs.md") },
     FormatPage {
         name: "columns",
-        title: "columns.toml: logs in another layout, Parquet, MCAP and ROS bags",
+        title: "columns.toml: logs in another layout, Parquet, MCAP, ROS bags and game logs of SSL-Vision",
         text: include_str!("columns.md"),
     },
 ];
