@@ -24,6 +24,8 @@ mod map;
 mod new;
 #[path = "cli/next.rs"]
 mod next;
+#[path = "cli/record_vision.rs"]
+mod record_vision;
 #[path = "cli/robot.rs"]
 mod robot;
 #[path = "cli/selftest.rs"]

@@ -1,5 +1,7 @@
 //! `record`: what a robot sends, as a session.
 
+mod vision;
+
 use std::path::{Path, PathBuf};
 
 use model_core::link::hello::Hello;
@@ -8,12 +10,14 @@ use omni_gap::error::Result;
 use omni_gap::log::records::run::notices;
 use omni_gap::log::{RobotFile, write_whole};
 use omni_gap::wire::source::Source;
+use omni_gap::wire::vision::{Listener, Watched};
 
 use super::console::Console;
 use super::console::wrapped;
 use super::done::{DONE, Done};
 use super::given;
 use super::output_path;
+use vision::{PACKETS, RECORDS, Vision};
 
 /// Record what a robot sends into a session: the robot file, and a run as it came, NAME.rec
 #[derive(Debug, clap::Args)]
@@ -41,6 +45,9 @@ pub struct Record {
     /// The run's name
     #[arg(long, value_name = "NAME", default_value = "run", value_parser = name)]
     name: String,
+
+    #[command(flatten)]
+    vision: Vision,
 }
 
 impl Record {
@@ -50,29 +57,58 @@ impl Record {
         let robot = RobotFile::load(&self.robot, &known_effects())?;
         let text = std::fs::read_to_string(&self.robot)
             .map_err(|why| Error::input(&self.robot, why.to_string(), "Check the file's permissions"))?;
-        let runs = self.out.join("runs");
-        let file = runs.join(format!("{}.rec", self.name));
-        output_path::folder(&self.out, &["robot.toml"])?;
+        let watched = self.vision.watched();
+        let columns = watched.as_ref().map(|watched| vision::columns(&watched.robot));
+        let (folder, file) = self.place(watched.is_some())?;
         fits(&self.out.join("robot.toml"), &text)?;
-        if file.exists() {
-            return Err(Error::output(&file, "a run of this name is there", "Name another with --name").into());
+        if let Some(columns) = &columns {
+            fits(&self.out.join("columns.toml"), columns)?;
         }
+        if let (Some(file), Some(_)) = (source.file(), &watched) {
+            let problem = "these frames were recorded before, expected a robot that sends while SSL-Vision does";
+            return Err(Error::input(file, problem, "Leave --vision out, or name the robot with --from").into());
+        }
+        let listener = watched.as_ref().map(Watched::listen).transpose()?;
         if source.file().is_none() {
             console.phase("recording");
         }
         let (baud, seconds, wheels) = (self.baud, self.seconds, robot.wheel.len());
         let recorded = record(&Recording { source: &source, baud, seconds, name: &self.name, wheels })?;
+        let heard = listener.map(Listener::finish);
         console.end_phase();
 
-        let made = output_path::NewFolder::make(&runs)?;
-        let robot_file = self.out.join("robot.toml");
-        if !robot_file.exists() {
-            write_whole(&robot_file, text.as_bytes())?;
+        let made = output_path::NewFolder::make(&folder)?;
+        let session = [("robot.toml", Some(&text)), ("columns.toml", columns.as_ref())];
+        for (name, text) in session {
+            if let (path, Some(text)) = (self.out.join(name), text)
+                && !path.exists()
+            {
+                write_whole(&path, text.as_bytes())?;
+            }
         }
         write_whole(&file, &recorded.frames)?;
+        if let Some(heard) = &heard {
+            heard.write(&folder.join(PACKETS))?;
+        }
         made.keep();
-        console.say(&summary(&recorded, &file, &robot, &self.robot))?;
+        let mut told = summary(&recorded, &file, &robot, &self.robot);
+        if let (Some(heard), Some(watched)) = (&heard, &watched) {
+            vision::told(heard, watched).iter().for_each(|line| told += &wrapped(2, line));
+        }
+        console.say(&told)?;
         Ok(DONE)
+    }
+
+    /// The folder of the run, and the file of its records; refuses a name that is taken.
+    fn place(&self, is_folder: bool) -> Result<(PathBuf, PathBuf)> {
+        output_path::folder(&self.out, &["robot.toml"])?;
+        let runs = self.out.join("runs");
+        let (folder, file) = (runs.join(&self.name), runs.join(format!("{}.rec", self.name)));
+        if let Some(taken) = [&file, &folder].into_iter().find(|path| path.exists()) {
+            return Err(Error::output(taken, "a run of this name is there", "Name another with --name"));
+        }
+        let records = folder.join(RECORDS);
+        Ok(if is_folder { (folder, records) } else { (runs, file) })
     }
 }
 

@@ -3,7 +3,8 @@
 //! Guarantee: what a robot gets was held to the bounds that the robot holds it to.
 //!
 //! Reading order: [`block`] (a robot file → the parameter block), [`source`] (where bytes come from); what they mean is read
-//! in [`records`](crate::log::records).
+//! in [`records`](crate::log::records), and [`vision`] (what cameras say of the robot meanwhile).
 
 pub mod block;
 pub mod source;
+pub mod vision;

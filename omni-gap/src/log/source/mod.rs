@@ -20,7 +20,8 @@ use suffix::ends_in;
 pub(crate) use csv::Layout;
 pub(crate) use opened::Source;
 pub(crate) use topic::Seen as Topic;
-pub(crate) use vision::ROBOT_TYPE;
+pub use vision::Packet;
+pub(crate) use vision::{ROBOT_TYPE, is_robot, robots_in, write_game_log};
 
 /// Suffix of a robot's records.
 const RECORDS: &str = ".rec";

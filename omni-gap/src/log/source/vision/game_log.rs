@@ -4,9 +4,11 @@
 //! type of its message (i32), the message's size (bytes, i32) and the message.
 
 use crate::error::{Error, InputKind, Result};
+use flate2::Compression;
 use flate2::bufread::MultiGzDecoder;
+use flate2::write::GzEncoder;
 use std::fs::File;
-use std::io::{BufRead, BufReader, ErrorKind, Read};
+use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// How a game log begins.
@@ -23,6 +25,9 @@ const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// Types of messages that are packets of SSL-Vision: of 2010, whose detections are the same, and of 2014.
 const VISION_TYPES: [i32; 2] = [2, 4];
+
+/// The type of a packet that is written.
+const WRITTEN_TYPE: i32 = 4;
 
 /// No record is believed to be longer (bytes): a packet is one of UDP, an index has eight bytes for each record.
 const LONGEST: i32 = 1 << 28;
@@ -155,4 +160,28 @@ impl GameLog {
             }
         }
     }
+}
+
+/// A packet of SSL-Vision as it came.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Packet {
+    /// When (ns since 1970).
+    pub received_ns: i64,
+    /// What.
+    pub bytes: Vec<u8>,
+}
+
+/// Writes packets as a game log, packed.
+pub(crate) fn write_game_log(out: &mut dyn Write, packets: &[Packet]) -> std::io::Result<()> {
+    let mut out = GzEncoder::new(out, Compression::default());
+    out.write_all(MAGIC)?;
+    out.write_all(&VERSION.to_be_bytes())?;
+    for Packet { received_ns, bytes } in packets {
+        let size = i32::try_from(bytes.len()).map_err(std::io::Error::other)?;
+        out.write_all(&received_ns.to_be_bytes())?;
+        out.write_all(&WRITTEN_TYPE.to_be_bytes())?;
+        out.write_all(&size.to_be_bytes())?;
+        out.write_all(bytes)?;
+    }
+    out.finish().map(drop)
 }

@@ -12,6 +12,8 @@ use super::suffix::ends_in;
 use super::topic::{Seen, absent, the_only_one};
 use crate::error::{Error, InputKind, Result};
 use detection::{DetectionFrame, RobotName, WrapperPacket};
+pub use game_log::Packet;
+pub(crate) use game_log::write_game_log;
 use game_log::{GameLog, MAGIC};
 use prost::Message;
 use std::collections::BTreeMap;
@@ -47,8 +49,14 @@ fn is_text(path: &Path) -> bool {
 }
 
 /// Whether a topic names a robot.
-pub(super) fn is_robot(topic: &str) -> bool {
+pub(crate) fn is_robot(topic: &str) -> bool {
     RobotName::of(topic).is_some()
+}
+
+/// The robots that a packet shows, as topics name them; none where it is no packet of SSL-Vision.
+pub(crate) fn robots_in(packet: &[u8]) -> Vec<String> {
+    let detection = WrapperPacket::decode(packet).ok().and_then(|packet| packet.detection);
+    detection.iter().flat_map(DetectionFrame::robots).map(|(robot, _)| robot.to_string()).collect()
 }
 
 /// The robots that a game log has seen, and how often.
