@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use omni_gap::log::{Sampled, write_whole_with};
+use omni_gap::log::{Sampled, write_run};
 
 use super::answer::{AnswerForm, RunWritten};
 use super::console::{Console, wrapped};
@@ -22,7 +22,7 @@ pub struct Convert {
     run: PathBuf,
 
     /// The file to write; a hole, whatever its reason, becomes an empty field
-    #[arg(long, value_name = "RUN.csv")]
+    #[arg(long, value_name = "RUN.csv | .parquet | .mcap")]
     out: PathBuf,
 
     /// A mapping from another log layout
@@ -38,7 +38,7 @@ impl Convert {
     pub fn run(&self, console: &Console) -> Done {
         output_path::file(&self.out, &[&self.robot, &self.run])?;
         let run = robot_and_run(&self.robot, &self.run, self.columns.as_deref(), console)?.run;
-        write_whole_with(&self.out, |out| run.write_csv(out))?;
+        write_run(&self.out, &run)?;
         let mut answer = RunWritten::of(&self.out, run.rows());
         let mut text = format!("{} rows written to {}\n", run.rows(), self.out.display());
         if run.currents_sampled == Sampled::Before && run.i.is_some() {

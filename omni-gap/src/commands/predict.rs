@@ -1,9 +1,10 @@
 //! `predict`: what a robot file says should have happened in a run.
 
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use omni_gap::api;
-use omni_gap::log::{Channel, Group, Run, write_whole_with};
+use omni_gap::log::{Channel, Group, Missing, Run, write_runs};
 use omni_gap::simulate::HORIZON_S;
 
 use super::answer::{AnswerForm, RunWritten};
@@ -27,8 +28,9 @@ pub struct Predict {
     #[arg(long, value_name = "S", default_value_t = HORIZON_S, value_parser = seconds)]
     horizon: f64,
 
-    /// The file to write: the rows on which the run is driven and its measured columns, every row filled
-    #[arg(long, value_name = "PRED.csv")]
+    /// The file to write: the rows on which the run is driven and its measured columns, every row filled; as MCAP with what was
+    /// measured and what is left, in topics of their own
+    #[arg(long, value_name = "PRED.csv | .parquet | .mcap")]
     out: PathBuf,
 
     /// A mapping from another log layout
@@ -50,11 +52,28 @@ impl Predict {
             with_blank_columns(&mut run, given.robot.wheel.len());
         }
         let predicted = api::predict(&given.robot, &run, self.horizon)?;
-        write_whole_with(&self.out, |out| predicted.write_csv(out))?;
+        let apart = residuals(&predicted, &run);
+        write_runs(&self.out, &[("predicted", &predicted), ("measured", &run), ("residual", &apart)])?;
         let text = format!("{} rows predicted, written to {}\n", predicted.rows(), self.out.display());
         self.form.say(console, &text, &RunWritten::of(&self.out, predicted.rows()))?;
         Ok(DONE)
     }
+}
+
+/// What was measured less what was predicted; a hole where nothing was measured.
+fn residuals(predicted: &Run, measured: &Run) -> Run {
+    let seen = measured.signals();
+    // a run of several files has instants on which nothing is predicted
+    let rows: Vec<Option<usize>> =
+        predicted.t_s.iter().map(|t| measured.t_s.binary_search_by(|other| other.total_cmp(t)).ok()).collect();
+    predicted.with_channels(|name, channel| {
+        let (_, measured) = seen.iter().find(|(signal, _)| signal == name)?;
+        let apart = |(row, at): (usize, &Option<usize>)| {
+            let error = measured.get(at.ok_or(Missing::NotDue)?)? - channel.get(row)?;
+            Ok(if name == "theta_rad" { error - TAU * (error / TAU).round() } else { error })
+        };
+        Some(rows.iter().enumerate().map(apart).collect())
+    })
 }
 
 /// A group that the header names, though all its fields are blank, is a measured one: what it would have said is asked.
@@ -62,7 +81,8 @@ fn with_blank_columns(run: &mut Run, wheels: usize) {
     let text = std::fs::read_to_string(&run.path).unwrap_or_default();
     let header = text.trim_start_matches('\u{feff}').lines().next().unwrap_or_default();
     let named = |column: &str| header.split(',').any(|name| name.trim() == column);
-    let blank = |count| Group::new(vec![Channel::default(); count]);
+    let nothing: Channel = (0..run.rows()).map(|_| Err(Missing::Blank)).collect();
+    let blank = |count| Group::new(vec![nothing.clone(); count]);
     for (group, column, count) in
         [(&mut run.i, "i0_A", wheels), (&mut run.w, "w0_rad_s", wheels), (&mut run.pose, "x_m", 3)]
     {

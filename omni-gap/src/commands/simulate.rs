@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use omni_gap::api;
-use omni_gap::log::write_whole_with;
+use omni_gap::log::write_run;
 
 use super::answer::{AnswerForm, RunWritten};
 use super::cli_error::CliError;
@@ -28,7 +28,7 @@ pub struct Simulate {
     seed: Option<u64>,
 
     /// The file to write
-    #[arg(long, value_name = "RUN.csv")]
+    #[arg(long, value_name = "RUN.csv | .parquet | .mcap")]
     out: PathBuf,
 
     /// Add the noise that [sensors] states
@@ -58,7 +58,7 @@ impl Simulate {
         let given = robot_and_run(&self.robot, &self.input, self.columns.as_deref(), console)?;
         console.phase("simulating");
         let run = api::simulate(&given.robot, &given.run, seed)?;
-        write_whole_with(&self.out, |out| run.write_csv(out))?;
+        write_run(&self.out, &run)?;
         let text = format!("{} rows simulated, written to {}\n", run.rows(), self.out.display());
         self.form.say(console, &text, &RunWritten::of(&self.out, run.rows()))?;
         Ok(DONE)

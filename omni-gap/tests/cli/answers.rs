@@ -214,3 +214,25 @@ fn sensitivity_says_the_terms_and_ranks_the_numbers_with_and_without_files() {
     bench.done(&args);
     assert_eq!(first, bench.read("deep/out/sensitivity.html"), "the same again, bit for bit");
 }
+
+#[test]
+fn a_prediction_is_written_as_mcap_with_what_was_measured_and_what_is_left() {
+    let bench = Bench::with_session();
+    bench.done(&["predict", "session/robot.toml", RUN, "--out", "p.mcap"]);
+    bench.done(&["predict", "session/robot.toml", RUN, "--out", "p.parquet"]);
+    let bytes = std::fs::read(bench.at("p.mcap")).unwrap();
+    let mut last: std::collections::BTreeMap<String, f64> = std::collections::BTreeMap::new();
+    for message in mcap::MessageStream::new(&bytes).unwrap() {
+        let message = message.unwrap();
+        let said: serde_json::Value = serde_json::from_slice(&message.data).unwrap();
+        if let Some(speed) = said.get("w0_rad_s") {
+            last.insert(message.channel.topic.clone(), speed.as_f64().unwrap());
+        }
+    }
+    let of = |topic: &str| last[&format!("/{topic}/wheel_speed")];
+    assert!((of("measured") - of("predicted") - of("residual")).abs() < 1e-12, "{last:?}");
+    // the Parquet file is the prediction alone, as the CSV is
+    bench.done(&["convert", "session/robot.toml", "p.parquet", "--out", "back.csv"]);
+    bench.done(&["predict", "session/robot.toml", RUN, "--out", "p.csv"]);
+    assert_eq!(bench.read("back.csv"), bench.read("p.csv"));
+}
