@@ -20,6 +20,8 @@ mod json;
 mod manners;
 #[path = "cli/map.rs"]
 mod map;
+#[path = "cli/map_clocks.rs"]
+mod map_clocks;
 #[path = "cli/new.rs"]
 mod new;
 #[path = "cli/next.rs"]

@@ -1,7 +1,8 @@
 //! # Tables as text: rows of numbers, fast, and a place for every mistake
 //!
-//! A field is a number or empty. A number that is not finite, or text, is refused with line and column.
+//! A field is a number, a date with its time, or empty. A number that is not finite, or text, is refused with line and column.
 
+use super::date_time;
 use super::opened::Source;
 use crate::error::{Error, InputKind, Result};
 use crate::log::channel::{Channel, Missing};
@@ -125,10 +126,11 @@ impl Table {
 
     fn number(&self, field: &[u8]) -> Option<f64> {
         let text = std::str::from_utf8(field).ok()?;
-        match self.decimal {
+        let number = match self.decimal {
             b',' => text.replace(',', ".").parse().ok(),
             _ => text.parse().ok(),
-        }
+        };
+        number.or_else(|| date_time::seconds(text))
     }
 
     fn not_a_number(&self, record: &csv::ByteRecord, column: usize) -> Error {

@@ -5,6 +5,7 @@
 
 mod bag;
 mod csv;
+mod date_time;
 mod held;
 mod opened;
 mod parquet;
