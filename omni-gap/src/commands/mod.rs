@@ -21,6 +21,7 @@ mod explain;
 mod export;
 mod given;
 mod identify;
+mod inputs;
 mod man;
 mod map;
 mod new;

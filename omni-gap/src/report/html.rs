@@ -31,6 +31,7 @@ pub fn html(report: &Report, pictures: &Pictures) -> String {
         notes::noise(m, report);
         notes::not_seen(m, report);
         notes::notices(m, report);
+        notes::reproduce(m, report);
         foot(m);
     })
 }

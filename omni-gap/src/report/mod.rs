@@ -38,7 +38,7 @@ pub use effect_picture::effect_picture;
 pub use html::html;
 pub use identified::identified_terminal;
 pub use instructions::{Instructions, ScriptSaid, instructions};
-pub use model::{About, Fault, Report, SCHEMA};
+pub use model::{About, Fault, Input, Report, SCHEMA};
 pub use number::{estimate, num, percent};
 pub use phrases::settled;
 pub use picture::{MEASURED, Panel, Pictures, Series};

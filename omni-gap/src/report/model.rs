@@ -50,6 +50,9 @@ pub struct Report {
     /// What the reader should know but need not mend.
     #[serde(default)]
     pub notices: Vec<String>,
+    /// The files that it was made of, where it was made of files.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inputs: Vec<Input>,
     /// Which engine found all this, and with which thresholds; none where the recordings cannot be used.
     #[serde(default)]
     pub engine: Option<EngineRecord>,
@@ -89,6 +92,7 @@ impl Report {
             next_experiment: found.next_experiment,
             faults,
             notices,
+            inputs: Vec::new(),
             engine: found.engine,
         }
     }
@@ -102,6 +106,15 @@ impl Report {
     pub fn cause(&self, id: &str) -> Option<&Which> {
         self.which.iter().find(|w| w.cause == id)
     }
+}
+
+/// A file that a report was made of.
+#[derive(Clone, Debug, Default, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
+pub struct Input {
+    /// Its path, as it was named.
+    pub file: String,
+    /// SHA-256 of its bytes, in hexadecimal digits.
+    pub sha256: String,
 }
 
 /// Something wrong with the log.

@@ -97,6 +97,32 @@ pub(super) fn notices(m: &mut Markup, report: &Report) {
     list(m, "Notices", &report.notices);
 }
 
+/// What gives the same page again.
+pub(super) fn reproduce(m: &mut Markup, report: &Report) {
+    if report.inputs.is_empty() {
+        return;
+    }
+    let engine = report.engine.as_ref().map(|engine| format!(", engine {} {}", engine.name, engine.version));
+    let how = format!(
+        "Made by omni-gap {}{}, of these files; the same files give the same numbers, to the last bit.",
+        env!("CARGO_PKG_VERSION"),
+        engine.unwrap_or_default()
+    );
+    section(m, "How to reproduce it", &how, |m| {
+        m.within("details", &[], |m| {
+            m.leaf("summary", &[], &format!("{} files and their SHA-256", report.inputs.len()));
+            m.within("ul", &[("class", &"plain")], |m| {
+                for input in &report.inputs {
+                    m.within("li", &[], |m| {
+                        m.leaf("code", &[], &input.file);
+                        m.leaf("small", &[], &input.sha256);
+                    });
+                }
+            });
+        });
+    });
+}
+
 /// Items under a heading; nothing where there are none.
 pub(in crate::report) fn list(m: &mut Markup, title: &str, items: &[String]) {
     if items.is_empty() {
