@@ -2,17 +2,18 @@
 
 use crate::bench::{Bench, table};
 
+/// A column of the bench's run, what the foreign log calls it, and what becomes of its numbers.
+type Foreign = (&'static str, &'static str, fn(f64) -> String);
+
 /// Columns of the bench's run under other names, each number changed.
-fn part(bench: &Bench, columns: &[(&str, &str, fn(f64) -> String)], separator: &str) -> String {
+fn part(bench: &Bench, columns: &[Foreign], separator: &str) -> String {
     let text = bench.read("session/runs/run01.csv");
     let (names, rows) = table(&text);
     let place = |column: &str| names.iter().position(|name| *name == column).unwrap();
     let join = |fields: Vec<String>| fields.join(separator) + "\n";
     let mut out = join(columns.iter().map(|(_, foreign, _)| (*foreign).to_owned()).collect());
     for row in &rows {
-        let field = |(own, _, change): &(&str, &str, fn(f64) -> String)| {
-            row[place(own)].parse().map_or(String::new(), |number| change(number))
-        };
+        let field = |(own, _, change): &Foreign| row[place(own)].parse().map_or(String::new(), change);
         out += &join(columns.iter().map(field).collect());
     }
     out
@@ -30,7 +31,7 @@ fn date(t_s: f64) -> String {
 #[test]
 fn a_log_whose_clock_is_dates_is_mapped_and_read() {
     let bench = Bench::with_session();
-    let columns: [(&str, &str, fn(f64) -> String); 8] = [
+    let columns: [Foreign; 8] = [
         ("t_s", "Timestamp", date),
         ("w0_rad_s", "Wheel 1", same),
         ("w1_rad_s", "Wheel 2", same),
@@ -65,7 +66,7 @@ fn a_log_whose_clock_is_dates_is_mapped_and_read() {
 #[test]
 fn a_camera_with_a_clock_and_a_file_of_its_own_is_mapped() {
     let bench = Bench::with_session();
-    let motors: [(&str, &str, fn(f64) -> String); 5] = [
+    let motors: [Foreign; 5] = [
         ("t_s", "time_s", same),
         ("w0_rad_s", "speed_0", same),
         ("w1_rad_s", "speed_1", same),
@@ -73,7 +74,7 @@ fn a_camera_with_a_clock_and_a_file_of_its_own_is_mapped() {
         ("w3_rad_s", "speed_3", same),
     ];
     // the camera's computer counts milliseconds since 1970
-    let camera: [(&str, &str, fn(f64) -> String); 4] = [
+    let camera: [Foreign; 4] = [
         ("t_s", "stamp_ms", |t| (1.7723664e12 + 1000.0 * t).to_string()),
         ("x_m", "x", same),
         ("y_m", "y", same),
