@@ -16,6 +16,10 @@ mod told;
 
 use page::Page;
 
+/// Set, it asks for the commands of all pages: `cargo xtask book`.
+#[cfg(target_os = "linux")]
+const ALL: &str = "OMNI_GAP_BOOK";
+
 /// Pages whose commands are run by the test command; those of the others take minutes.
 #[cfg(target_os = "linux")]
 const QUICK: [&str; 3] = ["tutorial-simulated.md", "tutorial-log.md", "catalogue.md"];
@@ -50,17 +54,9 @@ fn commands_and_options_are_those_of_the_program() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn the_tutorials_print_what_they_say() {
-    for name in QUICK {
-        told::as_it_says(name);
-    }
-}
-
-#[test]
-#[ignore = "takes minutes: cargo test -p omni-gap --test book -- --ignored"]
-#[cfg(target_os = "linux")]
-fn the_how_to_pages_print_what_they_say() {
-    for page in Page::all().iter().filter(|page| page.is_run() && !QUICK.contains(&page.name.as_str())) {
+fn pages_print_what_they_say() {
+    let all = std::env::var_os(ALL).is_some();
+    for page in Page::all().iter().filter(|page| page.is_run() && (all || QUICK.contains(&page.name.as_str()))) {
         told::as_it_says(&page.name);
     }
 }

@@ -124,6 +124,12 @@ pub const ERRANDS: &[Errand] = &[
         run: frozen,
     },
     Errand {
+        name: "book",
+        takes: "",
+        does: "run the commands of every page of the book, and build it into target/book with an mdBook of its own",
+        run: book,
+    },
+    Errand {
         name: "browser",
         takes: "[PAGE.html...]",
         does: "open every kind of page in Chromium, three widths, light and dark: charts, switches, accessibility",
@@ -283,6 +289,12 @@ fn frozen(given: &[OsString]) -> Result<(), String> {
         true => line.word(real::folder(given.first().cloned(), variable)?),
         false => line,
     })
+}
+
+fn book(_: &[OsString]) -> Result<(), String> {
+    announced(Line::of("cargo test --release -p omni-gap --test book").env("OMNI_GAP_BOOK", "all"))?;
+    announced(Line::of("cargo install mdbook --locked --version ^0.5 --root target/mdbook"))?;
+    announced(Line::of("target/mdbook/bin/mdbook build book --dest-dir ../target/book"))
 }
 
 fn in_browser(further: &[OsString]) -> Result<(), String> {

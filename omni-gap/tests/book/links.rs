@@ -26,7 +26,8 @@ pub fn of(text: &str) -> Vec<Link> {
 /// What a page includes or leads to that is not there.
 pub fn lost(page: &Page) -> Vec<String> {
     let gone = page.includes().into_iter().filter(|path| !source().join(path).is_file());
-    let mut lost: Vec<String> = gone.map(|path| format!("{}: includes {path}, which is not there", page.name)).collect();
+    let mut lost: Vec<String> =
+        gone.map(|path| format!("{}: includes {path}, which is not there", page.name)).collect();
     let text = page.whole();
     for Link { line, target } in of(&text) {
         if !target.contains("://") && !is_there(page, &text, &target) {
