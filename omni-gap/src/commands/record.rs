@@ -12,8 +12,8 @@ use omni_gap::log::{RobotFile, write_whole};
 use omni_gap::wire::source::Source;
 use omni_gap::wire::vision::{Listener, Watched};
 
-use super::console::Console;
-use super::console::wrapped;
+use super::answer::{AnswerForm, RunWritten};
+use super::console::{Console, wrapped};
 use super::done::{DONE, Done};
 use super::given;
 use super::output_path;
@@ -48,6 +48,9 @@ pub struct Record {
 
     #[command(flatten)]
     vision: Vision,
+
+    #[command(flatten)]
+    form: AnswerForm,
 }
 
 impl Record {
@@ -91,11 +94,15 @@ impl Record {
             heard.write(&folder.join(PACKETS))?;
         }
         made.keep();
-        let mut told = summary(&recorded, &file, &robot, &self.robot);
+        let mut answer = RunWritten::of(&file, recorded.run.rows());
+        answer.notices = remarks(&recorded, &robot, &self.robot);
         if let (Some(heard), Some(watched)) = (&heard, &watched) {
-            vision::told(heard, watched).iter().for_each(|line| told += &wrapped(2, line));
+            answer.notices.extend(vision::told(heard, watched));
         }
-        console.say(&told)?;
+        let (rows, seconds) = (answer.rows, recorded.run.duration_s());
+        let mut told = format!("{rows} rows, {seconds:.3} s, written to {}\n", file.display());
+        answer.notices.iter().for_each(|line| told += &wrapped(2, line));
+        self.form.say(console, &told, &answer)?;
         Ok(DONE)
     }
 
@@ -121,17 +128,15 @@ fn fits(path: &Path, text: &str) -> Result<()> {
     Ok(())
 }
 
-fn summary(recorded: &Recorded, file: &Path, robot: &RobotFile, path: &Path) -> String {
-    let Recorded { run, capture, .. } = recorded;
-    let mut text = format!("{} rows, {:.3} s, written to {}\n", run.rows(), run.duration_s(), file.display());
-    let mut add = |line: &str| text += &wrapped(2, line);
-    notices(capture).iter().for_each(|notice| add(notice));
+/// What a person should know of a recording.
+fn remarks(recorded: &Recorded, robot: &RobotFile, path: &Path) -> Vec<String> {
+    let mut remarks = notices(&recorded.capture);
     let other = |hello: &Hello| export(robot, path).is_ok_and(|block| block.checksum != hello.block_check);
-    if capture.hellos.iter().any(|(_, hello)| other(hello)) {
+    if recorded.capture.hellos.iter().any(|(_, hello)| other(hello)) {
         let path = path.display();
-        add(&format!("the robot runs with other parameters than `omni-gap export {path}` writes"));
+        remarks.push(format!("the robot runs with other parameters than `omni-gap export {path}` writes"));
     }
-    text
+    remarks
 }
 
 /// A name that can be a file's.

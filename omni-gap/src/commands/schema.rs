@@ -24,7 +24,7 @@ pub struct SchemaOf {
 type FormOf = fn() -> Schema;
 
 /// The form of each command's answer.
-const FORMS: [(&str, FormOf); 20] = [
+const FORMS: [(&str, FormOf); 21] = [
     ("diagnose", || schema_for!(Report)),
     ("demo", || schema_for!(Report)),
     ("compare", || schema_for!(ComparisonReport)),
@@ -44,6 +44,7 @@ const FORMS: [(&str, FormOf); 20] = [
     ("explain", || schema_for!(Explained)),
     ("export", || schema_for!(BlockWritten)),
     ("export-mjcf", || schema_for!(FilesWritten)),
+    ("record", || schema_for!(RunWritten)),
     ("convert", || schema_for!(RunWritten)),
 ];
 

@@ -149,3 +149,13 @@ fn a_robot_file_is_exported_as_a_model_of_mujoco() {
     assert!(model.starts_with("<mujoco model=") && model.ends_with("</mujoco>\n"), "{model}");
     assert_eq!(model.matches("<general name=\"motor").count(), 4);
 }
+
+#[test]
+fn a_recording_is_answered_as_json() {
+    let bench = bench();
+    let args = ["record", "--from", "frames.bin", "--robot", "robot.toml", "--out", "s", "--json"];
+    let answer: serde_json::Value = serde_json::from_str(&bench.done(&args).out).unwrap();
+    // the last of 400 frames ends the row before it
+    assert_eq!(answer["rows"], 399, "{answer}");
+    assert!(answer["file"].as_str().unwrap().ends_with("run.rec") && answer["notices"].is_array(), "{answer}");
+}
