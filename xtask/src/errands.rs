@@ -294,7 +294,7 @@ fn frozen(given: &[OsString]) -> Result<(), String> {
 fn book(_: &[OsString]) -> Result<(), String> {
     announced(Line::of("cargo test --release -p omni-gap --test book").env("OMNI_GAP_BOOK", "all"))?;
     announced(Line::of("cargo install mdbook --locked --version ^0.5 --root target/mdbook"))?;
-    announced(Line::of("target/mdbook/bin/mdbook build book --dest-dir ../target/book"))
+    announced(Line::of("target/mdbook/bin/mdbook build book --dest-dir target/book"))
 }
 
 fn in_browser(further: &[OsString]) -> Result<(), String> {
