@@ -202,50 +202,50 @@ fn test(_: &[OsString]) -> Result<(), String> {
 }
 
 fn bless(_: &[OsString]) -> Result<(), String> {
-    announced(Line::of("cargo test --workspace").env("BLESS", "1"))?;
+    Line::of("cargo test --workspace").env("BLESS", "1").announced()?;
     println!("golden pages rewritten where they differed; read the difference before you commit it: git diff");
     Ok(())
 }
 
 fn bench(words: &[OsString]) -> Result<(), String> {
     if words.is_empty() {
-        return announced(Line::of("cargo bench -p host-tests"));
+        return Line::of("cargo bench -p host-tests").announced();
     }
     let line = Line::of("cargo run --release -p host-tests --bin bench --");
-    announced(words.iter().fold(line, Line::word))
+    words.iter().fold(line, Line::word).announced()
 }
 
 fn benchmark(_: &[OsString]) -> Result<(), String> {
-    announced(Line::of("cargo run --release -p host-tests --bin catalogue"))
+    Line::of("cargo run --release -p host-tests --bin catalogue").announced()
 }
 
 fn medicine(_: &[OsString]) -> Result<(), String> {
-    announced(Line::of("cargo run --release -p host-tests --bin medicine"))
+    Line::of("cargo run --release -p host-tests --bin medicine").announced()
 }
 
 fn confusion(_: &[OsString]) -> Result<(), String> {
-    announced(Line::of("cargo run --release -p host-tests --bin confusion"))
+    Line::of("cargo run --release -p host-tests --bin confusion").announced()
 }
 
 fn selftest(_: &[OsString]) -> Result<(), String> {
-    announced(Line::of("cargo run --release -p host-tests --bin selftest"))
+    Line::of("cargo run --release -p host-tests --bin selftest").announced()
 }
 
 fn laboratory(_: &[OsString]) -> Result<(), String> {
-    announced(Line::of("cargo run --release -p host-tests --bin laboratory"))
+    Line::of("cargo run --release -p host-tests --bin laboratory").announced()
 }
 
 fn carried(_: &[OsString]) -> Result<(), String> {
-    announced(Line::of("cargo run --release -p host-tests --bin carried"))
+    Line::of("cargo run --release -p host-tests --bin carried").announced()
 }
 
 fn identification(_: &[OsString]) -> Result<(), String> {
-    announced(Line::of("cargo run --release -p host-tests --bin identification"))
+    Line::of("cargo run --release -p host-tests --bin identification").announced()
 }
 
 fn mujoco(_: &[OsString]) -> Result<(), String> {
     let python = MUJOCO.ensure()?;
-    announced(Line::of("cargo run --release -p host-tests --bin mujoco --").word(python))
+    Line::of("cargo run --release -p host-tests --bin mujoco --").word(python).announced()
 }
 
 fn in_mujoco(_: &[OsString]) -> Result<(), String> {
@@ -254,47 +254,48 @@ fn in_mujoco(_: &[OsString]) -> Result<(), String> {
 
 fn peers(_: &[OsString]) -> Result<(), String> {
     let python = PEERS.ensure()?;
-    announced(Line::of("cargo build --release -p omni-gap"))?;
+    Line::of("cargo build --release -p omni-gap").announced()?;
     let tests = "-m pytest host-tests/peers".split(' ');
-    announced(tests.fold(Line::of("").word(python), Line::word).env("PYTHONPATH", "host-tests"))
+    tests.fold(Line::of("").word(python), Line::word).env("PYTHONPATH", "host-tests").announced()
 }
 
 fn pil(_: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
-    announced(Line::of(steps::EMULATED_IMAGES))?;
-    steps::IN_LOOP.into_iter().try_for_each(|command| announced(Line::of(command)))
+    Line::of(steps::EMULATED_IMAGES).announced()?;
+    steps::IN_LOOP.into_iter().try_for_each(|command| Line::of(command).announced())
 }
 
 fn emulate(_: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
-    announced(Line::of(steps::EMULATED_IMAGES))?;
-    announced(Line::of(steps::EMULATE))
+    Line::of(steps::EMULATED_IMAGES).announced()?;
+    Line::of(steps::EMULATE).announced()
 }
 
 fn image(_: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
-    announced(Line::of(steps::BOARD_IMAGE))?;
-    announced(Line::of(steps::CHECK_IMAGE))
+    Line::of(steps::BOARD_IMAGE).announced()?;
+    Line::of(steps::CHECK_IMAGE).announced()
 }
 
 fn on_recordings(given: &[OsString]) -> Result<(), String> {
     let folder = real::folder(given.first().cloned(), std::env::var_os(real::VARIABLE))?;
-    announced(Line::of("cargo run --release -p host-tests --bin real --").word(folder))
+    Line::of("cargo run --release -p host-tests --bin real --").word(folder).announced()
 }
 
 fn frozen(given: &[OsString]) -> Result<(), String> {
     let line = Line::of("cargo run --release -p host-tests --bin frozen --");
     let variable = std::env::var_os(real::VARIABLE);
-    announced(match !given.is_empty() || variable.is_some() {
+    let line = match !given.is_empty() || variable.is_some() {
         true => line.word(real::folder(given.first().cloned(), variable)?),
         false => line,
-    })
+    };
+    line.announced()
 }
 
 fn book(_: &[OsString]) -> Result<(), String> {
-    announced(Line::of("cargo test --release -p omni-gap --test book").env("OMNI_GAP_BOOK", "all"))?;
-    announced(Line::of("cargo install mdbook --locked --version ^0.5 --root target/mdbook"))?;
-    announced(Line::of("target/mdbook/bin/mdbook build book --dest-dir target/book"))
+    Line::of("cargo test --release -p omni-gap --test book").env("OMNI_GAP_BOOK", "all").announced()?;
+    Line::of("cargo install mdbook --locked --version ^0.5 --root target/mdbook").announced()?;
+    Line::of("target/mdbook/bin/mdbook build book --dest-dir target/book").announced()
 }
 
 fn in_browser(further: &[OsString]) -> Result<(), String> {
@@ -308,10 +309,6 @@ fn invented(_: &[OsString]) -> Result<(), String> {
 fn help(_: &[OsString]) -> Result<(), String> {
     println!("{}", list());
     Ok(())
-}
-
-fn announced(line: Line) -> Result<(), String> {
-    line.announced()
 }
 
 #[cfg(test)]
