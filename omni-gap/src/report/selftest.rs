@@ -82,8 +82,7 @@ pub fn selftest_html(said: &SelfTest) -> String {
         let explained = "How far the typical size moves the recordings beyond what starts and nominal numbers can \
             imitate, and the angle to the causes that it could be taken for.";
         section(m, "Sizes", explained, |m| {
-            m.within("table", &[], |m| {
-                page::heads(m, &heads(verified));
+            page::table(m, "", &heads(verified), |m| {
                 for cause in &said.causes {
                     m.within("tr", &[], |m| line(cause, verified).iter().for_each(|cell| m.leaf("td", &[], cell)));
                 }

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use super::figure::figure;
-use super::html::page::{heads, page, section};
+use super::html::page::{page, section, table};
 use super::markup::Markup;
 use super::number::num;
 use super::picture::{Panel, Series, ink};
@@ -139,7 +139,7 @@ pub fn sensitivity_html(s: &Sensitivity) -> String {
                         bars::chart(m, axis, s.time_s);
                         curves(m, axis);
                     });
-                    table(m, axis, s.time_s);
+                    influences(m, axis, s.time_s);
                 }
             });
         }
@@ -194,22 +194,19 @@ fn curves(m: &mut Markup, axis: &AxisSensitivity) {
     });
 }
 
-fn table(m: &mut Markup, axis: &AxisSensitivity, time_s: f64) {
+fn influences(m: &mut Markup, axis: &AxisSensitivity, time_s: f64) {
     let (some, none) = split(axis);
-    m.within("table", &[("class", &"numbers")], |m| {
-        let speed = format!("Speed after {} s", short(time_s));
-        heads(m, &["Per cent for one per cent of", "In the file", &speed, "Final speed", "Distance"]);
-        m.within("tbody", &[], |m| {
-            for i in some {
-                m.within("tr", &[], |m| {
-                    m.within("th", &[("scope", &"row")], |m| m.leaf("code", &[], i.key));
-                    m.leaf("td", &[], &format!("{}\u{a0}{}", num(i.value), key(i).unit));
-                    m.leaf("td", &[("data-name", &"Speed")], &signed(i.speed));
-                    m.leaf("td", &[("data-name", &"Final speed")], &i.final_speed.map_or("–".into(), signed));
-                    m.leaf("td", &[("data-name", &"Distance")], &signed(i.distance));
-                });
-            }
-        });
+    let speed = format!("Speed after {} s", short(time_s));
+    table(m, "numbers", &["Per cent for one per cent of", "In the file", &speed, "Final speed", "Distance"], |m| {
+        for i in some {
+            m.within("tr", &[], |m| {
+                m.within("th", &[("scope", &"row")], |m| m.leaf("code", &[], i.key));
+                m.leaf("td", &[], &format!("{}\u{a0}{}", num(i.value), key(i).unit));
+                m.leaf("td", &[("data-name", &"Speed")], &signed(i.speed));
+                m.leaf("td", &[("data-name", &"Final speed")], &i.final_speed.map_or("–".into(), signed));
+                m.leaf("td", &[("data-name", &"Distance")], &signed(i.distance));
+            });
+        }
     });
     if !none.is_empty() {
         m.leaf("p", &[("class", &"how")], &format!("Without influence on this axis: {}.", none.join(", ")));

@@ -4,7 +4,7 @@ use super::model::ComparisonReport;
 use super::phrases;
 use crate::comparison::{ComparisonVerdict, Difference, NumberCompared};
 use crate::engine::findings::Traces;
-use crate::report::html::page::{heads, page, section};
+use crate::report::html::page::{page, section, table};
 use crate::report::html::{blame, gap, notes, signals};
 use crate::report::markup::Markup;
 use crate::report::number::{estimate, num};
@@ -56,9 +56,8 @@ fn causes(m: &mut Markup, report: &ComparisonReport) {
     let how = "What explains the difference, with its size on both sides. ± is one standard error; that of a change is less than \
                those of both sides together where they share an error.";
     section(m, "What differs", how, |m| {
-        m.within("table", &[("class", &"causes")], |m| {
-            heads(m, &["Cause", "Number", "Change", "Not told apart from"]);
-            m.within("tbody", &[], |m| report.comparison.causes.iter().for_each(|d| cause(m, d)));
+        table(m, "causes", &["Cause", "Number", "Change", "Not told apart from"], |m| {
+            report.comparison.causes.iter().for_each(|d| cause(m, d));
         });
     });
 }
@@ -102,14 +101,11 @@ fn numbers(m: &mut Markup, report: &ComparisonReport) {
     ];
     for (title, last, rows, are_changed) in parts.into_iter().filter(|(_, _, rows, _)| !rows.is_empty()) {
         section(m, title, "", |m| {
-            m.within("table", &[("class", &"numbers wide")], |m| {
-                heads(m, &["Number", "A", "B", "Change", last]);
-                m.within("tbody", &[], |m| {
-                    for n in rows {
-                        let told = if are_changed { phrases::errors(n) } else { phrases::seen_from(report, n) };
-                        number(m, n, &told);
-                    }
-                });
+            table(m, "numbers wide", &["Number", "A", "B", "Change", last], |m| {
+                for n in rows {
+                    let told = if are_changed { phrases::errors(n) } else { phrases::seen_from(report, n) };
+                    number(m, n, &told);
+                }
             });
         });
     }

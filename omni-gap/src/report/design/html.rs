@@ -5,7 +5,7 @@ use super::phrases::{headline, in_order, measure, nothing_to_play, script, worth
 use super::terminal::{HEADS, line};
 use crate::engine::findings::Design;
 use crate::log::Run;
-use crate::report::html::page::{heads, page, section};
+use crate::report::html::page::{page, section, table};
 use crate::report::html::signals::charts_under;
 use crate::report::instructions::floor_in_words;
 use crate::report::markup::Markup;
@@ -55,8 +55,7 @@ fn play(m: &mut Markup, report: &DesignReport, design: &Design) {
 }
 
 fn questions(m: &mut Markup, design: &Design) {
-    m.within("table", &[("class", &"numbers")], |m| {
-        heads(m, &HEADS);
+    table(m, "numbers", &HEADS, |m| {
         for question in in_order(design) {
             m.within("tr", &[], |m| line(question).iter().for_each(|cell| m.leaf("td", &[], cell)));
         }

@@ -1,6 +1,6 @@
 //! Where the gap lies, and which cause is behind it.
 
-use super::page::{heads, section};
+use super::page::{section, table};
 use crate::engine::findings::{Where, Which};
 use crate::log::WheelFile;
 use crate::report::markup::Markup;
@@ -81,12 +81,11 @@ pub(super) fn causes(m: &mut Markup, report: &Report) {
     let worth = |w: &&Which| w.probability >= WORTH_A_ROW || report.causes.contains(&w.cause);
     let shown: Vec<_> = report.which.iter().filter(worth).take(MOST_ROWS).collect();
     section(m, "Which cause?", "The causes considered, most probable first; probabilities sum to 100 %.", |m| {
-        m.within("table", &[("class", &"causes")], |m| {
-            let named = |there: bool, name| if there { name } else { "" };
-            let parameters = named(shown.iter().any(|w| !w.parameters.is_empty()), "Parameters");
-            let alike = named(shown.iter().any(|w| !w.not_told_apart_from.is_empty()), "Not told apart from");
-            heads(m, &["Cause", "Probability", parameters, alike]);
-            m.within("tbody", &[], |m| shown.iter().for_each(|w| cause(m, report, w)));
+        let named = |there: bool, name| if there { name } else { "" };
+        let parameters = named(shown.iter().any(|w| !w.parameters.is_empty()), "Parameters");
+        let alike = named(shown.iter().any(|w| !w.not_told_apart_from.is_empty()), "Not told apart from");
+        table(m, "causes", &["Cause", "Probability", parameters, alike], |m| {
+            shown.iter().for_each(|w| cause(m, report, w));
         });
         let rest = report.which.len() - shown.len();
         if rest > 0 {

@@ -1,6 +1,6 @@
 //! Parameters, noise, what could not be seen, what is wrong with the log.
 
-use super::page::{heads, section};
+use super::page::{section, table};
 use crate::engine::findings::{ChannelNoise, Corrected};
 use crate::report::markup::Markup;
 use crate::report::model::{Fault, Report};
@@ -35,9 +35,8 @@ pub(super) fn parameters(m: &mut Markup, report: &Report) {
     }
     let how = "One standard deviation on both sides; the last column is the change in stated uncertainties.";
     section(m, "Parameters, nominal and corrected", how, |m| {
-        m.within("table", &[("class", &"numbers")], |m| {
-            heads(m, &["Parameter", "Nominal", "Corrected", "Change"]);
-            m.within("tbody", &[], |m| report.parameters.iter().for_each(|p| parameter(m, p)));
+        table(m, "numbers", &["Parameter", "Nominal", "Corrected", "Change"], |m| {
+            report.parameters.iter().for_each(|p| parameter(m, p));
         });
     });
 }
@@ -70,9 +69,8 @@ pub(super) fn noise(m: &mut Markup, report: &Report) {
     let how =
         "One sigma of each sensor: as the robot file states it, and by what the best model leaves of the recordings.";
     section(m, "Noise, stated and found", how, |m| {
-        m.within("table", &[("class", &"numbers")], |m| {
-            heads(m, &["Sensor", "Stated", "Found", "Correlated over"]);
-            m.within("tbody", &[], |m| report.noise.iter().for_each(|n| noise_of(m, n)));
+        table(m, "numbers", &["Sensor", "Stated", "Found", "Correlated over"], |m| {
+            report.noise.iter().for_each(|n| noise_of(m, n));
         });
     });
 }

@@ -29,8 +29,21 @@ pub(in crate::report) fn page(title: &str, fill: impl FnOnce(&mut Markup)) -> St
     m.finish() + "\n"
 }
 
+/// A table of a class under the names of its columns, around the rows that `fill` writes.
+pub(in crate::report) fn table<T: AsRef<str>>(
+    m: &mut Markup,
+    class: &str,
+    names: &[T],
+    fill: impl FnOnce(&mut Markup),
+) {
+    m.within("table", &[("class", &class)], |m| {
+        heads(m, names);
+        m.within("tbody", &[], fill);
+    });
+}
+
 /// The names of a table's columns; a column without one has no heading cell.
-pub(in crate::report) fn heads<T: AsRef<str>>(m: &mut Markup, names: &[T]) {
+fn heads<T: AsRef<str>>(m: &mut Markup, names: &[T]) {
     m.within("thead", &[], |m| {
         m.within("tr", &[], |m| {
             for name in names.iter().map(AsRef::as_ref) {

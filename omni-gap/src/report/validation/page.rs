@@ -4,7 +4,7 @@ use super::phrases::{self, fit_cell, fit_text, rms_cell};
 use super::{curves, run};
 use crate::localise::validation::{HorizonFigures, RunTraces, Signal, SignalFigures, Validation};
 use crate::report::html::notes;
-use crate::report::html::page::{heads, page, scrolling, section};
+use crate::report::html::page::{page, scrolling, section, table};
 use crate::report::markup::Markup;
 use crate::report::number::num;
 use crate::report::phrases::sentence;
@@ -14,7 +14,7 @@ use crate::simulate::HORIZON_S;
 pub fn html(validation: &Validation, traces: &[RunTraces]) -> String {
     page(&format!("{}: validation", subject(validation)), |m| {
         head(m, validation);
-        table(m, validation);
+        run_by_run(m, validation);
         horizons(m, validation);
         for drawn in traces {
             let Some(figures) = validation.runs.get(drawn.run) else { continue };
@@ -73,25 +73,22 @@ fn figure(m: &mut Markup, name: &str, value: &str, note: &str) {
     });
 }
 
-fn table(m: &mut Markup, validation: &Validation) {
+fn run_by_run(m: &mut Markup, validation: &Validation) {
     let how = "Fit is 100·(1 − ‖y − ŷ‖/‖y − ȳ‖): 100 is exact, 0 no better than the mean ȳ of what was measured, less \
                than 0 worse than it. A dash stands where a signal hardly varies beyond its noise. Beside it the root \
                mean square of measured minus simulated.";
     section(m, "Run by run", how, |m| {
         scrolling(m, "Run by run", |m| {
-            m.within("table", &[("class", &"axes")], |m| {
-                let fits = Signal::AXES.map(|axis| format!("fit {} %", phrases::short(axis)));
-                let errors = Signal::AXES.map(|axis| format!("RMS {} {}", phrases::short(axis), axis.unit()));
-                heads(m, &[&["Run".to_owned()], &fits[..], &errors[..]].concat());
-                m.within("tbody", &[], |m| {
-                    for run in &validation.runs {
-                        row(m, "", &phrases::run_name(run), |axis| run.signal(axis).cloned());
-                    }
-                    row(m, "all", "all runs", |axis| validation.over_all(axis).cloned());
-                    row(m, "", "noise allows", |axis| {
-                        let f = validation.over_all(axis)?;
-                        Some(SignalFigures { fit_percent: f.noise_allows_percent, rms_si: f.sigma_si, ..f.clone() })
-                    });
+            let fits = Signal::AXES.map(|axis| format!("fit {} %", phrases::short(axis)));
+            let errors = Signal::AXES.map(|axis| format!("RMS {} {}", phrases::short(axis), axis.unit()));
+            table(m, "axes", &[&["Run".to_owned()], &fits[..], &errors[..]].concat(), |m| {
+                for run in &validation.runs {
+                    row(m, "", &phrases::run_name(run), |axis| run.signal(axis).cloned());
+                }
+                row(m, "all", "all runs", |axis| validation.over_all(axis).cloned());
+                row(m, "", "noise allows", |axis| {
+                    let f = validation.over_all(axis)?;
+                    Some(SignalFigures { fit_percent: f.noise_allows_percent, rms_si: f.sigma_si, ..f.clone() })
                 });
             });
         });

@@ -3,7 +3,7 @@
 use super::phrases;
 use crate::localise::validation::{RunFigures, RunTraces, Signal, SignalFigures, Trace};
 use crate::report::figure::figure;
-use crate::report::html::page::{heads, scrolling, section};
+use crate::report::html::page::{scrolling, section, table};
 use crate::report::markup::Markup;
 use crate::report::number::num;
 use crate::report::phrases::sentence;
@@ -71,9 +71,8 @@ fn panel(m: &mut Markup, t_s: &[f64], trace: &Trace) {
 
 fn merits(m: &mut Markup, run: &RunFigures, pick: fn(Signal) -> bool) {
     scrolling(m, "Figures of merit", |m| {
-        m.within("table", &[("class", &"merits")], |m| {
-            heads(m, &["", "fit %", "of at most", "RMS", "RMS/σ", "largest"]);
-            m.within("tbody", &[], |m| run.signals.iter().filter(|f| pick(f.signal)).for_each(|f| merit(m, f)));
+        table(m, "merits", &["", "fit %", "of at most", "RMS", "RMS/σ", "largest"], |m| {
+            run.signals.iter().filter(|f| pick(f.signal)).for_each(|f| merit(m, f));
         });
     });
 }
