@@ -1,7 +1,5 @@
 //! A robot as MuJoCo's elements can hold it: what of a robot file's effects goes into numbers, and what cannot.
 
-use std::f64::consts::FRAC_PI_2;
-
 use crate::log::RobotFile;
 use crate::simulate::EffectInstance;
 
@@ -95,33 +93,30 @@ impl MujocoRobot {
     /// Effects that change the motors of one wheel, or of all.
     fn add_to_wheels(&mut self, file: &RobotFile, effect: &EffectInstance) {
         let of = |key| effect.number(key);
-        for j in (0..self.motors.len()).filter(|j| effect.wheel.is_none_or(|wheel| wheel == *j)) {
-            let motor = &mut self.motors[j];
-            match effect.id {
-                "motor_mismatch" => {
-                    let scales = Scales { constants: of("torque_constant_ratio"), resistance: of("resistance_ratio") };
-                    let changed = Motor::of(file, j, &scales);
-                    let plain = Motor::of(file, j, &Scales::default());
-                    motor.offset *= changed.gain / plain.gain;
-                    motor.gain *= changed.gain / plain.gain;
-                    motor.damping += changed.damping - plain.damping;
-                }
-                // u_eff = u·(1 + g) + o
-                "drive_gain" => {
-                    motor.offset += motor.gain * of("offset_V");
-                    motor.gain *= 1.0 + of("gain_error");
-                }
-                "wheel_radius_error" => motor.radius *= 1.0 + of("radius_error"),
-                "wheel_misalignment" => motor.angle += of("angle_rad"),
-                "wheel_friction" => motor.damping += of("damping_Nms"),
-                _ => {}
+        let change: &dyn Fn(usize, &mut Motor) = match effect.id {
+            "motor_mismatch" => &|j, motor| {
+                let scales = Scales { constants: of("torque_constant_ratio"), resistance: of("resistance_ratio") };
+                let changed = Motor::of(file, j, &scales);
+                let plain = Motor::of(file, j, &Scales::default());
+                motor.offset *= changed.gain / plain.gain;
+                motor.gain *= changed.gain / plain.gain;
+                motor.damping += changed.damping - plain.damping;
+            },
+            // u_eff = u·(1 + g) + o
+            "drive_gain" => &|_, motor| {
+                motor.offset += motor.gain * of("offset_V");
+                motor.gain *= 1.0 + of("gain_error");
+            },
+            "wheel_radius_error" => &|_, motor| motor.radius *= 1.0 + of("radius_error"),
+            "wheel_misalignment" => &|_, motor| motor.angle += of("angle_rad"),
+            "wheel_friction" => {
+                self.left.push((named(effect), "its Coulomb part: an actuator has no dry friction"));
+                &|_, motor| motor.damping += of("damping_Nms")
             }
-        }
-        match effect.id {
-            "motor_mismatch" | "drive_gain" | "wheel_radius_error" | "wheel_misalignment" => {}
-            "wheel_friction" => self.left.push((named(effect), "its Coulomb part: an actuator has no dry friction")),
-            _ => self.left.push((named(effect), "MuJoCo has no element for it")),
-        }
+            _ => return self.left.push((named(effect), "MuJoCo has no element for it")),
+        };
+        let on_it = |(j, _): &(usize, &mut Motor)| effect.wheel.is_none_or(|wheel| wheel == *j);
+        self.motors.iter_mut().enumerate().filter(on_it).for_each(|(j, motor)| change(j, motor));
     }
 
     /// What the wheels' inertia adds to mass (kg) and inertia (kg·m²), where the wheels are the same in all directions.
@@ -138,12 +133,19 @@ impl Motor {
     fn of(file: &RobotFile, wheel: usize, scales: &Scales) -> Self {
         let (motor, wheel) = (&file.motor, &file.wheel[wheel]);
         let angle = wheel.drive_angle_deg.to_radians();
-        let at = [(angle - FRAC_PI_2).cos(), (angle - FRAC_PI_2).sin()].map(|along| wheel.distance_m * along);
+        let (x, y) = wheel.wheel().contact_point();
         let (l, r) = (motor.gear_ratio, motor.resistance_ohm * scales.resistance);
         let torque = motor.torque_constant_nm_per_a * scales.constants;
         let emf = motor.emf_constant_v_s * scales.constants;
         // τ_wheel = l·K_t·(u − l·K_v·ω_wheel)/R
-        Self { angle, at, radius: wheel.radius_m, gain: l * torque / r, damping: l * l * torque * emf / r, offset: 0.0 }
+        Self {
+            angle,
+            at: [x, y],
+            radius: wheel.radius_m,
+            gain: l * torque / r,
+            damping: l * l * torque * emf / r,
+            offset: 0.0,
+        }
     }
 
     /// Lever of the wheel's force about the robot's middle (m).

@@ -1,7 +1,5 @@
 //! The robot from above: where its wheels touch the floor and how they roll, with what the gap sits on marked.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::markup::{Markup, Px};
 use super::phrases;
 use crate::log::WheelFile;
@@ -15,6 +13,9 @@ const REACH: f64 = 72.0;
 
 /// From the middle to the end of an axis' arrow (px).
 const ARROW: f64 = 40.0;
+
+/// From a wheel to its number, outwards (px).
+const BESIDE: f64 = 22.0;
 
 /// The least length of a wheel (px).
 const LEAST_WHEEL: f64 = 26.0;
@@ -58,11 +59,10 @@ pub(super) fn words(marked: &Marked) -> String {
 }
 
 fn draw_wheel(m: &mut Markup, number: usize, wheel: &WheelFile, px_per_m: f64, marked: bool) {
-    let angle = wheel.drive_angle_deg.to_radians();
-    // the wheel touches the floor at d·(cos(a − 90°), sin(a − 90°)), and rolls along (cos a, sin a)
-    let at = |distance: f64| on_page(distance * (angle - FRAC_PI_2).cos(), distance * (angle - FRAC_PI_2).sin());
-    let (x, y) = at(wheel.distance_m * px_per_m);
-    let (along_x, along_y) = on_page(angle.cos(), angle.sin());
+    let (v, vn) = wheel.wheel().contact_point();
+    let [cos, sin] = wheel.wheel().direction();
+    let (x, y) = on_page(v * px_per_m, vn * px_per_m);
+    let (along_x, along_y) = on_page(cos, sin);
     let length = (2.0 * wheel.radius_m * px_per_m).clamp(LEAST_WHEEL, 0.9 * REACH);
     let turn =
         format!("translate({} {}) rotate({})", Px(x), Px(y), Px(along_y.atan2(along_x).to_degrees().rem_euclid(360.0)));
@@ -73,7 +73,8 @@ fn draw_wheel(m: &mut Markup, number: usize, wheel: &WheelFile, px_per_m: f64, m
         // a head at the end to which the wheel rolls while its speed is positive
         m.leaf("path", &[("d", &format!("M{} -4l5 4l-5 4", Px(0.5 * length - 9.0)))], "");
     });
-    let (x, y) = at(wheel.distance_m * px_per_m + 22.0);
+    let beyond = px_per_m + BESIDE / wheel.distance_m;
+    let (x, y) = on_page(v * beyond, vn * beyond);
     let class = if marked { "mid most" } else { "mid" };
     m.leaf("text", &[("class", &class), ("x", &Px(x)), ("y", &Px(y + 4.0))], &number.to_string());
 }
