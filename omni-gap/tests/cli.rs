@@ -14,6 +14,10 @@ mod experiments;
 mod explain;
 #[path = "cli/folders.rs"]
 mod folders;
+#[path = "cli/foreign.rs"]
+mod foreign;
+#[path = "cli/frames.rs"]
+mod frames;
 #[path = "cli/json.rs"]
 mod json;
 #[path = "cli/manners.rs"]

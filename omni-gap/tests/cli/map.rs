@@ -1,39 +1,43 @@
 //! A mapping for foreign logs, proposed.
 
-use crate::bench::Bench;
+use std::f64::consts::PI;
+
+use crate::bench::{Bench, table};
+use crate::foreign::{Foreign, foreign};
 
 /// The bench's own run in another layout: milliseconds, rpm, degrees, semicolons, decimal commas.
-fn foreign(bench: &Bench) -> String {
+fn log(bench: &Bench) -> String {
     let text = bench.read("session/runs/run01.csv");
-    let mut lines = text.lines();
-    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let foreign = |name: &str| match name {
+    let (names, _) = table(&text);
+    let renamed = |name: &&str| match *name {
         "t_s" => "time_ms".to_owned(),
         "theta_rad" => "heading_deg".to_owned(),
         name if name.starts_with('w') => format!("wheel{}_rpm", &name[1..2]),
         name => name.to_owned(),
     };
-    let factor = |name: &str| match name {
-        "t_s" => 1000.0,
-        "theta_rad" => 180.0 / std::f64::consts::PI,
-        name if name.starts_with('w') => 30.0 / std::f64::consts::PI,
-        _ => 1.0,
+    let change = |name: &str| -> fn(f64) -> String {
+        match name {
+            "t_s" => |t_s| comma(t_s * 1000.0),
+            "theta_rad" => |theta_rad| comma(theta_rad * (180.0 / PI)),
+            name if name.starts_with('w') => |w_rad_s| comma(w_rad_s * (30.0 / PI)),
+            _ => comma,
+        }
     };
-    let mut all = names.iter().map(|name| foreign(name)).collect::<Vec<_>>().join(";") + "\n";
-    for line in lines {
-        let field = |(name, field): (&&str, &str)| match field.parse::<f64>() {
-            Ok(value) => format!("{}", value * factor(name)).replace('.', ","),
-            Err(_) => String::new(),
-        };
-        all += &(names.iter().zip(line.split(',')).map(field).collect::<Vec<_>>().join(";") + "\n");
-    }
-    all
+    let theirs: Vec<String> = names.iter().map(renamed).collect();
+    let columns: Vec<Foreign<'_>> =
+        names.iter().zip(&theirs).map(|(own, theirs)| (*own, theirs.as_str(), change(own))).collect();
+    foreign(bench, &columns, ";")
+}
+
+/// A number with a decimal comma.
+fn comma(number: f64) -> String {
+    number.to_string().replace('.', ",")
 }
 
 #[test]
 fn a_foreign_log_is_mapped_checked_and_read() {
     let bench = Bench::with_session();
-    bench.write("log.txt", &foreign(&bench));
+    bench.write("log.txt", &log(&bench));
     let said = bench.done(&["map", "log.txt", "--robot", "session/robot.toml", "--out", "columns.toml"]);
     for part in ["sure", "w0_rad_s", "unit = \"rpm\"", "unit = \"ms\"", "unit = \"deg\"", "written to columns.toml"] {
         assert!(said.out.contains(part), "{part}: {}", said.out);

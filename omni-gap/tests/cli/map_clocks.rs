@@ -1,27 +1,7 @@
 //! Foreign logs whose clocks are dates, or are two.
 
 use crate::bench::{Bench, table};
-
-/// A column of the bench's run, what the foreign log calls it, and what becomes of its numbers.
-type Foreign = (&'static str, &'static str, fn(f64) -> String);
-
-/// Columns of the bench's run under other names, each number changed.
-fn part(bench: &Bench, columns: &[Foreign], separator: &str) -> String {
-    let text = bench.read("session/runs/run01.csv");
-    let (names, rows) = table(&text);
-    let place = |column: &str| names.iter().position(|name| *name == column).unwrap();
-    let join = |fields: Vec<String>| fields.join(separator) + "\n";
-    let mut out = join(columns.iter().map(|(_, foreign, _)| (*foreign).to_owned()).collect());
-    for row in &rows {
-        let field = |(own, _, change): &Foreign| row[place(own)].parse().map_or(String::new(), change);
-        out += &join(columns.iter().map(field).collect());
-    }
-    out
-}
-
-fn same(number: f64) -> String {
-    number.to_string()
-}
+use crate::foreign::{Foreign, foreign, same};
 
 /// A time of the run as a date, UTC.
 fn date(t_s: f64) -> String {
@@ -31,7 +11,7 @@ fn date(t_s: f64) -> String {
 #[test]
 fn a_log_whose_clock_is_dates_is_mapped_and_read() {
     let bench = Bench::with_session();
-    let columns: [Foreign; 8] = [
+    let columns: [Foreign<'_>; 8] = [
         ("t_s", "Timestamp", date),
         ("w0_rad_s", "Wheel 1", same),
         ("w1_rad_s", "Wheel 2", same),
@@ -41,7 +21,7 @@ fn a_log_whose_clock_is_dates_is_mapped_and_read() {
         ("y_m", "Y [mm]", |y| (1000.0 * y).to_string()),
         ("theta_rad", "Heading [deg]", |theta| theta.to_degrees().to_string()),
     ];
-    bench.write("fahrt.txt", &part(&bench, &columns, "\t"));
+    bench.write("fahrt.txt", &foreign(&bench, &columns, "\t"));
     let said = bench.done(&["map", "fahrt.txt", "--robot", "session/robot.toml", "--out", "columns.toml"]).out;
     assert!(said.lines().any(|line| line.starts_with("sure") && line.contains("Timestamp")), "{said}");
     bench.done(&["convert", "session/robot.toml", "fahrt.txt", "--columns", "columns.toml", "--out", "back.csv"]);
@@ -66,7 +46,7 @@ fn a_log_whose_clock_is_dates_is_mapped_and_read() {
 #[test]
 fn a_camera_with_a_clock_and_a_file_of_its_own_is_mapped() {
     let bench = Bench::with_session();
-    let motors: [Foreign; 5] = [
+    let motors: [Foreign<'_>; 5] = [
         ("t_s", "time_s", same),
         ("w0_rad_s", "speed_0", same),
         ("w1_rad_s", "speed_1", same),
@@ -74,18 +54,18 @@ fn a_camera_with_a_clock_and_a_file_of_its_own_is_mapped() {
         ("w3_rad_s", "speed_3", same),
     ];
     // the camera's computer counts milliseconds since 1970
-    let camera: [Foreign; 4] = [
+    let camera: [Foreign<'_>; 4] = [
         ("t_s", "stamp_ms", |t| (1.7723664e12 + 1000.0 * t).to_string()),
         ("x_m", "x", same),
         ("y_m", "y", same),
         ("theta_rad", "theta", same),
     ];
-    let seen: String = part(&bench, &camera, ";")
+    let seen: String = foreign(&bench, &camera, ";")
         .lines()
         .filter(|line| !line.ends_with(';'))
         .map(|line| format!("{line}\n"))
         .collect();
-    bench.write("logs/drive/motors.csv", &part(&bench, &motors, ","));
+    bench.write("logs/drive/motors.csv", &foreign(&bench, &motors, ","));
     bench.write("logs/drive/camera.csv", &seen);
     let said = bench.done(&["map", "logs/drive", "--robot", "session/robot.toml", "--out", "columns.toml"]).out;
     let mapping = bench.read("columns.toml");

@@ -6,10 +6,8 @@ use std::net::{TcpListener, UdpSocket};
 use std::time::{Duration, Instant};
 
 use crate::bench::{Bench, ROBOT, refused, table};
-use model_core::control::calibration::{AdcCode, Calibration};
-use model_core::link::framing::{FrameKind, MAX_FRAME, encode_frame};
-use model_core::link::hello::{Commutation, Hello};
-use model_core::link::record::{OperatingState, TelemetryRecord};
+use crate::frames::frames;
+use model_core::link::record::TelemetryRecord;
 
 /// How long it turns [s]
 const LENGTH_S: f64 = 5.0;
@@ -38,19 +36,8 @@ fn heading_rad(t_s: f64) -> f64 {
 }
 
 /// What the robot sends.
-fn frames() -> Vec<u8> {
-    let hello = Hello {
-        firmware: 1,
-        block_version: 1,
-        block_check: 7,
-        wheels: 4,
-        commutation: Commutation::FieldOriented,
-        calibration: Calibration::of_board(8),
-        gear_ratio: 5.0,
-        offsets: [[2048 * 16; 3]; 4],
-    };
-    let mut out = [0; MAX_FRAME];
-    let mut bytes = encode_frame(FrameKind::Hello.code(), &hello.to_bytes(), &mut out).unwrap().to_vec();
+fn sent() -> Vec<u8> {
+    let mut records = Vec::new();
     let (mut edge, mut since, mut interval) = (0, 0u16, 0u16);
     for look in 0..(LENGTH_S * LOOKS_HZ) as u32 {
         let now = (wheel_rad(f64::from(look) / LOOKS_HZ) * EDGES / TAU).floor() as i16;
@@ -59,23 +46,17 @@ fn frames() -> Vec<u8> {
             (edge, interval, since) = (now, since, 0);
         }
         if look % LOOKS_A_RECORD == 0 {
-            let record = TelemetryRecord {
+            records.push(TelemetryRecord {
                 sequence: look / LOOKS_A_RECORD,
                 time: look,
-                state: OperatingState::Driving,
-                enabled: 0b1111,
-                bus: AdcCode(1354),
-                phases: [[AdcCode(2048); 3]; 4],
                 edges: [edge; 4],
                 since_edge: [since; 4],
                 interval: [interval; 4],
-                voltage: [1.0; 4],
                 ..TelemetryRecord::default()
-            };
-            bytes.extend(encode_frame(FrameKind::Record.code(), &record.to_bytes(), &mut out).unwrap());
+            });
         }
     }
-    bytes
+    frames(records)
 }
 
 /// A packet of SSL-Vision with one yellow robot, by hand: tags, and what they hold.
@@ -131,7 +112,7 @@ fn play(robot: &TcpListener, vision: &str) {
     }
     std::thread::sleep(Duration::from_millis(200));
     stream.set_nonblocking(false).unwrap();
-    stream.write_all(&frames()).unwrap();
+    stream.write_all(&sent()).unwrap();
 }
 
 #[test]

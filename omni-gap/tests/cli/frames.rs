@@ -1,0 +1,34 @@
+//! Frames as a robot sends them: a greeting, then records.
+
+use model_core::control::calibration::{AdcCode, Calibration};
+use model_core::link::framing::{FrameKind, MAX_FRAME, encode_frame};
+use model_core::link::hello::{Commutation, Hello};
+use model_core::link::record::{OperatingState, TelemetryRecord};
+
+/// The frames of these records of a robot on four wheels, each completed to one that drives at 1 V.
+pub fn frames(records: impl IntoIterator<Item = TelemetryRecord>) -> Vec<u8> {
+    let hello = Hello {
+        firmware: 1,
+        block_version: 1,
+        block_check: 7,
+        wheels: 4,
+        commutation: Commutation::FieldOriented,
+        calibration: Calibration::of_board(8),
+        gear_ratio: 5.0,
+        offsets: [[2048 * 16; 3]; 4],
+    };
+    let mut out = [0; MAX_FRAME];
+    let mut bytes = encode_frame(FrameKind::Hello.code(), &hello.to_bytes(), &mut out).unwrap().to_vec();
+    for record in records {
+        let record = TelemetryRecord {
+            state: OperatingState::Driving,
+            enabled: 0b1111,
+            bus: AdcCode(1354),
+            phases: [[AdcCode(2048); 3]; 4],
+            voltage: [1.0; 4],
+            ..record
+        };
+        bytes.extend(encode_frame(FrameKind::Record.code(), &record.to_bytes(), &mut out).unwrap());
+    }
+    bytes
+}
