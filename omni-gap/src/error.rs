@@ -77,6 +77,12 @@ pub enum Error {
 }
 
 impl Error {
+    /// A file that cannot be opened or read.
+    pub fn unreadable(file: &Path, reason: &std::io::Error) -> Error {
+        Self::input(file, format!("cannot be read: {reason}"), "Check the path and the file's permissions")
+            .of_kind(InputKind::Unreadable)
+    }
+
     /// A value in `file` that is not what was expected; of another kind, say so with [`Error::of_kind`].
     pub fn input(file: &Path, problem: impl Into<String>, fix: impl Into<String>) -> Error {
         let (problem, fix) = (problem.into(), fix.into());

@@ -1,11 +1,10 @@
 //! `predict`: what a robot file says should have happened in a run.
 
-use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use omni_gap::api;
-use omni_gap::log::{Channel, Group, Missing, Run, write_runs};
-use omni_gap::simulate::HORIZON_S;
+use omni_gap::log::{Channel, Group, Missing, Run, holds_several, write_run, write_runs};
+use omni_gap::simulate::{HORIZON_S, within_half_turn};
 
 use super::answer::{AnswerForm, RunWritten};
 use super::console::Console;
@@ -52,8 +51,12 @@ impl Predict {
             with_blank_columns(&mut run, given.robot.wheel.len());
         }
         let predicted = api::predict(&given.robot, &run, self.horizon)?;
-        let apart = residuals(&predicted, &run);
-        write_runs(&self.out, &[("predicted", &predicted), ("measured", &run), ("residual", &apart)])?;
+        if holds_several(&self.out) {
+            let apart = residuals(&predicted, &run);
+            write_runs(&self.out, &[("predicted", &predicted), ("measured", &run), ("residual", &apart)])?;
+        } else {
+            write_run(&self.out, &predicted)?;
+        }
         let text = format!("{} rows predicted, written to {}\n", predicted.rows(), self.out.display());
         self.form.say(console, &text, &RunWritten::of(&self.out, predicted.rows()))?;
         Ok(DONE)
@@ -70,7 +73,7 @@ fn residuals(predicted: &Run, measured: &Run) -> Run {
         let (_, measured) = seen.iter().find(|(signal, _)| signal == name)?;
         let apart = |(row, at): (usize, &Option<usize>)| {
             let error = measured.get(at.ok_or(Missing::NotDue)?)? - channel.get(row)?;
-            Ok(if name == "theta_rad" { error - TAU * (error / TAU).round() } else { error })
+            Ok(if name == "theta_rad" { within_half_turn(error) } else { error })
         };
         Some(rows.iter().enumerate().map(apart).collect())
     })

@@ -59,6 +59,6 @@ pub(crate) use permutations::permutations;
 pub use robot_file::*;
 pub use run::{Group, Run, RunFile, Sampled};
 pub use session::Session;
-pub use sink::{write_run, write_runs};
+pub use sink::{holds_several, write_run, write_runs};
 pub use toml_number::toml_number;
 pub use write::{write_whole, write_whole_with};

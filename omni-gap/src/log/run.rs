@@ -161,18 +161,23 @@ impl Run {
 
     /// Every signal that is there, under its column name in the contract, in the contract's order.
     pub fn signals(&self) -> Vec<(String, &Channel)> {
-        let mut all = Vec::new();
-        for (stem, unit, group) in [("u", "V", &self.u), ("i", "A", &self.i), ("w", "rad_s", &self.w)] {
-            all.extend(per_wheel(stem, unit, group));
-        }
-        if let Some(pose) = &self.pose {
-            all.extend(POSE.iter().zip(&pose.channels).map(|(n, c)| (n.to_string(), c)));
-        }
-        all.extend(per_wheel("wset", "rad_s", &self.wset));
-        all.extend(self.vbat.iter().map(|c| (VBAT.to_string(), c)));
-        all.extend(self.gyro.iter().map(|c| (GYRO.to_string(), c)));
-        all.extend(self.enable.iter().map(|c| (ENABLE.to_string(), c)));
-        all
+        self.signals_by_group().into_iter().flat_map(|(_, signals)| signals).collect()
+    }
+
+    /// The same by what they are of: `u`, `i`, `w`, `pose`, `wset`, `vbat`, `gyro`, `enable`.
+    pub(super) fn signals_by_group(&self) -> [(&'static str, Vec<(String, &Channel)>); 8] {
+        let pose = self.pose.iter().flat_map(|pose| POSE.iter().zip(&pose.channels));
+        let one = |name: &str, channel| Option::iter(channel).map(|c| (name.to_string(), c)).collect();
+        [
+            ("u", per_wheel("u", "V", &self.u)),
+            ("i", per_wheel("i", "A", &self.i)),
+            ("w", per_wheel("w", "rad_s", &self.w)),
+            ("pose", pose.map(|(n, c)| (n.to_string(), c)).collect()),
+            ("wset", per_wheel("wset", "rad_s", &self.wset)),
+            ("vbat", one(VBAT, &self.vbat)),
+            ("gyro", one(GYRO, &self.gyro)),
+            ("enable", one(ENABLE, &self.enable)),
+        ]
     }
 
     /// The same recording with each channel, of which `f` gets the name in the contract, made anew; a group that lacks one

@@ -6,6 +6,7 @@ mod parquet;
 use std::path::Path;
 
 use super::run::Run;
+use super::source::{MCAP, PARQUET, ends_in};
 use super::write::{write_whole, write_whole_with};
 use crate::error::{Error, Result};
 
@@ -14,25 +15,31 @@ use crate::error::{Error, Result};
 /// # Errors
 /// Where the file cannot be written; nothing is left of it then.
 pub fn write_run(path: &Path, run: &Run) -> Result<()> {
-    write_runs(path, &[("", run)])
+    if holds_several(path) {
+        write_runs(path, &[("", run)])
+    } else if ends_in(path, &[PARQUET]) {
+        write_bytes(path, parquet::bytes(run))
+    } else {
+        write_whole_with(path, |out| run.write_csv(out))
+    }
 }
 
-/// The same of several runs beside each other, each under its name: topics of one MCAP file. Other forms hold the first alone.
+/// Whether a file of this name holds runs beside each other.
+pub fn holds_several(path: &Path) -> bool {
+    ends_in(path, &[MCAP])
+}
+
+/// Writes runs beside each other as MCAP, the topics of each below its name.
 ///
 /// # Errors
 /// Where the file cannot be written; nothing is left of it then.
 pub fn write_runs(path: &Path, runs: &[(&str, &Run)]) -> Result<()> {
-    let Some((_, first)) = runs.first() else { return Ok(()) };
-    let suffix = path.extension().map(|suffix| suffix.to_string_lossy().to_ascii_lowercase());
-    let whole = |bytes: std::result::Result<Vec<u8>, String>| match bytes {
-        Ok(bytes) => write_whole(path, &bytes),
-        Err(reason) => Err(Error::output(path, reason, "Write it as .csv")),
-    };
-    match suffix.as_deref() {
-        Some("mcap") => whole(mcap::bytes(runs)),
-        Some("parquet") => whole(parquet::bytes(first)),
-        _ => write_whole_with(path, |out| first.write_csv(out)),
-    }
+    write_bytes(path, mcap::bytes(runs))
+}
+
+fn write_bytes(path: &Path, bytes: std::result::Result<Vec<u8>, String>) -> Result<()> {
+    let bytes = bytes.map_err(|reason| Error::output(path, reason, "Write it as .csv"))?;
+    write_whole(path, &bytes)
 }
 
 #[cfg(test)]

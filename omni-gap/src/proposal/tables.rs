@@ -89,8 +89,7 @@ fn beginning(path: &Path) -> Result<String> {
             std::io::ErrorKind::NotFound => InputKind::NotFound,
             _ => InputKind::Unreadable,
         };
-        Error::input(path, format!("cannot be read: {reason}"), "Check the path and the file's permissions")
-            .of_kind(kind)
+        Error::unreadable(path, &reason).of_kind(kind)
     };
     let mut bytes = Vec::new();
     std::fs::File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut bytes)).map_err(unreadable)?;

@@ -3,6 +3,7 @@
 //! A row is an instant at which something was commanded or measured. The input is held from one row of the driving signal
 //! to the next, and the plant stops at every instant between: a measurement is compared at its own time.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use model_core::effects::telegram::Telegram;
@@ -345,12 +346,16 @@ impl<const N: usize> AlignedRun<N> {
     /// Measured minus predicted in units of sigma; headings modulo a turn.
     #[inline]
     pub fn error(&self, row: usize, channel: usize, predicted: f64) -> f64 {
-        let mut error = self.measured[row][channel] - predicted;
-        if channel == Self::channels().heading() {
-            error -= std::f64::consts::TAU * (error / std::f64::consts::TAU).round();
-        }
+        let error = self.measured[row][channel] - predicted;
+        let error = if channel == Self::channels().heading() { within_half_turn(error) } else { error };
         error / self.sigma[channel]
     }
+}
+
+/// An angle less the whole turns in it, between half a turn back and half a turn on [rad]
+#[inline]
+pub fn within_half_turn(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
 }
 
 fn starts_of_windows(rows: impl Iterator<Item = (usize, f64)>, horizon: f64) -> Vec<usize> {

@@ -43,7 +43,7 @@ mod where_shown;
 mod white_noise;
 
 pub use crate::log::Chain;
-pub use aligned_run::{AlignedRun, supply_seen};
+pub use aligned_run::{AlignedRun, supply_seen, within_half_turn};
 pub use channels::{Channels, MAX_CHANNELS, PerGroup, Row, SignalGroup};
 pub use commanded::commanded;
 pub use drivable::drivable;

@@ -6,7 +6,7 @@ use super::body_speed::{body_speeds, source};
 use super::figures::{Pair, Sums};
 use super::model::{RunFigures, SpeedsFrom};
 use super::signal::Signal;
-use crate::simulate::{AlignedRun, Chain, SignalGroup, predict, start_at};
+use crate::simulate::{AlignedRun, Chain, SignalGroup, predict, start_at, within_half_turn};
 
 /// One signal over the rows of a run, in its SI unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,14 +104,11 @@ impl Compared {
 impl Trace {
     /// The rows that have both.
     fn pairs(&self) -> Vec<Pair> {
-        let turn = std::f64::consts::TAU;
         let both = self.measured.iter().zip(&self.simulated).zip(&self.sigma);
         both.filter_map(|((measured, simulated), sigma)| {
             let measured = (*measured)?;
-            let mut error = measured - (*simulated)?;
-            if self.signal == Signal::Heading {
-                error -= turn * (error / turn).round();
-            }
+            let error = measured - (*simulated)?;
+            let error = if self.signal == Signal::Heading { within_half_turn(error) } else { error };
             Some(Pair { measured, error, sigma: *sigma })
         })
         .collect()

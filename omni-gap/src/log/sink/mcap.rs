@@ -49,29 +49,22 @@ fn write_rows(out: &mut Writer<Cursor<Vec<u8>>>, channel: u16, run: &Run, topic:
     Ok(())
 }
 
-/// The signals of a run by what they are of; a run's clock begins where the file's does.
-fn topics(run: &Run) -> Vec<Topic<'_>> {
-    let mut topics: Vec<Topic<'_>> = Vec::new();
-    for (column, channel) in run.signals() {
-        let name = topic_of(&column);
-        match topics.iter_mut().find(|topic| topic.name == name) {
-            Some(topic) => topic.signals.push((column, channel)),
-            None => topics.push(Topic { name, signals: vec![(column, channel)] }),
-        }
-    }
-    topics
+/// The groups of a run that have signals.
+fn topics(run: &Run) -> impl Iterator<Item = Topic<'_>> {
+    let groups = run.signals_by_group().into_iter().filter(|(_, signals)| !signals.is_empty());
+    groups.map(|(group, signals)| Topic { name: name_of(group), signals })
 }
 
-/// The topic of a column of the contract.
-fn topic_of(column: &str) -> &'static str {
-    match column.trim_end_matches(|c: char| c != '_').trim_end_matches('_') {
-        stem if stem.starts_with("wset") => "wheel_speed_set",
-        stem if stem.starts_with('u') => "motor_voltage",
-        stem if stem.starts_with('i') => "motor_current",
-        _ if column.ends_with("_rad_s") && column.starts_with('w') => "wheel_speed",
-        _ if ["x_m", "y_m", "theta_rad"].contains(&column) => "pose",
+/// What the topic of a group is called.
+fn name_of(group: &str) -> &'static str {
+    match group {
+        "u" => "motor_voltage",
+        "i" => "motor_current",
+        "w" => "wheel_speed",
+        "pose" => "pose",
+        "wset" => "wheel_speed_set",
         "vbat" => "battery_voltage",
-        _ if column == "gyro_rad_s" => "yaw_rate",
+        "gyro" => "yaw_rate",
         _ => "other",
     }
 }

@@ -15,8 +15,9 @@ mod topic;
 mod vision;
 
 use crate::error::{Error, InputKind, Result};
+pub(super) use bag::MCAP;
 use std::path::Path;
-use suffix::ends_in;
+pub(super) use suffix::ends_in;
 
 pub(crate) use csv::Layout;
 pub(crate) use opened::Source;
@@ -28,7 +29,7 @@ pub(crate) use vision::{ROBOT_TYPE, is_robot, robots_in, write_game_log};
 const RECORDS: &str = ".rec";
 
 /// Suffix of tables in Parquet.
-const PARQUET: &str = ".parquet";
+pub(super) const PARQUET: &str = ".parquet";
 
 /// Whether a file is a log where no mapping says which are.
 pub(crate) fn is_log(path: &Path) -> bool {

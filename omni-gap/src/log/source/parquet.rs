@@ -25,10 +25,7 @@ pub(super) struct Parquet {
 
 impl Parquet {
     pub fn open(path: &Path) -> Result<Parquet> {
-        let opened = File::open(path).map_err(|reason| {
-            Error::input(path, format!("cannot be read: {reason}"), "Check the path and the file's permissions")
-                .of_kind(InputKind::Unreadable)
-        })?;
+        let opened = File::open(path).map_err(|reason| Error::unreadable(path, &reason))?;
         let file = SerializedFileReader::new(opened).map_err(|reason| broken(path, &reason))?;
         let leaves = file.metadata().file_metadata().schema_descr().columns();
         let names = leaves.iter().map(|leaf| leaf.path().parts().join(".")).collect();

@@ -25,7 +25,10 @@ use std::io::Read;
 use std::path::Path;
 
 /// Suffixes of recordings of topics.
-pub(super) const SUFFIXES: [&str; 3] = [".mcap", ".db3", ".bag"];
+pub(super) const SUFFIXES: [&str; 3] = [MCAP, ".db3", ".bag"];
+
+/// The suffix of MCAP.
+pub(in crate::log) const MCAP: &str = ".mcap";
 
 /// How much of a file tells what it is.
 const HEAD: u64 = 4096;
@@ -66,10 +69,7 @@ pub(super) fn topics(path: &Path) -> Result<Vec<Seen>> {
 }
 
 fn container(path: &Path) -> Result<Box<dyn Container>> {
-    let unreadable = |reason| {
-        Error::input(path, format!("cannot be read: {reason}"), "Check the path and the file's permissions")
-            .of_kind(InputKind::Unreadable)
-    };
+    let unreadable = |reason| Error::unreadable(path, &reason);
     let file = File::open(path).map_err(unreadable)?;
     let mut head = Vec::new();
     (&file).take(HEAD).read_to_end(&mut head).map_err(unreadable)?;

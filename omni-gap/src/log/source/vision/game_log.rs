@@ -65,10 +65,7 @@ enum Got {
 impl GameLog {
     /// Opens a log, packed or not, and checks its header.
     pub fn open(path: &Path) -> Result<GameLog> {
-        let unreadable = |reason| {
-            Error::input(path, format!("cannot be read: {reason}"), "Check the path and the file's permissions")
-                .of_kind(InputKind::Unreadable)
-        };
+        let unreadable = |reason| Error::unreadable(path, &reason);
         let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
         let is_packed = file.fill_buf().map_err(unreadable)?.starts_with(&GZIP_MAGIC);
         let reader: Box<dyn Read> =
