@@ -124,7 +124,14 @@ fn by_set_speed(late_s: f64) -> Session {
         run.wset = Some(Group::from_columns((0..4).map(column).collect()));
         run
     });
-    Session { robot, robot_text: text.to_owned(), runs: runs.collect(), heldout: Vec::new(), notices: Vec::new() }
+    Session {
+        robot,
+        robot_text: text.to_owned(),
+        runs: runs.collect(),
+        heldout: Vec::new(),
+        files: Vec::new(),
+        notices: Vec::new(),
+    }
 }
 
 #[test]

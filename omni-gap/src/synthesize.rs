@@ -86,7 +86,7 @@ pub fn synthesize(truth: &str, plan: &Scenario, catalogue: &Catalogue) -> Result
         3 => perform::<3>(&file, plan),
         _ => perform::<4>(&file, plan),
     };
-    Ok(Session { robot, robot_text, runs, heldout: Vec::new(), notices: Vec::new() })
+    Ok(Session { robot, robot_text, runs, heldout: Vec::new(), files: Vec::new(), notices: Vec::new() })
 }
 
 fn perform<const N: usize>(file: &RobotFile, plan: &Scenario) -> Vec<Run> {

@@ -1,6 +1,6 @@
 //! An answer: in words for people, as JSON for programs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use omni_gap::Error;
 use omni_gap::check::Fault;
@@ -31,10 +31,13 @@ impl AnswerForm {
 
 /// Says an answer as JSON.
 pub fn say_json(console: &Console, answer: &impl Serialize) -> Result<(), CliError> {
-    let json = serde_json::to_string_pretty(answer);
-    let fix = "Ask without --json, and tell the makers of omni-gap";
-    let json = json.map_err(|why| Error::output(&PathBuf::from("standard output"), why.to_string(), fix))?;
-    console.say(&(json + "\n"))
+    console.say(&json(answer, Path::new("standard output"), "Ask without --json, and tell the makers of omni-gap")?)
+}
+
+/// The text of an answer as JSON, for a place; what cannot be written is told with what to do about it.
+pub fn json(answer: &impl Serialize, place: &Path, fix: &str) -> Result<String, CliError> {
+    let json = serde_json::to_string_pretty(answer).map_err(|why| Error::output(place, why.to_string(), fix))?;
+    Ok(json + "\n")
 }
 
 /// A run that was written.
@@ -52,7 +55,7 @@ pub struct RunWritten {
 
 impl RunWritten {
     /// A run of so many rows in a file.
-    pub fn of(file: &std::path::Path, rows: usize) -> Self {
+    pub fn of(file: &Path, rows: usize) -> Self {
         Self { schema: SCHEMA, file: file.to_owned(), rows, notices: Vec::new() }
     }
 }
@@ -66,6 +69,13 @@ pub struct FilesWritten {
     pub files: Vec<PathBuf>,
     /// What a person should know of them.
     pub notices: Vec<String>,
+}
+
+impl FilesWritten {
+    /// Files of which there is no more to know.
+    pub fn of(files: Vec<PathBuf>) -> Self {
+        Self { schema: SCHEMA, files, notices: Vec::new() }
+    }
 }
 
 /// Recordings that were checked.

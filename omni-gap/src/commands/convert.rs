@@ -40,19 +40,18 @@ impl Convert {
         let run = robot_and_run(&self.robot, &self.run, self.columns.as_deref(), console)?.run;
         write_run(&self.out, &run)?;
         let mut answer = RunWritten::of(&self.out, run.rows());
-        let mut text = format!("{} rows written to {}\n", run.rows(), self.out.display());
         if run.currents_sampled == Sampled::Before && run.i.is_some() {
             let told = "its currents were sampled before the voltage of their row was applied, which a table cannot say: put \
                         currents_sampled = \"before\" into the columns.toml of a session that reads it";
-            text += &wrapped(2, told);
             answer.notices.push(told.to_owned());
         }
         if run.opens_single_bridges() {
             let told = "on some rows single bridges were open, which a table cannot say: its empty voltages will be taken for \
                         ones that were lost; diagnose the records themselves";
-            text += &wrapped(2, told);
             answer.notices.push(told.to_owned());
         }
+        let mut text = format!("{} rows written to {}\n", answer.rows, self.out.display());
+        answer.notices.iter().for_each(|told| text += &wrapped(2, told));
         self.form.say(console, &text, &answer)?;
         Ok(DONE)
     }

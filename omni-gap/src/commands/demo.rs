@@ -12,9 +12,8 @@ use omni_gap::{Error, Report, Session, known_effects};
 use super::answer::AnswerForm;
 use super::console::Console;
 use super::console::wrapped;
-use super::diagnose::{Destination, FILES, diagnosed};
+use super::diagnose::{FILES, diagnosed};
 use super::done::{DONE, Done};
-use super::inputs::inputs;
 use super::output_path::{self, NewFolder};
 
 /// Record a robot whose real behaviour has an effect that its simulator lacks, and diagnose it
@@ -60,8 +59,7 @@ impl Demo {
         console.phase("reading the recordings");
         let session = Session::load(&at, None, &known_effects())?;
         let what = Options { session: Some("session".to_owned()), ..Options::default() };
-        let inputs = inputs([at.join("robot.toml").as_path()], [&session])?;
-        let (report, written) = diagnosed(&session, &what, Destination { folder: &out, inputs }, console)?;
+        let (report, written) = diagnosed(&session, &what, &out, console)?;
         folder.keep();
 
         let runs = session.runs.len();

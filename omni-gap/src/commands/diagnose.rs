@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use omni_gap::engine::Knobs;
 use omni_gap::report::design::script_csv;
-use omni_gap::report::{self, Beside, Input, NextExperiment, Written};
+use omni_gap::report::{self, Beside, NextExperiment, Written};
 use omni_gap::simulate::HORIZON_S;
 use omni_gap::{Diagnosis, Options, Report, Session};
 
@@ -62,33 +62,21 @@ impl Diagnose {
         knobs.screen.without.clone_from(&self.without);
         let also = self.also.load(&self.session.robot_path(), self.session.columns())?;
         let what = Options { session: self.session.name(), also: &also, knobs, ..Options::default() };
-        let (robot, columns) = (self.session.robot_path(), self.session.mapping());
-        let named = [robot.as_path()].into_iter().chain(columns.as_deref());
-        let inputs = inputs(named, [&session].into_iter().chain(also.iter().map(|more| &more.session)))?;
-        let (report, written) = diagnosed(&session, &what, Destination { folder: &self.out, inputs }, console)?;
+        let (report, written) = diagnosed(&session, &what, &self.out, console)?;
         self.form.say(console, &report::terminal(&report, Some(&written)), &report)?;
         Ok(if self.exit_code { report.verdict.exit_code() } else { DONE })
     }
-}
-
-/// Where a report goes, and what it says of its inputs.
-#[derive(Debug)]
-pub struct Destination<'a> {
-    /// The folder.
-    pub folder: &'a Path,
-    /// The files that it was made of.
-    pub inputs: Vec<Input>,
 }
 
 /// Diagnoses a session and writes the report's files.
 pub fn diagnosed(
     session: &Session,
     what: &Options<'_>,
-    into: Destination<'_>,
+    out: &Path,
     console: &Console,
 ) -> Result<(Report, Written), CliError> {
     let progress = |phrase: &str| console.phase(phrase);
-    let Destination { folder: out, inputs } = into;
+    let inputs = inputs([session].into_iter().chain(what.also.iter().map(|more| &more.session)))?;
     let mut diagnosis = Diagnosis::of(session, &Options { progress: &progress, ..what.clone() });
     diagnosis.report.inputs = inputs;
     let page = report::html(&diagnosis.report, &diagnosis.pictures);

@@ -10,7 +10,7 @@ use omni_gap::report::{Instructions, ScriptSaid, instructions, num};
 use omni_gap::simulate::{Experiment, Lowered, Plan, Sensing, USUAL_FIELD, usual_voltage};
 use omni_gap::simulate_experiments::drag_a_load;
 
-use super::answer::{AnswerForm, FilesWritten, SCHEMA};
+use super::answer::{AnswerForm, FilesWritten};
 use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
@@ -92,7 +92,7 @@ impl Experiments {
         let file = RobotFile::load(&self.robot, &known_effects())?;
         let said = if self.rich { self.rich_written(&file, console)? } else { self.paper_written(&file, console)? };
         let files = MADE.iter().map(|name| self.out.join(name)).collect();
-        self.form.say(console, &said, &FilesWritten { schema: SCHEMA, files, notices: Vec::new() })?;
+        self.form.say(console, &said, &FilesWritten::of(files))?;
         Ok(DONE)
     }
 

@@ -76,17 +76,17 @@ impl Explain {
     }
 }
 
+/// Kinds of what has a page.
+const EFFECT: &str = "effect";
+const PARAMETER: &str = "parameter";
+const FILE: &str = "file";
+
 /// Everything that has a page.
 fn entries() -> impl Iterator<Item = Entry> {
-    let effect = |card: &'static Card| Entry {
-        id: card.id,
-        title: card.title,
-        kind: "effect",
-        stage: Some(card.stage().name()),
-    };
-    let parameters =
-        NOMINAL.iter().map(|card| Entry { id: card.id, title: card.title, kind: "parameter", stage: None });
-    let files = FORMATS.iter().map(|form| Entry { id: form.name, title: form.title, kind: "file", stage: None });
+    let effect =
+        |card: &'static Card| Entry { id: card.id, title: card.title, kind: EFFECT, stage: Some(card.stage().name()) };
+    let parameters = NOMINAL.iter().map(|card| Entry { id: card.id, title: card.title, kind: PARAMETER, stage: None });
+    let files = FORMATS.iter().map(|form| Entry { id: form.name, title: form.title, kind: FILE, stage: None });
     cards().map(effect).chain(parameters).chain(files)
 }
 
@@ -94,18 +94,19 @@ const NO_PICTURE: &str = "pictures are drawn of effects, and this is none: leave
     name an effect of the list that `omni-gap explain` prints.";
 
 fn list() -> String {
-    let mut page = "Effects that a simulator may lack:\n".to_owned();
-    let width = cards().map(|c| c.id.len()).chain(NOMINAL.iter().map(|p| p.id.len())).max().unwrap_or(0) + 2;
-    for card in cards() {
-        let _ = writeln!(page, "  {:width$}{} ({})", card.id, card.title, card.stage().name());
-    }
-    page += "\nParameters that a robot file may have wrong:\n";
-    for parameter in NOMINAL {
-        let _ = writeln!(page, "  {:width$}{}", parameter.id, parameter.title);
-    }
-    page += "\nForms of files:\n";
-    for format in FORMATS {
-        let _ = writeln!(page, "  {:width$}{}", format.name, format.title);
+    let width = entries().filter(|entry| entry.kind != FILE).map(|entry| entry.id.len()).max().unwrap_or(0) + 2;
+    let of = |kind: &'static str| entries().filter(move |entry| entry.kind == kind);
+    let mut page = String::new();
+    for (heading, kind) in [
+        ("Effects that a simulator may lack:", EFFECT),
+        ("\nParameters that a robot file may have wrong:", PARAMETER),
+        ("\nForms of files:", FILE),
+    ] {
+        let _ = writeln!(page, "{heading}");
+        for Entry { id, title, stage, .. } in of(kind) {
+            let stage = stage.map(|stage| format!(" ({stage})")).unwrap_or_default();
+            let _ = writeln!(page, "  {id:width$}{title}{stage}");
+        }
     }
     page + "\n`omni-gap explain NAME` tells more of each.\n"
 }

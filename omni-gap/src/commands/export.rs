@@ -58,7 +58,7 @@ impl Export {
         let notices: Vec<String> = model.nearly.iter().map(|note| format!("nearly: {note}")).chain(left).collect();
         let mut said = format!("{}: a model of MuJoCo, written to {}\n", robot.name, self.out.display());
         said += &notices.iter().map(|notice| wrapped(2, notice)).collect::<String>();
-        let answer = FilesWritten { schema: SCHEMA, files: vec![self.out.clone()], notices };
+        let answer = FilesWritten { notices, ..FilesWritten::of(vec![self.out.clone()]) };
         self.form.say(console, &said, &answer)?;
         Ok(DONE)
     }

@@ -55,12 +55,6 @@ impl GivenSession {
         self.paths.first().filter(|_| self.robot.is_none()).and_then(|folder| name_of(folder))
     }
 
-    /// The mapping that its logs are read through: the one that is named, else the session's own.
-    pub fn mapping(&self) -> Option<PathBuf> {
-        let own = || self.paths[0].join("columns.toml");
-        self.columns.clone().or_else(|| Some(own()).filter(|own| self.robot.is_none() && own.is_file()))
-    }
-
     /// The mapping that is named for all of it.
     pub fn columns(&self) -> Option<&Path> {
         self.columns.as_deref()

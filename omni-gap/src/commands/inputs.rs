@@ -3,7 +3,6 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use omni_gap::error::InputKind;
 use omni_gap::log::Run;
 use omni_gap::report::Input;
 use omni_gap::{Error, Session};
@@ -11,15 +10,17 @@ use sha2::{Digest, Sha256};
 
 use super::cli_error::CliError;
 
-/// The files of a session: those that are named, and those of its runs.
-pub fn inputs<'a>(
-    named: impl IntoIterator<Item = &'a Path>,
-    sessions: impl IntoIterator<Item = &'a Session>,
-) -> Result<Vec<Input>, CliError> {
-    let of_runs = sessions.into_iter().flat_map(|session| session.runs.iter().chain(&session.heldout)).flat_map(files);
-    let mut all: Vec<PathBuf> = named.into_iter().map(Path::to_path_buf).chain(of_runs).collect();
-    let mut seen = std::collections::BTreeSet::new();
-    all.retain(|path| seen.insert(path.clone()));
+/// The files that sessions were read from.
+pub fn inputs<'a>(sessions: impl IntoIterator<Item = &'a Session>) -> Result<Vec<Input>, CliError> {
+    let mut all: Vec<PathBuf> = Vec::new();
+    for session in sessions {
+        let of_runs = session.runs.iter().chain(&session.heldout).flat_map(files);
+        for path in session.files.iter().cloned().chain(of_runs) {
+            if !all.contains(&path) {
+                all.push(path);
+            }
+        }
+    }
     all.iter().map(|path| hashed(path)).collect()
 }
 
@@ -32,16 +33,19 @@ fn files(run: &Run) -> Vec<PathBuf> {
 
 fn hashed(path: &Path) -> Result<Input, CliError> {
     let mut hash = Sha256::new();
-    File::open(path).and_then(|mut file| std::io::copy(&mut file, &mut hash)).map_err(|why| {
-        Error::input(path, format!("cannot be read: {why}"), "Check the path and the file's permissions")
-            .of_kind(InputKind::Unreadable)
-    })?;
+    File::open(path)
+        .and_then(|mut file| std::io::copy(&mut file, &mut hash))
+        .map_err(|why| Error::unreadable(path, &why))?;
     Ok(Input { file: path.display().to_string(), sha256: format!("{:x}", hash.finalize()) })
 }
 
 #[cfg(test)]
 mod tests {
+    use omni_gap::known_effects;
+    use omni_gap::log::RobotFile;
+
     use super::*;
+    use crate::commands::demo::ROBOT;
 
     #[test]
     fn a_file_has_the_hash_that_everybody_gives_it() {
@@ -50,7 +54,17 @@ mod tests {
         std::fs::write(&path, "abc").unwrap();
         // FIPS 180-2, appendix B.1
         let known = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        let found = inputs([path.as_path(), path.as_path()], []).unwrap();
-        assert_eq!(found.iter().map(|input| input.sha256.as_str()).collect::<Vec<_>>(), [known]);
+        assert_eq!(hashed(&path).unwrap().sha256, known);
+    }
+
+    #[test]
+    fn a_file_of_two_sessions_is_named_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("robot.toml");
+        std::fs::write(&path, ROBOT).unwrap();
+        let robot = RobotFile::load(&path, &known_effects()).unwrap();
+        let (robot_text, runs, heldout, notices) = (ROBOT.to_owned(), Vec::new(), Vec::new(), Vec::new());
+        let session = Session { robot, robot_text, runs, heldout, files: vec![path], notices };
+        assert_eq!(inputs([&session, &session]).unwrap().len(), 1);
     }
 }

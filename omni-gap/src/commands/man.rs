@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use omni_gap::Error;
 use omni_gap::log::write_whole;
 
-use super::answer::{AnswerForm, FilesWritten, SCHEMA};
+use super::answer::{AnswerForm, FilesWritten};
 use super::console::Console;
 use super::done::{DONE, Done};
 use super::output_path::{self, NewFolder};
@@ -39,7 +39,7 @@ impl Man {
         }
         folder.keep();
         let said = format!("{} pages written to {}\n", files.len(), self.out.display());
-        self.form.say(console, &said, &FilesWritten { schema: SCHEMA, files, notices: Vec::new() })?;
+        self.form.say(console, &said, &FilesWritten::of(files))?;
         Ok(DONE)
     }
 }

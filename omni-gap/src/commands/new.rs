@@ -11,7 +11,7 @@ use omni_gap::Error;
 use omni_gap::known_effects;
 use omni_gap::log::{RobotFile, write_whole};
 
-use super::answer::{AnswerForm, FilesWritten, SCHEMA};
+use super::answer::{AnswerForm, FilesWritten};
 use super::cli_error::CliError;
 use super::console::{Console, wrapped};
 use super::done::{DONE, Done};
@@ -69,7 +69,7 @@ impl New {
         let runs = self.folder.join("runs");
         std::fs::create_dir_all(&runs).map_err(|why| Error::output(&runs, why.to_string(), "Name another folder"))?;
         write_whole(&path, format!("{}{text}", commented(&drawing)).as_bytes())?;
-        let answer = FilesWritten { schema: SCHEMA, files: vec![path], notices: Vec::new() };
+        let answer = FilesWritten::of(vec![path]);
         self.form.say(console, &(drawing + &next_steps(&self.folder, &text)), &answer)?;
         Ok(DONE)
     }

@@ -22,6 +22,8 @@ pub struct Session {
     pub runs: Vec<Run>,
     /// Runs that are only ever predicted; empty where the session has none.
     pub heldout: Vec<Run>,
+    /// The robot file and the mapping, if they were read from files.
+    pub files: Vec<PathBuf>,
     /// What was left out or taken as absent, one sentence each.
     pub notices: Vec<String>,
 }
@@ -37,8 +39,8 @@ impl Session {
             );
         }
         let own = folder.join("columns.toml");
-        let columns = columns.or_else(|| own.exists().then_some(&*own)).map(Columns::load).transpose()?;
-        let mut session = Session::of_robot(&folder.join("robot.toml"), catalogue)?;
+        let columns = columns.or_else(|| own.exists().then_some(&*own));
+        let (mut session, columns) = Session::begun(&folder.join("robot.toml"), columns, catalogue)?;
         let runs = folder.join("runs");
         if !runs.is_dir() {
             return Err(Error::input(&runs, "there is no such folder", "Put the run logs into a folder named runs")
@@ -57,8 +59,7 @@ impl Session {
     /// Reads a session whose parts lie anywhere; a run path may be a file, a folder of
     /// files that make a run, or a folder of runs.
     pub fn load_from(robot: &Path, columns: Option<&Path>, runs: &[PathBuf], catalogue: &Catalogue) -> Result<Session> {
-        let columns = columns.map(Columns::load).transpose()?;
-        let mut session = Session::of_robot(robot, catalogue)?;
+        let (mut session, columns) = Session::begun(robot, columns, catalogue)?;
         let mut paths = Vec::new();
         for path in runs {
             match path.is_dir() && !columns.as_ref().is_some_and(|columns| columns.is_run(path)) {
@@ -83,10 +84,14 @@ impl Session {
         self.rate_hz().map(rate).into_iter().collect()
     }
 
-    fn of_robot(path: &Path, catalogue: &Catalogue) -> Result<Session> {
-        let robot_text = read_text(path, "a robot file")?;
-        let robot = RobotFile::parse(&robot_text, path, catalogue)?;
-        Ok(Session { robot, robot_text, runs: Vec::new(), heldout: Vec::new(), notices: Vec::new() })
+    /// A session without runs, and the mapping that they are to be read through.
+    fn begun(robot: &Path, mapping: Option<&Path>, catalogue: &Catalogue) -> Result<(Session, Option<Columns>)> {
+        let columns = mapping.map(Columns::load).transpose()?;
+        let robot_text = read_text(robot, "a robot file")?;
+        let files = [robot].into_iter().chain(mapping).map(Path::to_path_buf).collect();
+        let robot = RobotFile::parse(&robot_text, robot, catalogue)?;
+        let session = Session { robot, robot_text, runs: Vec::new(), heldout: Vec::new(), files, notices: Vec::new() };
+        Ok((session, columns))
     }
 
     /// The run logs in a folder, by name. Without a mapping they are the files of known suffixes; with one that

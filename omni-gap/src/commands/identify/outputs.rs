@@ -6,7 +6,7 @@ use omni_gap::Error;
 use omni_gap::log::write_whole;
 use serde::Serialize;
 
-use super::super::answer::say_json;
+use super::super::answer::{json, say_json};
 use super::super::cli_error::CliError;
 use super::super::console::Console;
 use super::super::output_path;
@@ -37,10 +37,7 @@ impl Outputs<'_> {
         match self.json {
             Some(None) => return say_json(console, answer),
             Some(Some(file)) => {
-                let text = serde_json::to_string_pretty(answer);
-                let text =
-                    text.map_err(|why| Error::output(file, why.to_string(), "Name another place with --json"))?;
-                write_whole(file, (text + "\n").as_bytes())?;
+                write_whole(file, json(answer, file, "Name another place with --json")?.as_bytes())?;
                 said += &format!("{:12}{}\n", "numbers", file.display());
             }
             None => {}

@@ -37,7 +37,14 @@ fn moved<const N: usize>(file: &RobotFile, name: &str, seed: u64) -> Run {
 }
 
 fn session(file: RobotFile, runs: Vec<Run>) -> Session {
-    Session { robot: file, robot_text: String::new(), runs, heldout: Vec::new(), notices: Vec::new() }
+    Session {
+        robot: file,
+        robot_text: String::new(),
+        runs,
+        heldout: Vec::new(),
+        files: Vec::new(),
+        notices: Vec::new(),
+    }
 }
 
 fn validation(session: &Session) -> Validation {
