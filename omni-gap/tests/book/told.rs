@@ -72,10 +72,8 @@ fn shell(page: &Page, block: &Block, folder: &Path) -> Vec<String> {
 
 /// What was printed, shortened as it was: where a line of the page is not there, the next one that begins alike.
 fn shortened(page: &[String], printed: &[String]) -> Result<Vec<String>, String> {
-    if page.iter().all(|line| line == LEFT_OUT) {
-        return Ok(printed.to_vec());
-    }
-    if !page.iter().any(|line| line == LEFT_OUT) {
+    let left_out = page.iter().filter(|line| *line == LEFT_OUT).count();
+    if left_out == 0 || left_out == page.len() {
         return Ok(printed.to_vec());
     }
     let mut from = 0;
