@@ -2,6 +2,8 @@
 
 use super::catalogue::nearest;
 use crate::error::{Error, InputKind, Result};
+use std::fs::File;
+use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 use toml_edit::{Document, Item, TableLike};
@@ -26,17 +28,23 @@ pub(crate) fn read_text(path: &Path, what: &str) -> Result<String> {
 
 /// Reads a file, with one clear message where that cannot be done.
 pub(crate) fn read_bytes(path: &Path, what: &str) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open_file(path, what)?.read_to_end(&mut bytes).map_err(|reason| Error::unreadable(path, &reason))?;
+    Ok(bytes)
+}
+
+/// Opens a file to read, with one clear message where that cannot be done.
+pub(crate) fn open_file(path: &Path, what: &str) -> Result<File> {
     if path.is_dir() {
         return Err(Error::input(path, format!("this is a folder, expected {what}"), "Name a file inside it")
             .of_kind(InputKind::Unreadable));
     }
-    std::fs::read(path).map_err(|reason| match reason.kind() {
+    File::open(path).map_err(|reason| match reason.kind() {
         std::io::ErrorKind::NotFound => {
             Error::input(path, format!("no such file, expected {what}"), "Check the path, or put the file there")
                 .of_kind(InputKind::NotFound)
         }
-        _ => Error::input(path, format!("cannot be read: {reason}"), "Check the file's permissions")
-            .of_kind(InputKind::Unreadable),
+        _ => Error::unreadable(path, &reason),
     })
 }
 

@@ -4,9 +4,10 @@
 
 use super::date_time;
 use super::opened::Source;
+use super::text::Text;
 use crate::error::{Error, InputKind, Result};
 use crate::log::channel::{Channel, Missing};
-use crate::log::toml_walk::read_bytes;
+use std::io::{BufRead, Read};
 use std::path::{Path, PathBuf};
 
 /// How the text is laid out.
@@ -27,70 +28,46 @@ impl Default for Layout {
     }
 }
 
-/// An opened log: its text, and the names of its columns.
+/// An opened log: where its rows begin, and the names of its columns. It is read row by row, and never held.
 #[derive(Debug)]
 pub(super) struct Table {
     path: PathBuf,
+    text: Text,
     // empty where the layout has no header
     names: Vec<String>,
     // an empty last column not counted
     width: usize,
-    bytes: Vec<u8>,
-    start: usize,
-    lines_before: usize,
+    // where the rows begin (bytes)
+    start: u64,
     separator: u8,
     decimal: u8,
 }
 
 impl Table {
     pub fn open(path: &Path, layout: &Layout) -> Result<Table> {
-        let bytes = read_bytes(path, "a run log")?;
-        if let Err(broken) = std::str::from_utf8(&bytes) {
-            let line = 1 + count_lines(&bytes[..broken.valid_up_to()]);
-            let problem = "found bytes that are not UTF-8, expected text";
-            return Err(Error::input(path, problem, "Save the log as plain UTF-8 text")
-                .at_line(line)
-                .of_kind(InputKind::Malformed));
-        }
-        let mut start = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
-        if bytes[start..].iter().all(u8::is_ascii_whitespace) {
-            return Err(Error::input(
-                path,
-                "the file is empty, expected a header line and rows",
-                "Record the run again",
-            )
-            .of_kind(InputKind::TooLittle));
-        }
-        for _ in 0..layout.skip_lines {
-            start += line_end(&bytes[start..]);
-        }
-        let mut table = Table {
-            path: path.into(),
-            names: Vec::new(),
-            width: 0,
-            lines_before: count_lines(&bytes[..start]),
-            start,
-            bytes,
-            separator: layout.separator,
-            decimal: layout.decimal,
-        };
+        let text = Text::open(path, "a run log")?;
+        let Layout { separator, decimal, .. } = *layout;
+        let start = after_lines(path, &text, layout.skip_lines)?;
+        let mut table = Table { path: path.into(), text, names: Vec::new(), width: 0, start, separator, decimal };
         let mut record = csv::ByteRecord::new();
-        let mut reader = table.reader();
-        if !reader.read_byte_record(&mut record).map_err(|e| table.broken(&e))? {
+        let mut reader = table.reader()?;
+        if !table.next(&mut reader, &mut record)? {
             return Err(Error::input(path, "there are no rows below the lines to skip", "Check skip_lines")
                 .of_kind(InputKind::TooLittle));
         }
-        let end = reader.position().byte() as usize;
-        let lines = reader.position().line() as usize - 1;
+        let end = reader.position().byte();
         drop(reader);
         let last_is_empty = record.get(record.len() - 1).is_some_and(|last| last.trim_ascii().is_empty());
         table.width = record.len() - usize::from(last_is_empty && record.len() > 1);
         if layout.header {
+            let line = table.line(&record);
+            if record.iter().any(|field| std::str::from_utf8(field).is_err()) {
+                return Err(table.not_text(line));
+            }
             let text = |field: &[u8]| String::from_utf8_lossy(field.trim_ascii()).into_owned();
             table.names = record.iter().take(table.width).map(text).collect();
             table.start += end;
-            table.lines_before += lines;
-            table.check_names(table.lines_before)?;
+            table.check_names(line)?;
         }
         Ok(table)
     }
@@ -115,13 +92,20 @@ impl Table {
         })
     }
 
-    fn reader(&self) -> csv::Reader<&[u8]> {
-        csv::ReaderBuilder::new()
-            .delimiter(self.separator)
-            .has_headers(false)
-            .flexible(true)
-            .buffer_capacity(1 << 17)
-            .from_reader(&self.bytes[self.start..])
+    fn reader(&self) -> Result<Reader<'_>> {
+        let mut settings = csv::ReaderBuilder::new();
+        settings.delimiter(self.separator).has_headers(false).flexible(true).buffer_capacity(1 << 17);
+        Ok(settings.from_reader(self.text.from(self.start)?))
+    }
+
+    fn next(&self, reader: &mut Reader, record: &mut csv::ByteRecord) -> Result<bool> {
+        reader.read_byte_record(record).map_err(|reason| match reason.kind() {
+            csv::ErrorKind::Io(reason) => Error::unreadable(&self.path, reason),
+            _ => {
+                let problem = format!("cannot be read as a table: {reason}");
+                Error::input(&self.path, problem, "Check separators and quotes").of_kind(InputKind::Malformed)
+            }
+        })
     }
 
     fn number(&self, field: &[u8]) -> Option<f64> {
@@ -134,27 +118,35 @@ impl Table {
     }
 
     fn not_a_number(&self, record: &csv::ByteRecord, column: usize) -> Error {
-        let field = String::from_utf8_lossy(record[column].trim_ascii());
+        let line = self.line(record);
+        let Ok(field) = std::str::from_utf8(record[column].trim_ascii()) else { return self.not_text(line) };
         let problem = format!("found `{field}`, expected a finite number");
         Error::input(&self.path, problem, "Correct the field, or leave it empty where the sample is missing")
-            .at_line(self.line(record))
+            .at_line(line)
             .in_column(self.title(column))
     }
 
-    fn first_row_length(&self) -> usize {
-        line_end(&self.bytes[self.start..])
-    }
-
-    fn line(&self, record: &csv::ByteRecord) -> usize {
-        // the position may lie before line ends that the reader has yet to skip
-        let byte = self.start + record.position().map_or(0, |at| at.byte() as usize);
-        let ends = self.bytes[byte..].iter().take_while(|b| b"\r\n".contains(b)).count();
-        1 + count_lines(&self.bytes[..byte + ends])
-    }
-
-    fn broken(&self, reason: &csv::Error) -> Error {
-        Error::input(&self.path, format!("cannot be read as a table: {reason}"), "Check separators and quotes")
+    fn not_text(&self, line: usize) -> Error {
+        let problem = "found bytes that are not UTF-8, expected text";
+        Error::input(&self.path, problem, "Save the log as plain UTF-8 text")
+            .at_line(line)
             .of_kind(InputKind::Malformed)
+    }
+
+    /// The line on which a record stands; the first, where the file can no longer be read.
+    fn line(&self, record: &csv::ByteRecord) -> usize {
+        let byte = self.start + record.position().map_or(0, csv::Position::byte);
+        self.text.line_at(byte).unwrap_or(1)
+    }
+
+    /// How many rows there are, by the length of the first.
+    fn rows_about(&self) -> Result<usize> {
+        let mut first = Vec::new();
+        let rows = self.text.from(self.start)?;
+        let limit = self.text.length() - self.start.min(self.text.length());
+        let read = rows.take(limit).read_until(b'\n', &mut first);
+        let length = read.map_err(|reason| Error::unreadable(&self.path, &reason))?;
+        Ok((limit / (length as u64 + 1)) as usize + 16)
     }
 }
 
@@ -172,11 +164,11 @@ impl Source for Table {
     }
 
     fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>> {
-        let rows = self.bytes.len() / (self.first_row_length() + 1) + 16;
+        let rows = self.rows_about()?;
         let mut columns: Vec<Channel> = wanted.iter().map(|_| Channel::with_capacity(rows)).collect();
-        let mut reader = self.reader();
+        let mut reader = self.reader()?;
         let mut record = csv::ByteRecord::new();
-        while reader.read_byte_record(&mut record).map_err(|e| self.broken(&e))? {
+        while self.next(&mut reader, &mut record)? {
             let extra = record.len() == self.width + 1 && record[self.width].trim_ascii().is_empty();
             if record.len() != self.width && !extra {
                 let problem = format!("found {} fields, expected {}", record.len(), self.width);
@@ -201,20 +193,35 @@ impl Source for Table {
     }
 
     fn line_of(&self, row: usize) -> Option<usize> {
-        let mut reader = self.reader();
+        let mut reader = self.reader().ok()?;
         let mut record = csv::ByteRecord::new();
         for _ in 0..=row {
-            let _ = reader.read_byte_record(&mut record);
+            self.next(&mut reader, &mut record).ok()?;
         }
         Some(self.line(&record))
     }
 }
 
-fn count_lines(bytes: &[u8]) -> usize {
-    bytes.iter().filter(|byte| **byte == b'\n').count()
+type Reader<'a> = csv::Reader<Box<dyn BufRead + 'a>>;
+
+/// Where the text goes on below its first lines, a byte-order mark left out (bytes).
+fn after_lines(path: &Path, text: &Text, lines: usize) -> Result<u64> {
+    let unreadable = |reason| Error::unreadable(path, &reason);
+    let mark = text.from(0)?.fill_buf().map_err(unreadable)?.starts_with(BYTE_ORDER_MARK);
+    let mut start = if mark { BYTE_ORDER_MARK.len() as u64 } else { 0 };
+    let mut rest = text.from(start)?;
+    let is_empty = !rest.by_ref().bytes().any(|byte| !byte.is_ok_and(|byte| byte.is_ascii_whitespace()));
+    if is_empty {
+        let problem = "the file is empty, expected a header line and rows";
+        return Err(Error::input(path, problem, "Record the run again").of_kind(InputKind::TooLittle));
+    }
+    let mut rest = text.from(start)?;
+    let mut line = Vec::new();
+    for _ in 0..lines {
+        line.clear();
+        start += rest.read_until(b'\n', &mut line).map_err(unreadable)? as u64;
+    }
+    Ok(start)
 }
 
-/// Where the line that starts here ends, its line feed included.
-fn line_end(bytes: &[u8]) -> usize {
-    bytes.iter().position(|byte| *byte == b'\n').map_or(bytes.len(), |at| at + 1)
-}
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";

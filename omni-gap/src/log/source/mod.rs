@@ -11,6 +11,7 @@ mod opened;
 mod parquet;
 mod records;
 mod suffix;
+mod text;
 mod topic;
 mod vision;
 
