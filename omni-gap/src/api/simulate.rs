@@ -53,9 +53,7 @@ fn driven(input: &Run) -> Cow<'_, Run> {
     if span.len() == input.rows() {
         return Cow::Borrowed(input);
     }
-    let mut driven = input.with_channels(|_, channel| Some(span.clone().map(|row| channel.get(row)).collect()));
-    driven.t_s = input.t_s[span].to_vec();
-    Cow::Owned(driven)
+    Cow::Owned(Run { name: input.name.clone(), ..input.part(span) })
 }
 
 /// What was recorded, each signal only at the instants of the clock that it has in the input.

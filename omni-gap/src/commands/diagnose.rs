@@ -39,6 +39,10 @@ pub struct Diagnose {
     #[arg(long, value_name = "ID,ID", value_delimiter = ',')]
     without: Vec<String>,
 
+    /// Rows that the answer rests on, at the most: of longer recordings pieces that meet what the whole meets [default: 60000]
+    #[arg(long, value_name = "ROWS", value_parser = clap::value_parser!(u32).range(1000..))]
+    max_rows: Option<u32>,
+
     /// Exit with 0 no gap, 10 parameter, 20 effect, 30 unknown, 40 unfit data
     #[arg(long)]
     exit_code: bool,
@@ -60,6 +64,7 @@ impl Diagnose {
         let mut knobs = Knobs::default();
         knobs.measure.horizon_s = self.horizon;
         knobs.screen.without.clone_from(&self.without);
+        knobs.layout.excerpt.most_rows = self.max_rows.map_or(knobs.layout.excerpt.most_rows, |rows| rows as usize);
         let also = self.also.load(&self.session.robot_path(), self.session.columns())?;
         let what = Options { session: self.session.name(), also: &also, knobs, ..Options::default() };
         let (report, written) = diagnosed(&session, &what, &self.out, console)?;

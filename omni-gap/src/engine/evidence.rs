@@ -3,6 +3,7 @@
 //! A session laid out: what the robot file believes and how sure it is, the runs to fit on, and the runs that are only
 //! predicted. How many wheels the robot has is told inside, by [`LaidOut`], and not in any type outside.
 
+use crate::engine::excerpt::{excerpt, telling_first};
 use crate::engine::knobs::LayoutKnobs;
 use crate::identify::Prior;
 use crate::log::{RobotFile, Run, Session};
@@ -107,7 +108,7 @@ impl<const N: usize> Runs<N> {
         if fit[0].chain != Chain::Voltage {
             notices.push(format!("no usable voltage: the model is driven by {}", driven(fit[0].chain)));
         }
-        Ok(Self { fit, held })
+        Ok(Self { fit: telling_first(fit, &knobs.excerpt), held })
     }
 
     /// Runs of which none was said to be held out; where there are too few of them, each in parts.
@@ -130,7 +131,12 @@ fn laid_out<const N: usize>(
     notices: &mut Vec<String>,
 ) -> Runs<N> {
     let LayoutKnobs { hold_out_every, parts_of_a_lone_run: parts, .. } = *knobs;
+    let long = &knobs.excerpt;
+    let all: usize = session.runs.iter().chain(&session.heldout).map(Run::rows).sum();
     let mut of = |runs: &[Run]| -> Vec<AlignedRun<N>> {
+        let rows: usize = runs.iter().map(Run::rows).sum();
+        let (runs, left_out) = excerpt(runs, (long.most_rows * rows).div_ceil(all.max(1)), long);
+        notices.extend(left_out);
         runs.iter()
             .filter_map(|run| {
                 let laid = AlignedRun::new(run, robot);

@@ -5,6 +5,7 @@
 //! "By trial" as a reason means: the counts of the benchmark were reached with it, and no better reason is known.
 
 mod design;
+mod excerpt;
 mod probability;
 mod selftest;
 
@@ -12,6 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use design::DesignKnobs;
+pub use excerpt::ExcerptKnobs;
 pub use probability::{CalibrationKnobs, LogitLine, ProbabilityKnobs, logit};
 pub use selftest::SelftestKnobs;
 
@@ -56,6 +58,8 @@ pub struct LayoutKnobs {
     pub hold_out_every: usize,
     /// Parts into which each run is cut where there are fewer than `hold_out_every` [1]: as many, so that one is held out.
     pub parts_of_a_lone_run: usize,
+    /// Which rows stand for recordings that are too long to be weighed whole.
+    pub excerpt: ExcerptKnobs,
     /// Length of a shooting window [s]: the gap's own horizon, so that what is fitted is what is measured.
     pub window_s: f64,
 }
@@ -247,7 +251,7 @@ impl Default for Knobs {
 
 impl Default for LayoutKnobs {
     fn default() -> Self {
-        Self { hold_out_every: 3, parts_of_a_lone_run: 3, window_s: WINDOW_S }
+        Self { hold_out_every: 3, parts_of_a_lone_run: 3, excerpt: ExcerptKnobs::default(), window_s: WINDOW_S }
     }
 }
 

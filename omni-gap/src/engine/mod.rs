@@ -5,6 +5,7 @@
 
 pub mod design;
 pub mod evidence;
+mod excerpt;
 pub mod findings;
 pub mod knobs;
 mod predictions;

@@ -9,6 +9,7 @@
 use super::channel::{Channel, Missing};
 use super::robot_file::RobotFile;
 use crate::error::Error;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Channels of one kind: one per wheel, or x (m), y (m) and heading (rad) for the pose.
@@ -198,6 +199,19 @@ impl Run {
         let (name, path, files, t_s) = (self.name.clone(), self.path.clone(), self.files.clone(), self.t_s.clone());
         let (first_line, currents_sampled) = (self.first_line, self.currents_sampled);
         Run { name, path, first_line, files, t_s, u, i, w, wset, pose, vbat, gyro, enable, currents_sampled }
+    }
+
+    /// A part of it as a run of its own, called after the time of its first row.
+    ///
+    /// # Panics
+    /// Where it has no such rows.
+    pub fn part(&self, rows: Range<usize>) -> Run {
+        let mut part = self.with_channels(|_, channel| Some(rows.clone().map(|row| channel.get(row)).collect()));
+        part.t_s = self.t_s[rows.clone()].to_vec();
+        let since = part.t_s.first().zip(self.t_s.first()).map_or(0.0, |(first, start)| first - start);
+        part.name = format!("{} from {since:.1} s", self.name);
+        part.first_line = self.first_line.map(|line| line + rows.start);
+        part
     }
 
     /// Writes the run in the contract's layout; a hole becomes an empty field.
