@@ -18,6 +18,7 @@ pub use probability::{CalibrationKnobs, LogitLine, ProbabilityKnobs, logit};
 pub use selftest::SelftestKnobs;
 
 use crate::identify::{FitSettings, WINDOW_S};
+use crate::localise::shape::ShapeSettings;
 use crate::localise::{HORIZONS_S, RegimeSettings};
 use crate::simulate::HORIZON_S;
 
@@ -48,6 +49,8 @@ pub struct Knobs {
     pub measure: MeasureKnobs,
     /// Where the gap is said to lie.
     pub places: PlacesKnobs,
+    /// Which shapes of the residual are shown as evidence.
+    pub evidence: ShapeSettings,
 }
 
 /// How recordings are laid out.
@@ -245,6 +248,7 @@ impl Default for Knobs {
             probability: ProbabilityKnobs::default(),
             measure: MeasureKnobs::default(),
             places: PlacesKnobs::default(),
+            evidence: ShapeSettings::default(),
         }
     }
 }

@@ -24,11 +24,22 @@ pub(super) fn figure(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
 #[derive(Debug, Serialize)]
 struct ChartData<'a> {
     unit: &'a str,
-    /// Time of every row [s]
+    over: OverData<'a>,
+    /// Time of every row [s], or what else it is drawn over
     t: Vec<Option<f64>>,
     series: Vec<SeriesData<'a>>,
     /// Where predictions restart [s]
     restarts: &'a [f64],
+    /// Of the first series.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    intervals: &'a [[f64; 2]],
+}
+
+/// What a chart is drawn over.
+#[derive(Debug, Serialize)]
+struct OverData<'a> {
+    name: &'a str,
+    unit: &'a str,
 }
 
 #[derive(Debug, Serialize)]
@@ -48,9 +59,11 @@ impl<'a> ChartData<'a> {
         });
         ChartData {
             unit: &panel.unit,
+            over: OverData { name: &panel.over.name, unit: &panel.over.unit },
             t: rounded(panel.t_s.iter().copied().map(Some)),
             series: series.collect(),
             restarts,
+            intervals: &panel.intervals,
         }
     }
 }

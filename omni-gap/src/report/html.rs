@@ -1,6 +1,7 @@
 //! The report on one page: no network, light and dark, wide and narrow, whole without its scripts.
 
 pub(super) mod blame;
+mod evidence;
 pub(super) mod gap;
 pub(super) mod notes;
 mod now;
@@ -26,6 +27,7 @@ pub fn html(report: &Report, pictures: &Pictures) -> String {
         let drawn = (!pictures.wheels.is_empty()).then(|| (&*pictures.wheels, marked(report)));
         blame::places(m, &report.where_, drawn);
         blame::causes(m, report);
+        evidence::evidence(m, &report.evidence);
         signals::charts(m, pictures);
         notes::parameters(m, report);
         notes::noise(m, report);

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::check;
 use crate::engine::findings::{
-    ChannelNoise, Corrected, EngineRecord, Findings, Gap, NextExperiment, Shrink, Where, Which,
+    ChannelNoise, Corrected, EngineRecord, Findings, Gap, NextExperiment, Shape, Shrink, Where, Which,
 };
 use crate::vocabulary::Verdict;
 
@@ -32,6 +32,9 @@ pub struct Report {
     pub which: Vec<Which>,
     /// Causes that the corrected model contains, the one that explains most first.
     pub causes: Vec<String>,
+    /// The shapes of the residual that show the causes, or the gap that none explains, the plainest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub evidence: Vec<Shape>,
     /// How far the causes close the gap.
     pub shrink: Shrink,
     /// The noise of each sensor that was compared, as stated and as found.
@@ -85,6 +88,7 @@ impl Report {
             where_: found.where_,
             which: found.which,
             causes: found.causes,
+            evidence: found.evidence,
             shrink: found.shrink,
             noise: found.noise,
             parameters: found.parameters,

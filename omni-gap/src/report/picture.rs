@@ -1,4 +1,4 @@
-//! Signals over time as line charts.
+//! Signals over time, and residuals over what shows them, as charts.
 
 use super::decimate::{STRIPS, stretches};
 use super::markup::{Markup, Px};
@@ -16,6 +16,9 @@ pub const SIMULATED: &str = "simulated";
 /// Names of the series of a comparison: by the model of the first session, and by that with what differs.
 pub(super) const BY_A: &str = "by A’s model";
 pub(super) const WITH_CHANGE: &str = "with what differs";
+
+/// Name of the level above which a line of a spectrum is none of chance.
+pub(super) const FALSE_ALARM: &str = "level of chance";
 
 /// The pictures of a report.
 #[derive(Clone, Debug, Default)]
@@ -37,10 +40,30 @@ pub struct Panel {
     pub title: String,
     /// Its unit.
     pub unit: String,
-    /// Time of every row (s).
+    /// What it is shown over.
+    pub over: Over,
+    /// Time of every row (s), or what else it is shown over.
     pub t_s: Vec<f64>,
     /// Lines of the chart; names `measured`, `simulated`, `nominal` and `corrected` have fixed colours.
     pub series: Vec<Series>,
+    /// Both ends of the interval of each value of the first series, which is then dots and no line; empty where it has none.
+    pub intervals: Vec<[f64; 2]>,
+}
+
+/// What a chart is drawn over.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Over {
+    /// Its name, in the middle of a sentence.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+}
+
+impl Default for Over {
+    /// Time in seconds.
+    fn default() -> Self {
+        Self { name: "time".to_owned(), unit: "s".to_owned() }
+    }
 }
 
 /// One line of a chart.
@@ -78,6 +101,7 @@ impl Pictures {
                 line(before, said(&trace.nominal)),
                 line(after, said(&trace.corrected)),
             ],
+            ..Panel::default()
         };
         Pictures {
             caption: format!(
@@ -116,6 +140,7 @@ pub(super) fn ink(name: &str, at: usize) -> String {
         SIMULATED => "simulated".into(),
         "nominal" | "before" | BY_A => "nominal".into(),
         "corrected" | "after" | WITH_CHANGE => "corrected".into(),
+        FALSE_ALARM => "floor".into(),
         _ => format!("other{}", at % 4),
     }
 }
@@ -129,9 +154,9 @@ pub(super) fn chart(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
     let times = seen(|p| p.0);
     let (first, last) = times.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(*t), b.max(*t)));
     let x = Scale::new(if first <= last { (first, last) } else { (0.0, 1.0) }, INSIDE_X);
-    let y = Scale::around(seen(|p| p.1).into_iter(), INSIDE_Y);
+    let y = Scale::around(seen(|p| p.1).into_iter().chain(panel.intervals.iter().flatten().copied()), INSIDE_Y);
     let names: Vec<_> = panel.series.iter().map(|s| s.name.as_str()).collect();
-    let label = format!("{} in {} over time: {}", panel.title, panel.unit, names.join(", "));
+    let label = format!("{} in {} over {}: {}", panel.title, panel.unit, panel.over.name, names.join(", "));
     frame(m, &label, |m| {
         for &t in restarts_s.iter().filter(|t| (first..=last).contains(*t)) {
             m.leaf(
@@ -142,12 +167,26 @@ pub(super) fn chart(m: &mut Markup, panel: &Panel, restarts_s: &[f64]) {
         }
         y_axis(m, &y, &panel.unit);
         let ticks = x.ticks(6).into_iter().map(|(t, label)| (x.at(t), label)).collect::<Vec<_>>();
-        x_axis(m, &ticks, "s");
-        for (at, (series, stretches)) in lines.iter().enumerate() {
+        x_axis(m, &ticks, &panel.over.unit);
+        whiskers(m, panel, &x, &y);
+        for (at, (series, stretches)) in lines.iter().enumerate().skip(usize::from(!panel.intervals.is_empty())) {
             let d: String = stretches.iter().map(|points| path(points, &x, &y)).collect();
             m.leaf("path", &[("class", &format!("line {}", ink(&series.name, at))), ("d", &d)], "");
         }
     });
+}
+
+/// The first series as dots with its intervals, where it has any.
+fn whiskers(m: &mut Markup, panel: &Panel, x: &Scale, y: &Scale) {
+    let Some(series) = panel.series.first() else { return };
+    let ink = ink(&series.name, 0);
+    let dots = panel.t_s.iter().zip(&series.values).zip(&panel.intervals);
+    for ((at, value), [low, high]) in dots.filter_map(|((at, value), ends)| Some(((at, (*value)?), ends))) {
+        let d = format!("M{} {}V{}", Px(x.at(*at)), Px(y.at(*low)), Px(y.at(*high)));
+        m.leaf("path", &[("class", &format!("whisker {ink}")), ("d", &d)], "");
+        let class = format!("dot {ink}");
+        m.leaf("circle", &[("class", &class), ("cx", &Px(x.at(*at))), ("cy", &Px(y.at(value))), ("r", &3.5)], "");
+    }
 }
 
 /// An empty chart with a name for those who cannot see it.
@@ -202,7 +241,8 @@ mod tests {
         let t_s: Vec<f64> = (0..100).map(|k| 0.01 * k as f64).collect();
         let wave = |name: &str| Series { name: name.into(), values: t_s.iter().map(|t| Some(t.sin())).collect() };
         let series = vec![wave(MEASURED), wave("nominal"), wave("corrected")];
-        let panel = Panel { title: "Wheel 0".into(), unit: "rad/s".into(), t_s: t_s.clone(), series };
+        let panel =
+            Panel { title: "Wheel 0".into(), unit: "rad/s".into(), t_s: t_s.clone(), series, ..Panel::default() };
         let mut m = Markup::default();
         chart(&mut m, &panel, &[0.5]);
         let svg = m.finish();
@@ -212,6 +252,27 @@ mod tests {
             d.matches('M').count()
         };
         assert_eq!([moves("measured"), moves("nominal"), moves("corrected")], [1, 2, 2]);
+    }
+
+    #[test]
+    fn a_series_with_intervals_is_dots_with_whiskers_over_its_own_axis() {
+        let over = Over { name: "wheel speed".into(), unit: "rad/s".into() };
+        let measured = Series { name: MEASURED.into(), values: [1.0, 2.0, 3.0].map(Some).to_vec() };
+        let nominal = Series { name: "nominal".into(), values: vec![Some(0.0); 3] };
+        let intervals = vec![[0.5, 1.5], [1.5, 2.5], [2.5, 9.5]];
+        let t_s = vec![-10.0, 0.0, 10.0];
+        let panel = Panel { over, t_s, series: vec![measured, nominal], intervals, ..Panel::default() };
+        let mut m = Markup::default();
+        chart(&mut m, &panel, &[]);
+        let svg = m.finish();
+        assert_eq!(
+            (svg.matches("class=\"whisker measured\"").count(), svg.matches("<circle").count()),
+            (3, 3),
+            "{svg}"
+        );
+        assert_eq!(svg.matches("class=\"line ").count(), 1, "the dots are no line: {svg}");
+        assert!(svg.contains("over wheel speed: measured, nominal") && svg.contains("10 rad/s"), "{svg}");
+        assert!(svg.contains(">8<"), "the axis holds the ends of the intervals: {svg}");
     }
 
     #[test]

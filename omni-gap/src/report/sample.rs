@@ -304,7 +304,7 @@ pub fn pictures() -> Pictures {
             Series { name: "nominal".into(), values: model(error) },
             Series { name: "corrected".into(), values: model(0.05) },
         ];
-        panels.push(Panel { title, unit: unit.into(), t_s: t_s.clone(), series });
+        panels.push(Panel { title, unit: unit.into(), t_s: t_s.clone(), series, ..Panel::default() });
     };
     for j in 0..4 {
         panel(format!("Wheel {j} speed"), "rad/s", 18.0, 0.4, j, if j == 2 { 0.9 } else { 0.2 }, 1);

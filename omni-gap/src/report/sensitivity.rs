@@ -183,6 +183,7 @@ fn curves(m: &mut Markup, axis: &AxisSensitivity) {
                 values: axis.curve.iter().map(|p| (p.speed != 0.0).then_some(p.slopes[*k])).collect(),
             })
             .collect(),
+        ..Panel::default()
     };
     m.within("div", &[], |m| {
         m.within("p", &[("class", &"legend")], |m| {

@@ -28,6 +28,8 @@ pub use place::{Regime, Where};
 pub use selftest::{Imitating, Rival, SeenCause, SelfTest, ShownThere, VerifiedSize, WithSensor};
 pub use traces::{SignalTrace, Traces};
 
+pub use crate::localise::shape::{Feature, Form, Line, Quantity, Shape, ShapeBin};
+
 use super::knobs::Knobs;
 use crate::vocabulary::Verdict;
 
@@ -60,6 +62,8 @@ pub struct Findings {
     pub where_: Vec<Where>,
     /// The error of the free runs, per signal group and per horizon.
     pub gap: Gap,
+    /// The shapes of the residual that show the causes, or the gap that none explains, the plainest first.
+    pub evidence: Vec<Shape>,
     /// How far the causes close the gap.
     pub shrink: Shrink,
     /// The noise of each sensor that was compared, as stated and as found.
@@ -89,6 +93,7 @@ impl Findings {
             considered: Vec::new(),
             where_: Vec::new(),
             gap: Gap::default(),
+            evidence: Vec::new(),
             shrink: Shrink { reason: Some("the recordings cannot be used".to_owned()), ..Shrink::default() },
             noise: Vec::new(),
             parameters: Vec::new(),

@@ -24,6 +24,7 @@ mod scored;
 mod screen;
 mod search;
 mod settle;
+mod shown;
 mod traces;
 mod which;
 
@@ -97,6 +98,7 @@ fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, 
         considered: considered::considered(&search, robot),
         where_: places::places(&search, &nominal, &data),
         gap,
+        evidence: shown::shown(&search, &plants, &data),
         shrink,
         noise: noise::told(&data),
         parameters: numbers::parameters(&search, robot),

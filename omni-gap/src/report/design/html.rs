@@ -74,6 +74,7 @@ fn drawn(run: Option<&Run>) -> Pictures {
             name: "to play".to_owned(),
             values: (0..run.rows()).map(|row| channel.get(row).ok()).collect(),
         }],
+        ..Panel::default()
     };
     let panels = group.iter().flat_map(|group| &group.channels).enumerate().map(panel).collect();
     Pictures { panels, ..Pictures::default() }

@@ -1,5 +1,5 @@
-// Signals over time that can be read under the pointer, zoomed and switched: each `figure.chart` is drawn as SVG, which
-// stays for paper and for readers without scripts, and carries its numbers, of which this makes a chart of uPlot's.
+// Signals over time, and residuals over what shows them, that can be read under the pointer, zoomed and switched: each
+// `figure.chart` is drawn as SVG, which stays for paper and for readers without scripts, and carries its numbers, of which this makes a chart of uPlot's.
 (() => {
   "use strict";
   const HEIGHT = 180, GUTTER = 46, STEP = 0.25, CLOSEST = 8;
@@ -12,6 +12,8 @@
     made.textContent = text;
     return made;
   };
+
+  const within = (ends) => (ends ? ` (${ends.map(shown).join(" to ")})` : "");
 
   // what a class means to the eye: a measurement is broad, what the file says is dashed
   const line = (series, key) => ({
@@ -35,6 +37,13 @@
     return found.concat(broken);
   };
 
+  // room for all values and their intervals
+  const around = (intervals, series) => {
+    const all = intervals.flat().concat(series.flatMap((one) => one.values.filter((value) => value != null)));
+    const [low, high] = [Math.min(...all), Math.max(...all)], air = 0.06 * (high - low || 1);
+    return [low - air, high + air];
+  };
+
   class Group {
     constructor(around, figures, name) {
       this.around = around;
@@ -47,7 +56,7 @@
       figures.forEach((figure) => this.chart(figure));
     }
 
-    // the legend's keys become switches; beside them stand those of the time axis, for fingers and keyboards
+    // the legend's keys become switches; beside them stand those of the axis, for fingers and keyboards
     legend() {
       const legend = this.around.querySelector(".legend");
       for (const key of legend.querySelectorAll(".key")) {
@@ -55,7 +64,7 @@
         button.addEventListener("click", () => this.toggle(button));
         key.replaceWith(button);
       }
-      const time = element("span", { class: "time", role: "group", "aria-label": "Stretch of time shown" });
+      const time = element("span", { class: "time", role: "group", "aria-label": "Stretch shown" });
       const buttons = [
         ["◀", "earlier", () => this.move(-STEP)],
         ["▶", "later", () => this.move(STEP)],
@@ -104,7 +113,7 @@
     }
 
     chart(figure) {
-      const { unit, t, series, restarts } = JSON.parse(figure.querySelector("script").textContent);
+      const { unit, over, t, series, restarts, intervals = [] } = JSON.parse(figure.querySelector("script").textContent);
       if (t.length < 2) return;
       const drawing = figure.querySelector("svg");
       const place = element("div", { class: "live", role: "img", "aria-label": drawing.getAttribute("aria-label") });
@@ -124,7 +133,7 @@
         height: HEIGHT,
         padding: [8, 8, 0, 0],
         legend: { show: false },
-        scales: { x: { time: false } },
+        scales: { x: { time: false }, ...(intervals.length ? { y: { range: around(intervals, series) } } : {}) },
         cursor: {
           sync: { key: this.name },
           points: { show: false },
@@ -132,14 +141,15 @@
           bind: { dblclick: () => () => (this.show(null), null) },
         },
         axes: [
-          axis({ values: (_, ticks) => ticks.map((tick, at) => (at + 1 < ticks.length ? tick : `${tick} s`)), grid: { show: false }, size: 24 }),
+          axis({ values: (_, ticks) => ticks.map((tick, at) => (at + 1 < ticks.length ? tick : `${tick} ${over.unit}`)), grid: { show: false }, size: 24 }),
           axis({ size: GUTTER }),
         ],
-        series: [{}, ...series.map((one, at) => ({ ...line(one, keys[at]), ...(one.ink === "measured" ? {} : { gaps: broken }) }))],
+        series: [{}, ...series.map((one, at) => ({ ...line(one, keys[at]), ...(at === 0 && intervals.length ? { paths: () => null } : {}), ...(one.ink === "measured" ? {} : { gaps: broken }) }))],
         hooks: {
           setSelect: [(chart) => this.selected(chart)],
-          setCursor: [(chart) => (read.textContent = this.reading(chart, series, unit))],
+          setCursor: [(chart) => (read.textContent = this.reading(chart, series, { unit, over, intervals }))],
           drawClear: [(chart) => uprights(chart, restarts, ink("--quiet", place))],
+          draw: [(chart) => intervals.length && whiskers(chart, intervals, ink("--c", keys[0]))],
         },
       };
       const chart = new uPlot(options, [t, ...series.map((one) => one.values)], place);
@@ -158,16 +168,40 @@
       this.show(range);
     }
 
-    reading(chart, series, unit) {
+    reading(chart, series, { unit, over, intervals }) {
       const at = chart.cursor.idx;
       if (at == null || chart.cursor.left < 0) return "";
       const values = series
         .map((one, k) => [one.name, chart.data[k + 1][at]])
         .filter(([name]) => !this.hidden.has(name))
-        .map(([name, value]) => `${name} ${shown(value)}`);
-      return `${shown(chart.data[0][at])} s: ${values.join(", ")} ${unit}`;
+        .map(([name, value], k) => `${name} ${shown(value)}${k === 0 ? within(intervals[at]) : ""}`);
+      return `${shown(chart.data[0][at])} ${over.unit}: ${values.join(", ")} ${unit}`;
     }
   }
+
+  // the values of the first series as dots, each with its interval
+  const whiskers = (chart, intervals, stroke) => {
+    if (!chart.series[1].show) return;
+    const { ctx, bbox } = chart;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    ctx.strokeStyle = ctx.fillStyle = stroke;
+    ctx.lineWidth = 1.5 * devicePixelRatio;
+    intervals.forEach((ends, at) => {
+      const x = chart.valToPos(chart.data[0][at], "x", true);
+      const [low, high, value] = [...ends, chart.data[1][at]].map((y) => chart.valToPos(y, "y", true));
+      ctx.beginPath();
+      ctx.moveTo(x, low);
+      ctx.lineTo(x, high);
+      ctx.stroke();
+      ctx.beginPath();
+      ctx.arc(x, value, 3.5 * devicePixelRatio, 0, 2 * Math.PI);
+      ctx.fill();
+    });
+    ctx.restore();
+  };
 
   // where predictions restart
   const uprights = (chart, restarts, stroke) => {

@@ -65,6 +65,7 @@ fn panel(m: &mut Markup, t_s: &[f64], trace: &Trace) {
         unit: trace.signal.unit().to_owned(),
         t_s: t_s.to_vec(),
         series: vec![series(MEASURED, &trace.measured), series(SIMULATED, &trace.simulated)],
+        ..Panel::default()
     };
     figure(m, &panel, &[]);
 }

@@ -1,0 +1,132 @@
+//! Which curves show most: of each signal group the one that holds most of what is left, the plainest first.
+//!
+//! All curves of the menu are looked at, over every wheel alone and over all together. A curve that is shown has to be rarer than
+//! chance by the number of curves that were looked at (Bonferroni), so that one is shown in a share `false_alarm` of the
+//! recordings where there is none, at the most.
+
+use super::beats::of_forces;
+use super::bins::{Bin, Held};
+use super::curve::curve;
+use super::map::floor;
+use super::model::{Feature, Form, Quantity, Shape};
+use super::order::{Beats, strongest};
+use super::sampled::sample;
+use super::settings::ShapeSettings;
+use super::windows::Windowed;
+
+/// Features of a wheel's quantities.
+const OF_WHEELS: [Feature; 8] = [
+    Feature::WheelSpeed,
+    Feature::Current,
+    Feature::CurrentSize,
+    Feature::WheelAcceleration,
+    Feature::WheelAngle,
+    Feature::Heading,
+    Feature::Time,
+    Feature::BatteryDrop,
+];
+
+/// Features of the body's quantities, beside the speed along their own axis.
+const OF_BODY: [Feature; 4] = [Feature::Heading, Feature::Turning, Feature::Time, Feature::BatteryDrop];
+
+/// What is laid over which features.
+fn menu() -> Vec<(Quantity, Vec<Feature>)> {
+    let of_body = |own: Feature| std::iter::once(own).chain(OF_BODY).collect::<Vec<_>>();
+    let (v, vn, w) = (Feature::SpeedAhead, Feature::SpeedLeft, Feature::YawRate);
+    vec![
+        (Quantity::Current, OF_WHEELS.to_vec()),
+        (Quantity::NeededForce, OF_WHEELS.to_vec()),
+        (Quantity::WheelSpeed, OF_WHEELS.to_vec()),
+        (Quantity::NeededForceAhead, of_body(v)),
+        (Quantity::NeededForceLeft, of_body(vn)),
+        (Quantity::NeededTorque, of_body(w)),
+        (Quantity::Drag, vec![Feature::Place]),
+        (Quantity::SpeedAhead, of_body(v)),
+        (Quantity::SpeedLeft, of_body(vn)),
+        (Quantity::TurningRate, of_body(w)),
+        (Quantity::Gyro, of_body(w)),
+        (Quantity::Battery, vec![Feature::TotalCurrent, Feature::Time]),
+    ]
+}
+
+/// Whether each wheel has its own.
+fn is_of_wheels(quantity: Quantity) -> bool {
+    matches!(quantity, Quantity::Current | Quantity::NeededForce | Quantity::WheelSpeed)
+}
+
+/// A curve that was looked at.
+#[derive(Clone, Debug)]
+struct Seen {
+    quantity: Quantity,
+    feature: Feature,
+    wheel: Option<usize>,
+    bins: Vec<Bin>,
+    held: Held,
+}
+
+/// The curves and maps that show most, of a robot with so many wheels.
+pub(super) fn chosen(windowed: &Windowed, wheels: usize, settings: &ShapeSettings) -> Vec<Shape> {
+    let mut seen: Vec<Seen> = Vec::new();
+    for (quantity, features) in menu() {
+        let long = matches!(quantity, Quantity::SpeedAhead | Quantity::SpeedLeft | Quantity::TurningRate);
+        let windows = if long { &windowed.long } else { &windowed.short };
+        let places: Vec<Option<usize>> = if is_of_wheels(quantity) {
+            std::iter::once(None).chain((0..wheels).map(Some)).collect()
+        } else {
+            vec![None]
+        };
+        for feature in features {
+            for wheel in &places {
+                let all = if is_of_wheels(quantity) && wheel.is_none() {
+                    0..wheels
+                } else {
+                    wheel.map_or(0..1, |j| j..j + 1)
+                };
+                let bins = if feature == Feature::Place {
+                    floor(windows, settings)
+                } else {
+                    let laid = windows.iter().flat_map(|window| {
+                        all.clone().filter_map(|j| sample(window, window.when.feature(feature, j), (quantity, j)))
+                    });
+                    curve(laid.collect(), settings)
+                };
+                seen.extend(bins.map(|bins| Seen { quantity, feature, wheel: *wheel, held: Held::of(&bins), bins }));
+            }
+        }
+    }
+    let looked_at = seen.len() as f64;
+    seen.retain(|seen| seen.held.chance * looked_at < settings.false_alarm && seen.held.share > settings.least_share);
+    seen.sort_by(|a, b| b.held.plain.total_cmp(&a.held.plain));
+    let mut chosen: Vec<Seen> = Vec::new();
+    for one in seen {
+        if !chosen.iter().any(|other| other.quantity.group() == one.quantity.group()) {
+            chosen.push(one);
+        }
+    }
+    let mut shapes: Vec<(f64, Shape)> = chosen.iter().map(|seen| (seen.held.plain, seen.told(looked_at))).collect();
+    let forces = (0..wheels).map(|wheel| of_forces(&windowed.short, wheel, settings.window_s));
+    let beats: Vec<Beats> = windowed.beats.iter().cloned().chain(forces).collect();
+    shapes.extend(strongest(&beats, settings));
+    shapes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    shapes.truncate(settings.most);
+    shapes.into_iter().map(|(_, shape)| shape).collect()
+}
+
+impl Seen {
+    fn told(&self, looked_at: f64) -> Shape {
+        Shape {
+            form: if self.feature == Feature::Place { Form::Map } else { Form::Curve },
+            feature: self.feature,
+            unit: self.feature.unit().to_owned(),
+            quantity: self.quantity,
+            quantity_unit: self.quantity.unit().to_owned(),
+            group: self.quantity.group().name().to_owned(),
+            wheel: self.wheel,
+            chance: (self.held.chance * looked_at).min(1.0),
+            share: self.held.share,
+            alarm_level: None,
+            lines: Vec::new(),
+            bins: self.bins.iter().map(Bin::told).collect(),
+        }
+    }
+}
