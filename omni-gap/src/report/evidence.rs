@@ -74,11 +74,11 @@ pub(super) fn sentence(shape: &Shape) -> String {
 /// The bin that a person would point at: of those surely away from zero the one farthest away, on the positive side of the
 /// feature where both sides tell.
 fn telling(shape: &Shape) -> Option<&ShapeBin> {
-    let sure = |bin: &&ShapeBin| bin.nominal_ci95[0] * bin.nominal_ci95[1] > 0.0;
-    let far = |a: &&ShapeBin, b: &&ShapeBin| a.nominal.abs().total_cmp(&b.nominal.abs());
+    let sure = |bin: &&ShapeBin| bin.before_ci95[0] * bin.before_ci95[1] > 0.0;
+    let far = |a: &&ShapeBin, b: &&ShapeBin| a.before.abs().total_cmp(&b.before.abs());
     let farthest = shape.bins.iter().filter(sure).max_by(far)?;
     let positive = shape.bins.iter().filter(sure).filter(|bin| bin.at > 0.0).max_by(far);
-    Some(positive.filter(|bin| bin.nominal.abs() > 0.5 * farthest.nominal.abs()).unwrap_or(farthest))
+    Some(positive.filter(|bin| bin.before.abs() > 0.5 * farthest.before.abs()).unwrap_or(farthest))
 }
 
 fn bin_in_words(of: Feature, low: &str, high: &str) -> String {
@@ -104,12 +104,13 @@ fn bin_in_words(of: Feature, low: &str, high: &str) -> String {
 /// What the measurement says beyond both models.
 fn says(shape: &Shape, bin: &ShapeBin) -> String {
     let unit = &shape.quantity_unit;
-    let size = format!("{}{NBSP}{unit}", num(bin.nominal.abs()));
-    let more = bin.nominal > 0.0;
+    let size = format!("{}{NBSP}{unit}", num(bin.before.abs()));
+    let more = bin.before > 0.0;
     let needs = if more { "more" } else { "less" };
     let lies = if more { "above" } else { "below" };
     let wheel = |one: &str| shape.wheel.map_or(format!("a {one}"), |j| format!("{one}{NBSP}{j}"));
-    let nominal = "the nominal model says";
+    let nominal =
+        if is_refitted(shape) { "the nominal model says, its numbers re-fitted" } else { "the nominal model says" };
     let said = match shape.quantity {
         Quantity::NeededForce => format!("{} needs {size} {needs} than {nominal}", wheel("wheel")),
         Quantity::NeededForceAhead => format!("the robot needs {size} {needs} force ahead than {nominal}"),
@@ -122,19 +123,21 @@ fn says(shape: &Shape, bin: &ShapeBin) -> String {
             format!("{whose} lies {size} {lies} what {nominal}")
         }
         Quantity::WheelSpeed => format!("{}’s speed lies {size} {lies} what {nominal}", wheel("wheel")),
-        Quantity::SpeedAhead => format!("the speed ahead lies {size} {lies} what {nominal} of wheels that turn so"),
+        Quantity::SpeedAhead => format!("with wheels that turn so, the speed ahead lies {size} {lies} what {nominal}"),
         Quantity::SpeedLeft => {
-            format!("the speed to the left lies {size} {lies} what {nominal} of wheels that turn so")
+            format!("with wheels that turn so, the speed to the left lies {size} {lies} what {nominal}")
         }
-        Quantity::TurningRate => format!("the yaw rate lies {size} {lies} what {nominal} of wheels that turn so"),
+        Quantity::TurningRate => format!("with wheels that turn so, the yaw rate lies {size} {lies} what {nominal}"),
         Quantity::Gyro => format!("the gyro’s yaw rate lies {size} {lies} what {nominal}"),
         Quantity::Battery => format!("the bus voltage lies {size} {lies} what {nominal}"),
     };
     let within = bin.corrected_ci95[0] <= 0.0 && bin.corrected_ci95[1] >= 0.0;
-    let tells = bin.nominal - bin.corrected;
-    let corrected = if within || bin.corrected.abs() <= SAYS_SO * bin.nominal.abs() {
+    let tells = bin.before - bin.corrected;
+    let corrected = if !is_explained(shape) {
+        "no cause of the catalogue explains it".to_owned()
+    } else if within || bin.corrected.abs() <= SAYS_SO * bin.before.abs() {
         "the corrected model says so too".to_owned()
-    } else if tells * bin.nominal > SAYS_SO * bin.nominal.powi(2) {
+    } else if tells * bin.before > SAYS_SO * bin.before.powi(2) {
         format!("the corrected model says {}{NBSP}{unit} of it", num(tells.abs()))
     } else {
         "the corrected model does not say so either".to_owned()
@@ -159,13 +162,84 @@ fn spectrum(shape: &Shape) -> String {
     let wheel = shape.wheel.map(|j| format!(" of wheel{NBSP}{j}")).unwrap_or_default();
     let size = |x: f64| format!("{}{NBSP}{unit}", num(x));
     let level = shape.alarm_level.unwrap_or_default();
-    let corrected = if bin.corrected < level {
+    let corrected = if !is_explained(shape) {
+        "no cause of the catalogue explains it".to_owned()
+    } else if bin.corrected < level {
         format!("the corrected model leaves no more than chance does ({})", size(bin.corrected))
     } else {
         format!("the corrected model leaves {}", size(bin.corrected))
     };
     format!(
         "{times} a turn{wheel}{name}, {subject} swings by {} either way beyond the nominal model; {corrected}.",
-        size(bin.nominal)
+        size(bin.before)
     )
+}
+
+/// Whether the causes were added to a model with other numbers than the file's.
+pub(super) fn is_refitted(shape: &Shape) -> bool {
+    shape.bins.iter().any(|bin| bin.before != bin.nominal)
+}
+
+/// Whether the corrected model is another than the one that causes are added to.
+pub(super) fn is_explained(shape: &Shape) -> bool {
+    shape.bins.iter().any(|bin| bin.before != bin.corrected)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample_evidence::{carpet, rollers, stribeck};
+
+    fn plain(shape: &Shape) -> String {
+        sentence(shape).replace(NBSP, " ")
+    }
+
+    #[test]
+    fn a_curve_is_told_by_its_plainest_bin_on_the_positive_side() {
+        // of the sample: 0.1 N + 0.4 N·exp(−(3/4)²) at 3 rad/s
+        let said = "At 1.50 to 4.50 rad/s of the wheel, a wheel needs 0.328 N more than the nominal model says; \
+                    the corrected model says so too.";
+        assert_eq!(plain(&stribeck()), said);
+    }
+
+    #[test]
+    fn what_the_corrected_model_leaves_is_told() {
+        let mut shape = stribeck();
+        let (mut half, mut all) = (shape.clone(), shape.clone());
+        let leaves = |shape: &mut Shape, share: f64| {
+            for bin in &mut shape.bins {
+                bin.corrected = share * bin.before;
+                bin.corrected_ci95 = [bin.corrected - 1e-3, bin.corrected + 1e-3];
+            }
+        };
+        leaves(&mut half, 0.5);
+        leaves(&mut all, 0.9);
+        assert!(plain(&half).ends_with("the corrected model says 0.164 N of it."), "{}", plain(&half));
+        assert!(plain(&all).ends_with("the corrected model does not say so either."), "{}", plain(&all));
+        shape.wheel = Some(2);
+        assert!(plain(&shape).contains(", wheel 2 needs"), "{}", plain(&shape));
+    }
+
+    #[test]
+    fn a_spectrum_is_told_by_its_strongest_line_and_what_that_is() {
+        let said = "13 times a turn of wheel 1 (Ripple of one wheel's rollers), the force that it needs swings by 0.300 N \
+                    either way beyond the nominal model; the corrected model leaves no more than chance does (0.0200 N).";
+        assert_eq!(plain(&rollers()), said);
+    }
+
+    #[test]
+    fn a_map_is_told_by_its_plainest_cell_and_a_gap_that_nothing_explains_is_told_so() {
+        let said = "Where x is 1.50 to 2.00 m and y 0.500 to 1.00 m, the robot needs 1.20 N more to move than the nominal \
+                    model says; no cause of the catalogue explains it.";
+        assert_eq!(plain(&carpet()), said);
+    }
+
+    #[test]
+    fn numbers_that_were_refitted_first_are_told_so() {
+        let mut shape = stribeck();
+        shape.bins.iter_mut().for_each(|bin| bin.nominal += 1.0);
+        let said =
+            "needs 0.328 N more than the nominal model says, its numbers re-fitted; the corrected model says so too.";
+        assert!(plain(&shape).ends_with(said), "{}", plain(&shape));
+    }
 }

@@ -27,6 +27,8 @@ mod rich_instructions;
 mod robot_picture;
 #[cfg(test)]
 mod sample;
+#[cfg(test)]
+mod sample_evidence;
 mod scale;
 mod selftest;
 mod sensitivity;

@@ -20,6 +20,9 @@ pub(super) const WITH_CHANGE: &str = "with what differs";
 /// Name of the level above which a line of a spectrum is none of chance.
 pub(super) const FALSE_ALARM: &str = "level of chance";
 
+/// Name of the series of the nominal model with its numbers re-fitted.
+pub(super) const REFITTED: &str = "numbers re-fitted alone";
+
 /// The pictures of a report.
 #[derive(Clone, Debug, Default)]
 pub struct Pictures {
@@ -272,7 +275,7 @@ mod tests {
         );
         assert_eq!(svg.matches("class=\"line ").count(), 1, "the dots are no line: {svg}");
         assert!(svg.contains("over wheel speed: measured, nominal") && svg.contains("10 rad/s"), "{svg}");
-        assert!(svg.contains(">8<"), "the axis holds the ends of the intervals: {svg}");
+        assert!(svg.contains(">5<"), "the axis holds the ends of the intervals: {svg}");
     }
 
     #[test]

@@ -49,6 +49,7 @@ pub fn effect() -> Report {
             Which { title: None, ..cause("no_gap", "", None, 0.001) },
         ],
         causes: vec!["wheel_slip".into()],
+        evidence: super::sample_evidence::shapes(),
         noise: Vec::new(),
         shrink: Shrink {
             before: Some(3.4),

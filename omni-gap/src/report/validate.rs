@@ -58,7 +58,11 @@ impl Report {
         let places = self.where_.iter().flat_map(|w| [w.share, w.regime.as_ref().map_or(0.0, |r| r.share)]);
         let causes = self.which.iter().flat_map(|w| w.parameters.values().map(|p| p.value).chain([w.probability]));
         let parameters = self.parameters.iter().map(|p| p.corrected);
-        gap.chain(curves).chain(places).chain(causes).chain(parameters).all(f64::is_finite)
+        let shapes = self.evidence.iter().flat_map(|shape| &shape.bins).flat_map(|bin| {
+            let ends = [bin.nominal_ci95, bin.corrected_ci95].into_iter().flatten();
+            ends.chain([bin.low, bin.high, bin.at, bin.nominal, bin.corrected])
+        });
+        gap.chain(curves).chain(places).chain(causes).chain(parameters).chain(shapes).all(f64::is_finite)
     }
 }
 
@@ -94,6 +98,9 @@ mod tests {
     fn a_number_that_is_not_finite_is_unsound() {
         let mut report = sample::effect();
         report.which[0].parameters.values_mut().for_each(|p| p.value = f64::NAN);
+        assert_eq!(report.violations(), ["a number is not finite"]);
+        let mut report = sample::effect();
+        report.evidence[0].bins[3].nominal_ci95[1] = f64::INFINITY;
         assert_eq!(report.violations(), ["a number is not finite"]);
     }
 }

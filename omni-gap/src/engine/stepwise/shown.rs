@@ -62,3 +62,30 @@ fn looked_at<'a, const N: usize>(data: &Data<'a, N>) -> Vec<&'a AlignedRun<N>> {
     }
     runs
 }
+
+#[cfg(test)]
+mod tests {
+    use model_core::effects::EffectKind;
+
+    use super::*;
+    use crate::log::{Catalogue, RobotFile};
+
+    #[test]
+    fn an_order_is_named_by_what_the_model_has_so_often_else_by_its_shafts() {
+        let text = include_str!("../../../../examples/feup-4w/robot.toml");
+        let file = RobotFile::parse(text, std::path::Path::new("robot.toml"), &Catalogue::default()).unwrap();
+        let mut model = Model::<4>::nominal(&file, 12.0);
+        let rollers = EffectKind::find("roller_ripple").unwrap().card();
+        model.add_effect(EffectInstance {
+            params: vec![0.004, 0.003, 13.0],
+            ..EffectInstance::typical(rollers, Some(1))
+        });
+        let named = |order: usize, wheel: usize| name(order, Some(wheel), &model);
+        assert_eq!(named(13, 1).as_deref(), Some(rollers.title));
+        assert_eq!(named(13, 2), None, "the rollers of another wheel");
+        assert_eq!(named(1, 0).as_deref(), Some("once a turn of the wheel"));
+        // its gear turns the rotor five times
+        assert_eq!(named(5, 0).as_deref(), Some("once a turn of the rotor"));
+        assert_eq!(named(30, 0).as_deref(), Some("6 times a turn of the rotor"));
+    }
+}

@@ -81,7 +81,7 @@ impl Bin {
             let half = t95((self.clusters as f64 - 1.0).max(1.0)) * of.error.sqrt();
             [of.mean - half, of.mean + half]
         };
-        let [nominal, corrected] = [NOMINAL, CORRECTED].map(|model| &self.means[model]);
+        let [before, nominal, corrected] = [BEFORE, NOMINAL, CORRECTED].map(|model| &self.means[model]);
         ShapeBin {
             low: self.low,
             high: self.high,
@@ -90,6 +90,8 @@ impl Bin {
             n: self.clusters,
             nominal: nominal.mean,
             nominal_ci95: interval(nominal),
+            before: before.mean,
+            before_ci95: interval(before),
             corrected: corrected.mean,
             corrected_ci95: interval(corrected),
         }
@@ -110,10 +112,24 @@ pub(super) struct Held {
 impl Held {
     /// Of bins that share no sample.
     pub fn of(bins: &[Bin]) -> Self {
+        Self::about(0.0, bins)
+    }
+
+    /// The same of what is left once the mean over all bins is taken off.
+    pub fn of_differences(bins: &[Bin]) -> Self {
+        let (sum, n) = bins.iter().fold((0.0, 0.0), |(sum, n), bin| {
+            let samples = bin.samples as f64;
+            (sum + samples * bin.means[BEFORE].mean, n + samples)
+        });
+        Self::about(sum / n, bins)
+    }
+
+    fn about(level: f64, bins: &[Bin]) -> Self {
         let (mut chi_square, mut held, mut all, mut scatter, mut samples) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for bin in bins {
             let (n, freedom) = (bin.samples as f64, (bin.clusters as f64 - 1.0).max(1.0));
             let Mean { mean, error, scatter: within } = bin.means[BEFORE];
+            let mean = mean - level;
             chi_square += normal_square(mean * mean / error.max(f64::MIN_POSITIVE), freedom);
             held += n * (mean * mean - error);
             all += n * mean * mean + within;

@@ -5,13 +5,14 @@
 //! recordings where there is none, at the most.
 
 use super::beats::of_forces;
-use super::bins::{Bin, Held};
+use super::bins::{Bin, Held, Sample};
 use super::curve::curve;
 use super::map::floor;
 use super::model::{Feature, Form, Quantity, Shape};
 use super::order::{Beats, strongest};
 use super::sampled::sample;
 use super::settings::ShapeSettings;
+use super::window::Window;
 use super::windows::Windowed;
 
 /// Features of a wheel's quantities.
@@ -64,36 +65,41 @@ struct Seen {
     held: Held,
 }
 
-/// The curves and maps that show most, of a robot with so many wheels.
-pub(super) fn chosen(windowed: &Windowed, wheels: usize, settings: &ShapeSettings) -> Vec<Shape> {
-    let mut seen: Vec<Seen> = Vec::new();
+/// All curves and maps of the menu that have enough samples, of a robot with so many wheels.
+fn looked_at(windowed: &Windowed, wheels: usize, settings: &ShapeSettings) -> Vec<Seen> {
+    let mut seen = Vec::new();
     for (quantity, features) in menu() {
         let long = matches!(quantity, Quantity::SpeedAhead | Quantity::SpeedLeft | Quantity::TurningRate);
         let windows = if long { &windowed.long } else { &windowed.short };
-        let places: Vec<Option<usize>> = if is_of_wheels(quantity) {
-            std::iter::once(None).chain((0..wheels).map(Some)).collect()
-        } else {
-            vec![None]
-        };
-        for feature in features {
-            for wheel in &places {
-                let all = if is_of_wheels(quantity) && wheel.is_none() {
-                    0..wheels
-                } else {
-                    wheel.map_or(0..1, |j| j..j + 1)
-                };
-                let bins = if feature == Feature::Place {
-                    floor(windows, settings)
-                } else {
-                    let laid = windows.iter().flat_map(|window| {
-                        all.clone().filter_map(|j| sample(window, window.when.feature(feature, j), (quantity, j)))
-                    });
-                    curve(laid.collect(), settings)
-                };
-                seen.extend(bins.map(|bins| Seen { quantity, feature, wheel: *wheel, held: Held::of(&bins), bins }));
-            }
+        let alone = (0..wheels).filter(|_| is_of_wheels(quantity)).map(Some);
+        let places: Vec<Option<usize>> = std::iter::once(None).chain(alone).collect();
+        for (feature, wheel) in features.iter().flat_map(|feature| places.iter().map(move |wheel| (*feature, *wheel))) {
+            let all = match wheel {
+                Some(wheel) => wheel..wheel + 1,
+                None => 0..if is_of_wheels(quantity) { wheels } else { 1 },
+            };
+            let laid = |window| all.clone().filter_map(move |j| laid_over(window, feature, (quantity, j)));
+            let bins = match feature {
+                Feature::Place => floor(windows, settings),
+                _ => curve(windows.iter().flat_map(laid).collect(), settings),
+            };
+            seen.extend(bins.map(|bins| {
+                // what is the same everywhere is no map
+                let held = if feature == Feature::Place { Held::of_differences(&bins) } else { Held::of(&bins) };
+                Seen { quantity, feature, wheel, held, bins }
+            }));
         }
     }
+    seen
+}
+
+fn laid_over(window: &Window, feature: Feature, (quantity, wheel): (Quantity, usize)) -> Option<Sample> {
+    sample(window, window.when.feature(feature, wheel), (quantity, wheel))
+}
+
+/// The shapes that show most, of a robot with so many wheels, the plainest first.
+pub(super) fn chosen(windowed: &Windowed, wheels: usize, settings: &ShapeSettings) -> Vec<Shape> {
+    let mut seen = looked_at(windowed, wheels, settings);
     let looked_at = seen.len() as f64;
     seen.retain(|seen| seen.held.chance * looked_at < settings.false_alarm && seen.held.share > settings.least_share);
     seen.sort_by(|a, b| b.held.plain.total_cmp(&a.held.plain));

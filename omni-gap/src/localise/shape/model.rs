@@ -184,6 +184,11 @@ pub struct ShapeBin {
     pub nominal: f64,
     /// 95 % interval of it.
     pub nominal_ci95: [f64; 2],
+    /// The same of the model that the causes were added to: the nominal one, where an effect was found or nothing explains the
+    /// gap, with its numbers re-fitted within their stated uncertainty.
+    pub before: f64,
+    /// 95 % interval of it.
+    pub before_ci95: [f64; 2],
     /// The same of the corrected model.
     pub corrected: f64,
     /// 95 % interval of it.

@@ -122,7 +122,7 @@ fn told(beats: &Beats, orders: &[Fitted], looked_at: usize, settings: &ShapeSett
     let quotient = |k: usize| {
         let (noise, neighbours) = noise(orders, k, settings.order_neighbours);
         let worth = WORTH_IN_A_MEDIAN * neighbours as f64;
-        let enough = orders[k].samples >= FEWEST && neighbours >= settings.order_neighbours && noise > 0.0;
+        let enough = orders[k].samples >= FEWEST && 2 * neighbours >= settings.order_neighbours && noise > 0.0;
         enough.then(|| (orders[k].power / noise, worth))
     };
     let chance = |x: f64, worth: f64| looked_at as f64 * (1.0 + x / worth).powf(-worth);
@@ -147,7 +147,7 @@ fn told(beats: &Beats, orders: &[Fitted], looked_at: usize, settings: &ShapeSett
     let held: f64 = kept.iter().map(|(k, ..)| 2.0 * orders[*k].power).sum();
     let bins = orders.iter().enumerate().filter(|(_, order)| order.samples >= FEWEST).map(|(k, order)| {
         let half = 2.0 * amplitude(noise, order.samples) / std::f64::consts::SQRT_2;
-        let [nominal, corrected] = [NOMINAL, CORRECTED].map(|model| order.amplitude[model]);
+        let [before, nominal, corrected] = [BEFORE, NOMINAL, CORRECTED].map(|model| order.amplitude[model]);
         let interval = |x: f64| [(x - half).max(0.0), x + half];
         ShapeBin {
             low: (k + 1) as f64,
@@ -157,6 +157,8 @@ fn told(beats: &Beats, orders: &[Fitted], looked_at: usize, settings: &ShapeSett
             n: order.samples,
             nominal,
             nominal_ci95: interval(nominal),
+            before,
+            before_ci95: interval(before),
             corrected,
             corrected_ci95: interval(corrected),
         }
@@ -177,3 +179,7 @@ fn told(beats: &Beats, orders: &[Fitted], looked_at: usize, settings: &ShapeSett
     };
     Some((kept.iter().map(|(_, x, _)| 2.0 * x).sum(), shape))
 }
+
+#[cfg(test)]
+#[path = "order_tests.rs"]
+mod tests;

@@ -2,8 +2,9 @@
 //! speeds add up, speeds of what poses add up.
 //!
 //! ```text
-//! e = measured − predicted ≈ ē + ė·(t − t̄)    least squares over the rows of a window
-//! current, gyro, battery, set speed            ē
+//! e = measured − predicted ≈ e₀ + ė·(t − t₀)   least squares over the rows of a window that begins at t₀
+//! current, gyro, battery                       e₀: what a wrong force has made of the speed since then is not theirs
+//! set speed                                    ē
 //! (F_v, F_vn, Γ) = −(m, m, J)·ėᵥ               ėᵥ the body's acceleration that the wheels' ė come nearest to
 //! F_j                                          the rim forces of least sum of squares that do the same
 //! ```
@@ -67,13 +68,13 @@ impl Residuals {
         let (channels, mut found) = (AlignedRun::<N>::channels(), Self::NONE);
         let line = |channel: usize, least: usize| ErrorLine::of(run, said, rows.clone(), (channel, least));
         for j in 0..N {
-            if let Some(current) = line(channels.current(j), 2) {
-                found.set(Quantity::Current, j, current.mean);
+            if let Some(current) = line(channels.current(j), 3) {
+                found.set(Quantity::Current, j, current.first);
             }
         }
         for (quantity, group) in [(Quantity::Gyro, SignalGroup::Gyro), (Quantity::Battery, SignalGroup::Battery)] {
-            if let Some(level) = line(channels.of(group).start, 2) {
-                found.set(quantity, 0, level.mean);
+            if let Some(level) = line(channels.of(group).start, 3) {
+                found.set(quantity, 0, level.first);
             }
         }
         let speeds: Vec<ErrorLine> = (0..N).filter_map(|j| line(channels.wheel_speed(j), 4)).collect();
@@ -115,8 +116,10 @@ impl Residuals {
 /// The least-squares line through a channel's errors over some rows.
 #[derive(Clone, Copy, Debug)]
 struct ErrorLine {
-    /// In the channel's unit.
+    /// In the middle of its samples, in the channel's unit.
     mean: f64,
+    /// Where the window begins, in the channel's unit.
+    first: f64,
     /// In the channel's unit a second.
     slope: f64,
 }
@@ -140,6 +143,7 @@ impl ErrorLine {
             let t = run.t[row] - middle;
             (tt + t * t, te + t * error(row))
         });
-        (tt > 0.0).then(|| Self { mean, slope: te / tt })
+        let slope = te / tt;
+        (tt > 0.0).then(|| Self { mean, first: mean - slope * (middle - run.t[rows.start]), slope })
     }
 }

@@ -34,7 +34,7 @@ pub struct ShapeSettings {
     pub most: usize,
     /// Highest order of a wheel's turn that is looked for [1/turn].
     pub highest_order: usize,
-    /// Orders on either side of one that tell how large its neighbours are [orders].
+    /// Orders on either side of one that tell how large its neighbours are [orders]; where half as many are there it is told.
     pub order_neighbours: usize,
     /// Cells of the map of the floor along its longer side [cells].
     pub cells: usize,
@@ -56,7 +56,7 @@ impl Default for ShapeSettings {
             least_share: 0.01,
             most: 3,
             highest_order: 240,
-            order_neighbours: 12,
+            order_neighbours: 30,
             cells: 8,
         }
     }

@@ -80,3 +80,13 @@ fn a_tilted_floor_is_a_curve_over_the_heading() {
     let first = shapes.first().expect("it is plain");
     assert_eq!(first.feature, Feature::Heading, "{shapes:#?}");
 }
+
+#[test]
+fn rollers_that_ripple_are_a_line_at_their_number() {
+    let rollers = EffectInstance { params: vec![0.008, 0.0, 13.0], ..effect("roller_ripple", Some(1)) };
+    let plan = Scenario { rate: 500.0, ..short(5) };
+    let shapes = seen::<4>(FOUR, &[rollers], plan);
+    let spectrum = shapes.iter().find(|shape| shape.form == Form::Spectrum);
+    let spectrum = spectrum.unwrap_or_else(|| panic!("it is plain: {shapes:#?}"));
+    assert_eq!((spectrum.lines[0].order, spectrum.wheel), (13, Some(1)), "{:#?}", spectrum.lines);
+}

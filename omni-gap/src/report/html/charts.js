@@ -1,5 +1,6 @@
 // Signals over time, and residuals over what shows them, that can be read under the pointer, zoomed and switched: each
-// `figure.chart` is drawn as SVG, which stays for paper and for readers without scripts, and carries its numbers, of which this makes a chart of uPlot's.
+// `figure.chart` is drawn as SVG, which stays for paper and for readers without scripts, and carries its numbers, of which
+// this makes a chart of uPlot's.
 (() => {
   "use strict";
   const HEIGHT = 180, GUTTER = 46, STEP = 0.25, CLOSEST = 8;
@@ -66,8 +67,8 @@
       }
       const time = element("span", { class: "time", role: "group", "aria-label": "Stretch shown" });
       const buttons = [
-        ["◀", "earlier", () => this.move(-STEP)],
-        ["▶", "later", () => this.move(STEP)],
+        ["◀", "lower", () => this.move(-STEP)],
+        ["▶", "higher", () => this.move(STEP)],
         ["+", "closer", () => this.scale(0.5)],
         ["−", "farther", () => this.scale(2)],
         ["all", "the whole stretch", () => this.show(null)],
@@ -172,9 +173,9 @@
       const at = chart.cursor.idx;
       if (at == null || chart.cursor.left < 0) return "";
       const values = series
-        .map((one, k) => [one.name, chart.data[k + 1][at]])
+        .map((one, k) => [one.name, chart.data[k + 1][at], k === 0 && intervals[at]])
         .filter(([name]) => !this.hidden.has(name))
-        .map(([name, value], k) => `${name} ${shown(value)}${k === 0 ? within(intervals[at]) : ""}`);
+        .map(([name, value, ends]) => `${name} ${shown(value)}${within(ends)}`);
       return `${shown(chart.data[0][at])} ${over.unit}: ${values.join(", ")} ${unit}`;
     }
   }
@@ -185,7 +186,8 @@
     const { ctx, bbox } = chart;
     ctx.save();
     ctx.beginPath();
-    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    const beside = 5 * devicePixelRatio;
+    ctx.rect(bbox.left - beside, bbox.top, bbox.width + 2 * beside, bbox.height);
     ctx.clip();
     ctx.strokeStyle = ctx.fillStyle = stroke;
     ctx.lineWidth = 1.5 * devicePixelRatio;
