@@ -1,6 +1,6 @@
 //! Evidence in words: what a shape of the residual says, as a person would point it out.
 
-use super::number::{NBSP, num};
+use super::number::{NBSP, figures, num};
 use crate::engine::findings::{Feature, Form, Quantity, Shape, ShapeBin};
 
 /// The corrected model says so too where it leaves no more than this of a residual [1]
@@ -60,15 +60,20 @@ pub(super) fn sentence(shape: &Shape) -> String {
         (Form::Spectrum, _) => spectrum(shape),
         (_, None) => String::new(),
         (Form::Map, Some(bin)) => {
-            let [low, high] = bin.y.unwrap_or_default().map(num);
-            let (x, to) = (num(bin.low), num(bin.high));
+            let [low, high] = bin.y.unwrap_or_default().map(end);
+            let (x, to) = (end(bin.low), end(bin.high));
             format!("Where x is {x} to {to} m and y {low} to {high} m, {}", says(shape, bin))
         }
         (Form::Curve, Some(bin)) => {
-            let at = bin_in_words(shape.feature, &num(bin.low), &num(bin.high));
+            let at = bin_in_words(shape.feature, &end(bin.low), &end(bin.high));
             format!("{at}, {}", says(shape, bin))
         }
     }
+}
+
+/// An end of a bin: finer than two figures is of no use.
+fn end(x: f64) -> String {
+    figures(x, 2)
 }
 
 /// The bin that a person would point at: of those surely away from zero the one farthest away, on the positive side of the
@@ -109,8 +114,11 @@ fn says(shape: &Shape, bin: &ShapeBin) -> String {
     let needs = if more { "more" } else { "less" };
     let lies = if more { "above" } else { "below" };
     let wheel = |one: &str| shape.wheel.map_or(format!("a {one}"), |j| format!("{one}{NBSP}{j}"));
-    let nominal =
-        if is_refitted(shape) { "the nominal model says, its numbers re-fitted" } else { "the nominal model says" };
+    let nominal = if is_refitted(shape) {
+        "the nominal model says, even with its numbers re-fitted"
+    } else {
+        "the nominal model says"
+    };
     let said = match shape.quantity {
         Quantity::NeededForce => format!("{} needs {size} {needs} than {nominal}", wheel("wheel")),
         Quantity::NeededForceAhead => format!("the robot needs {size} {needs} force ahead than {nominal}"),
@@ -197,7 +205,7 @@ mod tests {
     #[test]
     fn a_curve_is_told_by_its_plainest_bin_on_the_positive_side() {
         // of the sample: 0.1 N + 0.4 N·exp(−(3/4)²) at 3 rad/s
-        let said = "At 1.50 to 4.50 rad/s of the wheel, a wheel needs 0.328 N more than the nominal model says; \
+        let said = "At 1.5 to 4.5 rad/s of the wheel, a wheel needs 0.328 N more than the nominal model says; \
                     the corrected model says so too.";
         assert_eq!(plain(&stribeck()), said);
     }
@@ -229,7 +237,7 @@ mod tests {
 
     #[test]
     fn a_map_is_told_by_its_plainest_cell_and_a_gap_that_nothing_explains_is_told_so() {
-        let said = "Where x is 1.50 to 2.00 m and y 0.500 to 1.00 m, the robot needs 1.20 N more to move than the nominal \
+        let said = "Where x is 1.5 to 2.0 m and y 0.50 to 1.0 m, the robot needs 1.20 N more to move than the nominal \
                     model says; no cause of the catalogue explains it.";
         assert_eq!(plain(&carpet()), said);
     }
@@ -238,8 +246,7 @@ mod tests {
     fn numbers_that_were_refitted_first_are_told_so() {
         let mut shape = stribeck();
         shape.bins.iter_mut().for_each(|bin| bin.nominal += 1.0);
-        let said =
-            "needs 0.328 N more than the nominal model says, its numbers re-fitted; the corrected model says so too.";
+        let said = "needs 0.328 N more than the nominal model says, even with its numbers re-fitted; the corrected model says so too.";
         assert!(plain(&shape).ends_with(said), "{}", plain(&shape));
     }
 }

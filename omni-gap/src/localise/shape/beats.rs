@@ -1,4 +1,5 @@
-//! Residuals at angles of their wheels: row by row for currents and speeds, window by window for forces.
+//! Residuals at angles of their wheels: window by window for what is slow beside a window, and row by row, less each window's line,
+//! for what is fast. Rows of a window share the errors of its start, so that together they would look like a low order.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -24,12 +25,14 @@ pub(super) struct Rows<'a, const N: usize> {
 }
 
 impl<const N: usize> Rows<'_, N> {
-    /// The residuals of a wheel's current, or of its speed less its line over the window.
+    /// The residuals of a wheel's current or speed, less their line over the window.
     pub fn beats(&self, quantity: Quantity, wheel: usize, speed: f64, into: &mut Vec<Beat>) {
         let Self { run, said, rows } = self;
         let channels = AlignedRun::<N>::channels();
-        let of_speed = quantity == Quantity::WheelSpeed;
-        let channel = if of_speed { channels.wheel_speed(wheel) } else { channels.current(wheel) };
+        let channel = match quantity {
+            Quantity::WheelSpeed => channels.wheel_speed(wheel),
+            _ => channels.current(wheel),
+        };
         if speed.abs() < TURNS || run.turned.is_empty() {
             return;
         }
@@ -38,14 +41,11 @@ impl<const N: usize> Rows<'_, N> {
         let span = run.t[*last] - run.t[*first];
         let each = span / (seen.len() - 1).max(1) as f64;
         let error = |row: usize, model: usize| run.error(row, channel, said[model][row][channel]) * run.sigma[channel];
-        let errors: [Vec<f64>; MODELS] = std::array::from_fn(|model| {
-            let errors: Vec<f64> = seen.iter().map(|row| error(*row, model)).collect();
-            if of_speed { without_line(&errors) } else { errors }
-        });
-        let lowest = if of_speed { TAU / (speed.abs() * span) } else { 0.0 };
+        let errors: [Vec<f64>; MODELS] =
+            std::array::from_fn(|model| without_line(&seen.iter().map(|row| error(*row, model)).collect::<Vec<f64>>()));
         into.extend(seen.iter().enumerate().map(|(k, row)| Beat {
             angle: run.turned[*row][wheel],
-            orders: (lowest, PI / (speed.abs() * each)),
+            orders: (TAU / (speed.abs() * span), PI / (speed.abs() * each)),
             residual: std::array::from_fn(|model| errors[model][k]),
         }));
     }
@@ -63,13 +63,13 @@ fn without_line(values: &[f64]) -> Vec<f64> {
     values.iter().enumerate().map(|(k, y)| y - mean - slope * (k as f64 - middle)).collect()
 }
 
-/// The forces that windows need, at the angle of each wheel in their middle.
-pub(super) fn of_forces(windows: &[Window], wheel: usize, window_s: f64) -> Beats {
+/// What windows leave of a quantity, at the angle of the wheel in their middle.
+pub(super) fn of_windows(windows: &[Window], (quantity, wheel): (Quantity, usize), window_s: f64) -> Beats {
     let beats = windows.iter().filter_map(|window| {
         let at = &window.when.wheels[wheel];
-        let sample = sample(window, at.angle, (Quantity::NeededForce, wheel))?;
+        let sample = sample(window, at.angle, (quantity, wheel))?;
         let orders = (0.0, PI / (at.speed.abs() * window_s));
         (at.speed.abs() >= TURNS).then_some(Beat { angle: sample.at, orders, residual: sample.residual })
     });
-    Beats { quantity: Quantity::NeededForce, wheel, beats: beats.collect() }
+    Beats { quantity, wheel, beats: beats.collect() }
 }

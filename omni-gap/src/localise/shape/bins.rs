@@ -98,7 +98,7 @@ impl Bin {
     }
 }
 
-/// What all bins of a feature say together of what is left before a cause is taken up.
+/// What all bins of a feature say together of what is left without the causes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Held {
     /// Chance of such means where there is nothing.
@@ -110,25 +110,38 @@ pub(super) struct Held {
 }
 
 impl Held {
-    /// Of bins that share no sample.
+    /// Of bins that share no sample: what neither the nominal model nor the one that the causes are added to says. A re-fit that
+    /// bends right numbers to an effect that it lacks leaves curves of its own.
     pub fn of(bins: &[Bin]) -> Self {
-        Self::about(0.0, bins)
+        Self::about(0.0, bins, BEFORE).and(&Self::about(0.0, bins, NOMINAL))
     }
 
     /// The same of what is left once the mean over all bins is taken off.
     pub fn of_differences(bins: &[Bin]) -> Self {
-        let (sum, n) = bins.iter().fold((0.0, 0.0), |(sum, n), bin| {
-            let samples = bin.samples as f64;
-            (sum + samples * bin.means[BEFORE].mean, n + samples)
-        });
-        Self::about(sum / n, bins)
+        let differences = |model: usize| {
+            let (sum, n) = bins.iter().fold((0.0, 0.0), |(sum, n), bin| {
+                let samples = bin.samples as f64;
+                (sum + samples * bin.means[model].mean, n + samples)
+            });
+            Self::about(sum / n, bins, model)
+        };
+        differences(BEFORE).and(&differences(NOMINAL))
     }
 
-    fn about(level: f64, bins: &[Bin]) -> Self {
+    /// What both hold.
+    fn and(self, other: &Self) -> Self {
+        Self {
+            chance: self.chance.max(other.chance),
+            share: self.share.min(other.share),
+            plain: self.plain.min(other.plain),
+        }
+    }
+
+    fn about(level: f64, bins: &[Bin], model: usize) -> Self {
         let (mut chi_square, mut held, mut all, mut scatter, mut samples) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for bin in bins {
             let (n, freedom) = (bin.samples as f64, (bin.clusters as f64 - 1.0).max(1.0));
-            let Mean { mean, error, scatter: within } = bin.means[BEFORE];
+            let Mean { mean, error, scatter: within } = bin.means[model];
             let mean = mean - level;
             chi_square += normal_square(mean * mean / error.max(f64::MIN_POSITIVE), freedom);
             held += n * (mean * mean - error);

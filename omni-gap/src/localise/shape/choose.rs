@@ -4,7 +4,7 @@
 //! chance by the number of curves that were looked at (Bonferroni), so that one is shown in a share `false_alarm` of the
 //! recordings where there is none, at the most.
 
-use super::beats::of_forces;
+use super::beats::of_windows;
 use super::bins::{Bin, Held, Sample};
 use super::curve::curve;
 use super::map::floor;
@@ -110,8 +110,10 @@ pub(super) fn chosen(windowed: &Windowed, wheels: usize, settings: &ShapeSetting
         }
     }
     let mut shapes: Vec<(f64, Shape)> = chosen.iter().map(|seen| (seen.held.plain, seen.told(looked_at))).collect();
-    let forces = (0..wheels).map(|wheel| of_forces(&windowed.short, wheel, settings.window_s));
-    let beats: Vec<Beats> = windowed.beats.iter().cloned().chain(forces).collect();
+    let of_wheels =
+        [Quantity::Current, Quantity::NeededForce].into_iter().flat_map(|q| (0..wheels).map(move |j| (q, j)));
+    let slow = of_wheels.map(|of| of_windows(&windowed.short, of, settings.window_s));
+    let beats: Vec<Beats> = windowed.beats.iter().cloned().chain(slow).collect();
     shapes.extend(strongest(&beats, settings));
     shapes.sort_by(|a, b| b.0.total_cmp(&a.0));
     shapes.truncate(settings.most);

@@ -56,7 +56,7 @@ impl Default for ShapeSettings {
             least_share: 0.01,
             most: 3,
             highest_order: 240,
-            order_neighbours: 30,
+            order_neighbours: 20,
             cells: 8,
         }
     }

@@ -14,8 +14,8 @@ pub(super) fn evidence(m: &mut Markup, shapes: &[Shape]) {
     if shapes.is_empty() {
         return;
     }
-    let how = "What was measured less what the nominal model says, over what shows it best, of free runs so short that an \
-               error has not yet changed the speed. Uprights are 95 % intervals.";
+    let how = "What was measured, and what other models say, beyond the nominal model, over what shows it best: of free runs so \
+               short that an error has not yet changed the speed. Uprights are 95 % intervals of the measurement.";
     section(m, "What shows it?", how, |m| shapes.iter().for_each(|shape| one(m, shape)));
 }
 
