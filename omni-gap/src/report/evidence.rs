@@ -3,8 +3,8 @@
 use super::number::{NBSP, figures, num};
 use crate::engine::findings::{Feature, Form, Quantity, Shape, ShapeBin};
 
-/// The corrected model says so too where it leaves no more than this of a residual [1]
-const SAYS_SO: f64 = 0.3;
+/// What is less than this of a residual is little of it [1]
+const LITTLE: f64 = 0.3;
 
 /// What a shape is over, in the middle of a sentence.
 pub(super) fn feature(feature: Feature) -> &'static str {
@@ -83,7 +83,7 @@ fn telling(shape: &Shape) -> Option<&ShapeBin> {
     let far = |a: &&ShapeBin, b: &&ShapeBin| a.before.abs().total_cmp(&b.before.abs());
     let farthest = shape.bins.iter().filter(sure).max_by(far)?;
     let positive = shape.bins.iter().filter(sure).filter(|bin| bin.at > 0.0).max_by(far);
-    Some(positive.filter(|bin| bin.before.abs() > 0.5 * farthest.before.abs()).unwrap_or(farthest))
+    Some(positive.filter(|bin| bin.before.abs() > LITTLE * farthest.before.abs()).unwrap_or(farthest))
 }
 
 fn bin_in_words(of: Feature, low: &str, high: &str) -> String {
@@ -143,9 +143,9 @@ fn says(shape: &Shape, bin: &ShapeBin) -> String {
     let tells = bin.before - bin.corrected;
     let corrected = if !is_explained(shape) {
         "no cause of the catalogue explains it".to_owned()
-    } else if within || bin.corrected.abs() <= SAYS_SO * bin.before.abs() {
+    } else if within || bin.corrected.abs() <= LITTLE * bin.before.abs() {
         "the corrected model says so too".to_owned()
-    } else if tells * bin.before > SAYS_SO * bin.before.powi(2) {
+    } else if tells * bin.before > LITTLE * bin.before.powi(2) {
         format!("the corrected model says {}{NBSP}{unit} of it", num(tells.abs()))
     } else {
         "the corrected model does not say so either".to_owned()
