@@ -64,16 +64,16 @@ pub(super) fn aligned(path: &Path, parts: Vec<Part>) -> Run {
 
 /// All instants (s), and for each part the instants of its rows.
 fn instants(parts: &[Part]) -> (Vec<f64>, Vec<Vec<usize>>) {
-    let mut all: Vec<(f64, usize)> = Vec::with_capacity(parts.iter().map(|part| part.run.rows()).sum());
-    for (k, part) in parts.iter().enumerate() {
-        all.extend((0..part.run.rows()).map(|row| (part.time(row), k)));
-    }
-    // stable: rows of one part stay in their order
-    all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut t_s: Vec<f64> = Vec::with_capacity(all.len());
+    let mut t_s: Vec<f64> = Vec::with_capacity(parts.iter().map(|part| part.run.rows()).max().unwrap_or_default());
     let mut first_part = 0;
     let mut places: Vec<Vec<usize>> = parts.iter().map(|part| Vec::with_capacity(part.run.rows())).collect();
-    for (t, k) in all {
+    let due = |k: usize, row: usize| (row < parts[k].run.rows()).then(|| (k, parts[k].time(row)));
+    // of rows at one time that of the first part
+    let next = |places: &[Vec<usize>]| {
+        let due = places.iter().enumerate().filter_map(|(k, placed)| due(k, placed.len()));
+        due.min_by(|a, b| a.1.total_cmp(&b.1))
+    };
+    while let Some((k, t)) = next(&places) {
         let near = t_s.last().is_some_and(|last| t - last < SAME_INSTANT_S);
         let taken = places[k].last().is_some_and(|last| last + 1 == t_s.len());
         if !near || taken {
