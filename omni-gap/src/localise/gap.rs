@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use crate::simulate::{AlignedRun, HORIZON_S, MAX_CHANNELS, PerGroup, Row, SignalGroup, free_run, predict};
+use crate::simulate::{AlignedRun, FreeRun, HORIZON_S, MAX_CHANNELS, PerGroup, Row, SignalGroup, predict};
 
 /// Lengths between restarts of the horizon curves [s]
 pub const HORIZONS_S: [f64; 5] = [0.1, 0.25, HORIZON_S, 1.0, 2.0];
@@ -80,7 +80,7 @@ pub fn measure<const N: usize>(plant: &Plant<N, f64>, runs: &[&AlignedRun<N>], h
 }
 
 /// Seed of the noise of simulated runs.
-pub(super) const FLOOR_SEED: u64 = 20_080_511;
+pub const FLOOR_SEED: u64 = 20_080_511;
 
 /// What the protocol would measure if the model were the truth: the same runs, simulated from it with the sensors' noise.
 pub fn floor<const N: usize>(plant: &Plant<N, f64>, runs: &[&AlignedRun<N>], horizon: f64) -> Measured {
@@ -93,16 +93,18 @@ pub(super) fn replayed<const N: usize>(
     runs: &[&AlignedRun<N>],
     seed: u64,
 ) -> Vec<AlignedRun<N>> {
-    runs.par_iter().enumerate().map(|(k, run)| replay(plant, run, seed.wrapping_add(k as u64))).collect()
+    let replayed = |(k, run): (usize, &&AlignedRun<N>)| replay(FreeRun::new(plant, run), seed.wrapping_add(k as u64));
+    runs.par_iter().enumerate().map(replayed).collect()
 }
 
-/// A run of the same input and the same holes, simulated from the model with the sensors' noise: of its sigma, and with its
-/// memory.
+/// A run of the same input and the same holes as that which a plant is about to go along, simulated from it with the sensors'
+/// noise: of its sigma, and with its memory.
 ///
 /// ```text
 /// n_k = ρ·n_{k−1} + σ·√(1 − ρ²)·e_k,  ρ = e^(−Δt/τ)
 /// ```
-fn replay<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, seed: u64) -> AlignedRun<N> {
+pub fn replay<const N: usize>(mut on_the_way: FreeRun<'_, N, f64>, seed: u64) -> AlignedRun<N> {
+    let run = on_the_way.run();
     // a stream for each channel: one more of them changes nothing of the others
     let stream = |channel: usize| {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -112,9 +114,8 @@ fn replay<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, seed: u64)
     let mut random: Vec<ChaCha8Rng> = (0..AlignedRun::<N>::channels().count()).map(stream).collect();
     let mut replayed = run.clone();
     let mut noise: Option<Row> = None;
-    free_run(
-        plant,
-        run,
+    on_the_way.drive(
+        0..run.rows(),
         &[0],
         |row| run.input(row),
         |row, passed| {

@@ -26,10 +26,25 @@ pub enum Link {
 impl Link {
     /// All links in signal order.
     pub const ALL: [Link; 3] = [Link::Electrical, Link::Motion, Link::Contact];
-}
 
-/// The signals at the links' ends.
-const ENDS: [SignalGroup; 3] = [SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose];
+    /// Its name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Link::Electrical => "electrical",
+            Link::Motion => "motion",
+            Link::Contact => "contact",
+        }
+    }
+
+    /// The signals by whose errors it shows.
+    pub const fn end(self) -> SignalGroup {
+        match self {
+            Link::Electrical => SignalGroup::Current,
+            Link::Motion => SignalGroup::WheelSpeed,
+            Link::Contact => SignalGroup::Pose,
+        }
+    }
+}
 
 /// The share of each link that could be told apart; shares sum to one.
 #[derive(Clone, Debug)]
@@ -46,7 +61,7 @@ pub fn links<const N: usize>(
     runs: &[&AlignedRun<N>],
     horizon: f64,
 ) -> Links {
-    let seen = ENDS.map(|group| runs.iter().any(|run| run.has_group(group)));
+    let seen = Link::ALL.map(|link| runs.iter().any(|run| run.has_group(link.end())));
     let players: Vec<usize> = (0..3).filter(|k| seen[*k]).collect();
     // mean square error per group of each subset of substituted links
     let quiet = replayed(right, runs, FLOOR_SEED);

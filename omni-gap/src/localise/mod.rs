@@ -11,6 +11,6 @@ mod regime;
 pub mod shape;
 pub mod validation;
 
-pub use gap::{HORIZONS_S, Measured, floor, measure};
+pub use gap::{FLOOR_SEED, HORIZONS_S, Measured, floor, measure, replay};
 pub use links::{Link, Links, links};
 pub use regime::{Hotspot, RegimeSettings, regimes};

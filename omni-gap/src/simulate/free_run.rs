@@ -4,6 +4,8 @@
 //! what the measured speeds turned the wheels by, where these are logged: what depends on them keeps its phase however long
 //! a run is, and a window does not depend on how well the windows before it were met.
 
+use std::ops::Range;
+
 use model_core::effects::EffectState;
 use model_core::effects::card::Seam;
 use model_core::geometry::frames::{BodyTwist, Pose};
@@ -25,6 +27,13 @@ pub struct FreeRun<'a, const N: usize, T: Real> {
     /// The longest step that its effects allow [s]
     longest_s: f64,
     steps_taken: u64,
+}
+
+/// What is hidden of a plant where a free run has come to: all that no measurement tells at a restart.
+#[derive(Clone, Debug)]
+pub struct Hidden<const N: usize> {
+    state: State<N, f64>,
+    memory: Vec<EffectState<f64>>,
 }
 
 impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
@@ -95,6 +104,40 @@ impl<'a, const N: usize, T: Real> FreeRun<'a, N, T> {
     }
 }
 
+impl<'a, const N: usize> FreeRun<'a, N, f64> {
+    /// Goes on with what is hidden where another recording, of the time before, ended.
+    pub fn after(before: &Hidden<N>, plant: &'a Plant<N, f64>, run: &'a AlignedRun<N>) -> Self {
+        let Hidden { state, memory } = before.clone();
+        let mut on_the_way = Self::new(plant, run);
+        (on_the_way.state, on_the_way.memory) = (state, memory);
+        on_the_way
+    }
+
+    /// What is hidden where it is.
+    pub fn hidden(&self) -> Hidden<N> {
+        Hidden { state: self.state, memory: self.memory.clone() }
+    }
+
+    /// Goes along these rows, restarted from the smoothed measurement at the rows `restarts`, which ascend; `input` drives it,
+    /// and `each` takes what it says on each row.
+    pub fn drive(
+        &mut self,
+        rows: Range<usize>,
+        restarts: &[usize],
+        input: impl Fn(usize) -> Input<N, f64>,
+        mut each: impl FnMut(usize, &RowPassed<N, f64>),
+    ) {
+        let mut coming = restarts.iter().copied().peekable();
+        for row in rows {
+            if coming.next_if_eq(&row).is_some() {
+                let start = start_at(self.run, row).seen_on_both_sides();
+                self.restart(row, start.state(self.plant, &self.state));
+            }
+            each(row, &self.pass(row, &input(row)));
+        }
+    }
+}
+
 impl<const N: usize, T: Real> Drop for FreeRun<'_, N, T> {
     /// Counts its steps, once for all of them, so that it costs nothing.
     fn drop(&mut self) {
@@ -109,16 +152,9 @@ pub fn free_run<const N: usize>(
     run: &AlignedRun<N>,
     restarts: &[usize],
     input: impl Fn(usize) -> Input<N, f64>,
-    mut each: impl FnMut(usize, &RowPassed<N, f64>),
+    each: impl FnMut(usize, &RowPassed<N, f64>),
 ) {
-    let mut on_the_way = FreeRun::new(plant, run);
-    let mut coming = restarts.iter().copied().peekable();
-    for row in 0..run.rows() {
-        if coming.next_if_eq(&row).is_some() {
-            on_the_way.restart(row, start_at(run, row).seen_on_both_sides().state(plant, on_the_way.state()));
-        }
-        each(row, &on_the_way.pass(row, &input(row)));
-    }
+    FreeRun::new(plant, run).drive(0..run.rows(), restarts, input, each);
 }
 
 #[cfg(test)]

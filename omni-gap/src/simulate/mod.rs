@@ -51,7 +51,7 @@ pub use effect_shown::{EffectShown, ShownSignal, effect_shown};
 pub use effort::steps_taken;
 pub use excite::{Excitation, excite};
 pub use floor::{Floor, floor_of};
-pub use free_run::{FreeRun, free_run};
+pub use free_run::{FreeRun, Hidden, free_run};
 pub use keys::{NOMINAL_KEYS, NominalKey};
 pub use limits::{Allowed, Lowered, USUAL_FIELD, allowed, usual_voltage};
 pub use losses::Losses;
