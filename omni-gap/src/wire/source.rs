@@ -26,6 +26,25 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// How long one look for bytes waits.
 const LOOK: Duration = Duration::from_millis(100);
 
+/// Why no more bytes come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// The file ended, or the other side closed the connection.
+    Closed,
+    /// No frame came for longer than anybody waits.
+    Silent,
+    /// Who took them had enough.
+    Enough,
+}
+
+/// How bytes are waited for.
+struct Flow {
+    /// What the end of what can be read means; none: more may come.
+    end_of_file: Option<End>,
+    /// How long no frame may come; none: for ever
+    patience: Option<Duration>,
+}
+
 impl Source {
     /// What `--from` names: `tcp:HOST:PORT`, a serial device, or a file.
     pub fn named(text: &str) -> Source {
@@ -61,22 +80,45 @@ impl Source {
     ///
     /// # Errors
     /// Where it cannot be opened or read.
-    pub fn read(&self, baud: u32, mut take: impl FnMut(&[u8]) -> Progress) -> Result<()> {
+    pub fn read(&self, baud: u32, take: impl FnMut(&[u8]) -> Progress) -> Result<()> {
+        let whole = Flow { end_of_file: Some(End::Closed), patience: self.is_live().then_some(PATIENCE) };
+        self.flow(baud, &whole, take).map(|_| ())
+    }
+
+    /// The same of a file that grows too: its end is not the end before nothing came for as long as there is `patience`. Where
+    /// nothing comes, `take` gets no bytes, ten times a second.
+    ///
+    /// # Errors
+    /// As of [`Source::read`].
+    pub fn follow(&self, baud: u32, patience: Duration, take: impl FnMut(&[u8]) -> Progress) -> Result<End> {
+        let end_of_file = self.is_live().then_some(End::Closed);
+        self.flow(baud, &Flow { end_of_file, patience: Some(patience) }, take)
+    }
+
+    fn flow(&self, baud: u32, flow: &Flow, mut take: impl FnMut(&[u8]) -> Progress) -> Result<End> {
         let mut open = self.open(baud)?;
         let mut bytes = [0; 1 << 14];
         let mut heard = Instant::now();
         loop {
             let progress = match open.read(&mut bytes) {
-                Ok(0) => return Ok(()),
+                Ok(0) => match flow.end_of_file {
+                    Some(end) => return Ok(end),
+                    None => {
+                        std::thread::sleep(LOOK);
+                        take(&[])
+                    }
+                },
                 Ok(count) => take(bytes.get(..count).unwrap_or_default()),
-                Err(why) if matches!(why.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock) => Progress::Nothing,
+                Err(why) if matches!(why.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock) => take(&[]),
                 Err(why) if why.kind() == ErrorKind::Interrupted => continue,
-                Err(why) => return Err(self.error(why.to_string(), "Check the cable, then record again")),
+                Err(why) => return Err(self.error(why.to_string(), "Check the cable, then start again")),
             };
             match progress {
-                Progress::Enough => return Ok(()),
+                Progress::Enough => return Ok(End::Enough),
                 Progress::Frames => heard = Instant::now(),
-                Progress::Nothing if self.is_live() && heard.elapsed() > PATIENCE => return Ok(()),
+                Progress::Nothing if flow.patience.is_some_and(|patience| heard.elapsed() > patience) => {
+                    return Ok(End::Silent);
+                }
                 Progress::Nothing => {}
             }
         }
@@ -155,6 +197,26 @@ mod tests {
         source.read(0, enough).unwrap();
         robot.join().unwrap();
         assert!(count > 1000);
+    }
+
+    #[test]
+    fn a_file_that_grows_is_followed_until_nothing_comes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("frames.rec");
+        std::fs::write(&path, [1, 2]).unwrap();
+        let source = Source::File(path.clone());
+        let (mut taken, mut grown) = (Vec::new(), false);
+        let end = source.follow(0, Duration::from_millis(300), |bytes| {
+            taken.extend_from_slice(bytes);
+            if bytes.is_empty() && !grown {
+                grown = true;
+                let mut file = std::fs::OpenOptions::new().append(true).open(&path).unwrap();
+                file.write_all(&[3, 4]).unwrap();
+            }
+            if bytes.is_empty() { Progress::Nothing } else { Progress::Frames }
+        });
+        assert_eq!((end.unwrap(), taken), (End::Silent, vec![1, 2, 3, 4]));
+        assert_eq!(source.follow(0, Duration::from_secs(9), |_| Progress::Enough).unwrap(), End::Enough);
     }
 
     #[test]

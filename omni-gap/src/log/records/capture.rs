@@ -102,6 +102,19 @@ impl Capture {
         at.ok().and_then(|at| self.broken_before.get(at)).map_or(0, |(_, count)| *count)
     }
 
+    /// Forgets so many of the first records, and returns how many did not arrive between them and the next: (on the way, for
+    /// lack of room on the robot).
+    pub fn forget(&mut self, records: usize) -> (u32, u32) {
+        let lost = lost(self.records.get(..=records).unwrap_or(&self.records));
+        self.records.drain(..records.min(self.records.len()));
+        self.broken_before.retain(|(next, _)| *next > records);
+        self.broken_before.iter_mut().for_each(|(next, _)| *next -= records);
+        let explains = self.hellos.partition_point(|(at, _)| *at <= records).saturating_sub(1);
+        self.hellos.drain(..explains);
+        self.hellos.iter_mut().for_each(|(at, _)| *at = at.saturating_sub(records));
+        lost
+    }
+
     fn is_enough(&self) -> bool {
         let span = self.records.first().zip(self.records.last()).map(|(a, b)| b.time.wrapping_sub(a.time));
         self.restarted || self.wanted.zip(span).is_some_and(|(wanted, span)| span >= wanted && !self.hellos.is_empty())
@@ -125,15 +138,20 @@ impl Capture {
 
     /// How many records did not arrive: (on the way, for lack of room on the robot).
     pub fn lost(&self) -> (u32, u32) {
-        let pairs = self.records.windows(2).map(|pair| (pair[1].sequence.wrapping_sub(pair[0].sequence) - 1, pair[1]));
-        let (mut on_the_way, mut no_room) = (0, 0);
-        for (missing, after) in pairs {
-            let dropped = u32::from(after.dropped).min(missing);
-            no_room += dropped;
-            on_the_way += missing - dropped;
-        }
-        (on_the_way, no_room)
+        lost(&self.records)
     }
+}
+
+/// How many did not arrive between some records: (on the way, for lack of room on the robot).
+fn lost(records: &[TelemetryRecord]) -> (u32, u32) {
+    let pairs = records.windows(2).map(|pair| (pair[1].sequence.wrapping_sub(pair[0].sequence) - 1, pair[1]));
+    let (mut on_the_way, mut no_room) = (0, 0);
+    for (missing, after) in pairs {
+        let dropped = u32::from(after.dropped).min(missing);
+        no_room += dropped;
+        on_the_way += missing - dropped;
+    }
+    (on_the_way, no_room)
 }
 
 fn zeros_are_known(hello: &Hello) -> bool {

@@ -7,3 +7,4 @@
 pub mod capture;
 pub mod run;
 mod speeds;
+pub mod tail;

@@ -132,7 +132,7 @@ pub fn run(capture: &Capture, place: &Path, name: &str, wheels: Option<usize>) -
 }
 
 /// Length of a turn of the currents [s], as it was meant before it was rounded to single precision.
-fn clock(hello: &Hello) -> f64 {
+pub(super) fn clock(hello: &Hello) -> f64 {
     (f64::from(hello.calibration.period) * 1e9).round() * 1e-9
 }
 
@@ -226,4 +226,4 @@ fn current(
 
 #[cfg(test)]
 #[path = "run_tests.rs"]
-mod tests;
+pub(super) mod tests;

@@ -23,7 +23,7 @@ fn shown(k: u32) -> f64 {
 }
 
 /// A robot that drives with a voltage of k/100 V after turn k.
-fn record(k: u32) -> TelemetryRecord {
+pub(in super::super) fn record(k: u32) -> TelemetryRecord {
     let mut record = TelemetryRecord {
         sequence: k,
         time: 20 * k,
@@ -51,7 +51,7 @@ fn record(k: u32) -> TelemetryRecord {
 }
 
 /// The frames of a hello and of these records.
-fn sent(wheels: u8, records: &[TelemetryRecord]) -> Vec<u8> {
+pub(in super::super) fn sent(wheels: u8, records: &[TelemetryRecord]) -> Vec<u8> {
     let mut out = [0; MAX_FRAME];
     let mut bytes = encode_frame(FrameKind::Hello.code(), &hello(wheels).to_bytes(), &mut out).unwrap().to_vec();
     for record in records {
