@@ -5,7 +5,7 @@
 //! cause is in the model. [`diagnose`] does all of it; the rooms can be used one by one:
 //!
 //! `log` (files → SI) → `check` (faults of the telemetry) → `simulate` (what a model says) → `identify` (the best numbers
-//! and how sure they are) → `localise` (where the gap lies) → `engine` (which cause) →
+//! and how sure they are) → `localise` (where the gap lies) → `watch` (whether it stays at its floor) → `engine` (which cause) →
 //! `comparison` (what differs between two sessions) → `report` (files for people and
 //! programs).
 //!
@@ -32,6 +32,8 @@ pub mod identify;
 pub mod mjcf;
 
 pub mod localise;
+
+pub mod watch;
 
 pub mod engine;
 

@@ -21,6 +21,7 @@ const ORDER: &[&str] = &[
     "mjcf",
     "identify",
     "localise",
+    "watch",
     "engine",
     "comparison",
     "report",

@@ -21,6 +21,7 @@
 //! | [`confusion`](fn@confusion) | [`Confusion`]: which cause would be taken for which in them, by the angles between them |
 //! | [`effect_shown`] | [`EffectShown`]: what an effect of the catalogue does to a short drive |
 //! | [`export`], [`record`](fn@record) | the parameter block of a robot file; a [`Run`] of what a robot sent, and its frames |
+//! | [`watch`](fn@watch) | [`Reading`](crate::watch::Reading)s: while a robot drives, whether the gap is at its floor, and at which stage it leaves it |
 //!
 //! Sessions come from files ([`Session::load`]) or from memory ([`Session`] has public fields). Whatever is wrong with
 //! them is an [`Error`] that says where it stands and how to mend it; recordings that cannot be used are no error of
@@ -35,6 +36,7 @@ mod predict;
 mod record;
 mod selftest;
 mod simulate;
+mod watch;
 
 pub use crate::check::{Fault, check};
 pub use crate::diagnosis::{Diagnosis, NamedSession, Options, diagnose};
@@ -60,3 +62,4 @@ pub use predict::predict;
 pub use record::{Recorded, Recording, record};
 pub use selftest::{Driven, PlannedRuns, confusion, selftest, verify};
 pub use simulate::simulate;
+pub use watch::{News, Watched, Watching, watch};
