@@ -40,3 +40,5 @@ mod selftest;
 mod validate;
 #[path = "cli/vision.rs"]
 mod vision;
+#[path = "cli/watch.rs"]
+mod watch;

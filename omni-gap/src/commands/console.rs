@@ -32,18 +32,29 @@ impl Console {
 
     /// Says an answer on standard output. A reader who has gone away has heard enough.
     pub fn say(&self, text: &str) -> Result<(), CliError> {
+        self.say_while_heard(text).map(|_| ())
+    }
+
+    /// Says the next part of an answer that has no end of its own; false if the reader has gone away.
+    pub fn say_while_heard(&self, text: &str) -> Result<bool, CliError> {
         if self.quiet {
-            return Ok(());
+            return Ok(true);
         }
         self.end_phase();
         let mut out = io::stdout().lock();
         match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-            Err(why) if why.kind() != io::ErrorKind::BrokenPipe => {
+            Ok(()) => Ok(true),
+            Err(why) if why.kind() == io::ErrorKind::BrokenPipe => Ok(false),
+            Err(why) => {
                 let fix = "Name a place with space left, or use --quiet";
                 Err(Error::output(Path::new("standard output"), why.to_string(), fix).into())
             }
-            _ => Ok(()),
         }
+    }
+
+    /// Whether nothing but errors is said.
+    pub fn is_quiet(&self) -> bool {
+        self.quiet
     }
 
     /// Adds a line on standard error, for those who want to know more.

@@ -1,7 +1,7 @@
 //! What a command is called with, for its help.
 
 /// Examples of each command, one a line.
-pub const EXAMPLES: [(&str, &[&str]); 21] = [
+pub const EXAMPLES: [(&str, &[&str]); 22] = [
     ("demo", &["demo"]),
     (
         "diagnose",
@@ -41,6 +41,14 @@ pub const EXAMPLES: [(&str, &[&str]); 21] = [
     ("explain", &["explain", "explain wheel_slip --out slip.svg", "explain columns"]),
     ("export", &["export robot.toml --out block.bin", "export report/corrected_robot.toml --out robot.xml"]),
     ("record", &["record --from /dev/ttyACM0 --robot robot.toml --seconds 20 --out my-robot"]),
+    (
+        "watch",
+        &[
+            "watch --from /dev/ttyACM0 --robot my-robot/fitted.toml",
+            "watch --from tcp:192.168.1.7:7000 --robot fitted.toml --window 2",
+            "watch --from my-robot/runs/run.rec --robot fitted.toml --json",
+        ],
+    ),
     ("convert", &["convert robot.toml run.rec --out run.csv"]),
     ("completions", &["completions bash"]),
     ("man", &["man ~/.local/share/man/man1"]),

@@ -34,6 +34,7 @@ mod selftest;
 mod sensitivity;
 mod simulate;
 mod validate;
+mod watch;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -74,6 +75,7 @@ enum Command {
     Explain(explain::Explain),
     Export(export::Export),
     Record(record::Record),
+    Watch(watch::WatchRobot),
     Convert(convert::Convert),
     Completions(completions::Completions),
     Man(man::Man),
@@ -116,6 +118,7 @@ impl Cli {
             Command::Explain(c) => c.run(&console),
             Command::Export(c) => c.run(&console),
             Command::Record(c) => c.run(&console),
+            Command::Watch(c) => c.run(&console),
             Command::Convert(c) => c.run(&console),
             Command::Completions(c) => c.run(Cli::program(), &console),
             Command::Man(c) => c.run(Cli::program(), &console),

@@ -1,12 +1,32 @@
 //! Frames as a robot sends them: a greeting, then records.
 
+use std::ops::Range;
+
 use model_core::control::calibration::{AdcCode, Calibration};
 use model_core::link::framing::{FrameKind, MAX_FRAME, encode_frame};
 use model_core::link::hello::{Commutation, Hello};
 use model_core::link::record::{OperatingState, TelemetryRecord};
 
+/// Records of a robot that turns slowly.
+pub fn turning(turns: Range<u32>) -> impl Iterator<Item = TelemetryRecord> {
+    turns.map(|k| TelemetryRecord {
+        sequence: k,
+        time: 20 * k,
+        // an edge every 4 ms: 2π/240 rad in that time
+        edges: [(k / 4) as i16; 4],
+        since_edge: [(20 * (k % 4)) as u16; 4],
+        interval: [80; 4],
+        ..TelemetryRecord::default()
+    })
+}
+
 /// The frames of these records of a robot on four wheels, each completed to one that drives at 1 V.
 pub fn frames(records: impl IntoIterator<Item = TelemetryRecord>) -> Vec<u8> {
+    frames_at(1.0, records)
+}
+
+/// The same at another voltage [V]
+pub fn frames_at(volts: f32, records: impl IntoIterator<Item = TelemetryRecord>) -> Vec<u8> {
     let hello = Hello {
         firmware: 1,
         block_version: 1,
@@ -25,7 +45,7 @@ pub fn frames(records: impl IntoIterator<Item = TelemetryRecord>) -> Vec<u8> {
             enabled: 0b1111,
             bus: AdcCode(1354),
             phases: [[AdcCode(2048); 3]; 4],
-            voltage: [1.0; 4],
+            voltage: [volts; 4],
             ..record
         };
         bytes.extend(encode_frame(FrameKind::Record.code(), &record.to_bytes(), &mut out).unwrap());

@@ -63,7 +63,7 @@ fn a_schema_refuses_what_it_does_not_describe() {
 #[test]
 fn the_schemas_of_the_files_are_those_that_lie_in_the_repository() {
     let bench = Bench::with_session();
-    for command in ["diagnose", "compare", "next", "validate", "selftest", "sensitivity", "check"] {
+    for command in ["diagnose", "compare", "next", "validate", "selftest", "sensitivity", "check", "watch"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("schemas/{command}.json"));
         let said = bench.done(&["schema", command]).out;
         if std::env::var_os("BLESS").is_some() {

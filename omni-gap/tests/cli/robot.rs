@@ -1,28 +1,15 @@
 //! What goes to a robot and what comes back: `export` and `record`.
 
 use crate::bench::{Bench, ROBOT, table};
-use crate::frames::frames;
+use crate::frames::{frames, turning};
 use model_core::link::block::Parameters;
-use model_core::link::record::TelemetryRecord;
 
 /// A bench with a robot file and frames of a robot that turns slowly.
 fn bench() -> Bench {
     let bench = Bench::empty();
     bench.write("robot.toml", ROBOT);
-    std::fs::write(bench.at("frames.bin"), turning(0..400)).unwrap();
+    std::fs::write(bench.at("frames.bin"), frames(turning(0..400))).unwrap();
     bench
-}
-
-fn turning(turns: std::ops::Range<u32>) -> Vec<u8> {
-    frames(turns.map(|k| TelemetryRecord {
-        sequence: k,
-        time: 20 * k,
-        // an edge every 4 ms: 2π/240 rad in that time
-        edges: [(k / 4) as i16; 4],
-        since_edge: [(20 * (k % 4)) as u16; 4],
-        interval: [80; 4],
-        ..TelemetryRecord::default()
-    }))
 }
 
 #[test]
@@ -48,7 +35,7 @@ fn frames_become_a_session_that_is_checked_like_any_other() {
     assert!(said.out.starts_with("399 rows, 0.398 s, written to session/runs/slow.rec\n"), "{}", said.out);
     assert!(said.out.contains("other parameters than `omni-gap export robot.toml` writes"), "{}", said.out);
     assert_eq!(bench.read("session/robot.toml"), ROBOT);
-    assert_eq!(std::fs::read(bench.at("session/runs/slow.rec")).unwrap(), turning(0..400), "as they came");
+    assert_eq!(std::fs::read(bench.at("session/runs/slow.rec")).unwrap(), frames(turning(0..400)), "as they came");
     let said = bench.done(&["convert", "robot.toml", "session/runs/slow.rec", "--out", "slow.csv"]);
     assert!(said.out.contains("\"before\""), "{}", said.out);
     let text = bench.read("slow.csv");
@@ -78,7 +65,7 @@ fn frames_become_a_session_that_is_checked_like_any_other() {
 #[test]
 fn only_so_many_seconds_are_taken_and_what_got_lost_is_told() {
     let bench = bench();
-    let bytes = [turning(0..50), turning(53..300)].concat();
+    let bytes = frames(turning(0..50).chain(turning(53..300)));
     std::fs::write(bench.at("frames.bin"), bytes).unwrap();
     let said =
         bench.done(&["record", "--from", "frames.bin", "--seconds", "0.1", "--robot", "robot.toml", "--out", "s"]);
