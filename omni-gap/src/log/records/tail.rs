@@ -102,7 +102,10 @@ impl Tail {
     fn begin_again(&mut self) {
         self.began_s = self.reaches_s().unwrap_or(self.began_s);
         self.forgotten = Heard { restarts: self.forgotten.restarts + 1, ..self.heard() };
+        // it said how it is to be read before its first record told that it started again
+        let explains = self.capture.hellos.last().map(|(_, hello)| (0, *hello));
         self.capture = Capture::new(None);
+        self.capture.hellos.extend(explains);
     }
 }
 
