@@ -36,6 +36,8 @@ mod record_vision;
 mod robot;
 #[path = "cli/selftest.rs"]
 mod selftest;
+#[path = "cli/streamed.rs"]
+mod streamed;
 #[path = "cli/validate.rs"]
 mod validate;
 #[path = "cli/vision.rs"]

@@ -17,8 +17,8 @@
 //! P(false alarm begins at a window) ≤ z^−h,   p·z^(g + 1) − z + 1 − p = 0, z > 1
 //! ```
 //!
-//! of each stage, as windows do not share their noise. With K = 19, g = 3, h = 18 that is 3.9·10⁻⁷: with windows of 1 s and
-//! three stages one in 240 h. A change that every window shows is told after seven at the latest, one that more than a quarter
+//! of each stage, as windows do not share their noise. With K = 19, g = 3, h = 18 that is 4.1·10⁻⁷: with windows of 1 s and
+//! three stages one in 226 h. A change that every window shows is told after seven at the latest, one that more than a quarter
 //! of them show, in the end.
 
 mod alarms;

@@ -63,6 +63,7 @@ pub struct StageError {
 pub struct Alarm {
     /// The stage
     pub stage: &'static str,
-    /// Since when, by the robot's clock [s]
+    /// Since when something speaks against it without a break, by the robot's clock [s]; chance may make that some windows
+    /// earlier than the change
     pub since_s: f64,
 }

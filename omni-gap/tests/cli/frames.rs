@@ -27,27 +27,37 @@ pub fn frames(records: impl IntoIterator<Item = TelemetryRecord>) -> Vec<u8> {
 
 /// The same at another voltage [V]
 pub fn frames_at(volts: f32, records: impl IntoIterator<Item = TelemetryRecord>) -> Vec<u8> {
+    sent(records.into_iter().map(|record| TelemetryRecord {
+        state: OperatingState::Driving,
+        enabled: 0b1111,
+        bus: AdcCode(1354),
+        phases: [[AdcCode(ZERO); 3]; 4],
+        voltage: [volts; 4],
+        ..record
+    }))
+}
+
+/// What no current reads as.
+pub const ZERO: u16 = 2048;
+
+/// Pairs of poles of the robot's motors.
+pub const POLE_PAIRS: u8 = 8;
+
+/// The frames of these records as they are.
+pub fn sent(records: impl IntoIterator<Item = TelemetryRecord>) -> Vec<u8> {
     let hello = Hello {
         firmware: 1,
         block_version: 1,
         block_check: 7,
         wheels: 4,
         commutation: Commutation::FieldOriented,
-        calibration: Calibration::of_board(8),
+        calibration: Calibration::of_board(POLE_PAIRS),
         gear_ratio: 5.0,
-        offsets: [[2048 * 16; 3]; 4],
+        offsets: [[ZERO * 16; 3]; 4],
     };
     let mut out = [0; MAX_FRAME];
     let mut bytes = encode_frame(FrameKind::Hello.code(), &hello.to_bytes(), &mut out).unwrap().to_vec();
     for record in records {
-        let record = TelemetryRecord {
-            state: OperatingState::Driving,
-            enabled: 0b1111,
-            bus: AdcCode(1354),
-            phases: [[AdcCode(2048); 3]; 4],
-            voltage: [volts; 4],
-            ..record
-        };
         bytes.extend(encode_frame(FrameKind::Record.code(), &record.to_bytes(), &mut out).unwrap());
     }
     bytes

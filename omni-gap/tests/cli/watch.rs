@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use crate::bench::{Bench, ROBOT, Said, refused};
 use crate::frames::{frames, frames_at, turning};
+use crate::streamed::{robot, streamed};
 
 /// What is asked of it, and how long the file may stay as it is.
 const ASKED: [&str; 7] = ["watch", "--from", "drive.rec", "--robot", "robot.toml", "--patience", "1.5"];
@@ -63,6 +64,22 @@ fn a_file_that_grows_is_judged_window_by_window_to_its_end() {
     }
     assert_eq!(windows[9]["alarm"], serde_json::json!({ "stage": "motion", "since_s": 4.0 }));
     assert!((windows[0]["battery_V"].as_f64().unwrap() - 1354.0 * 8.86e-3).abs() < 1e-3, "{}", windows[0]);
+}
+
+#[test]
+fn a_simulated_robot_fits_until_its_friction_changes() {
+    let text = ROBOT
+        .replace("coulomb_v_N = 1.8738", "coulomb_v_N = 3.0")
+        .replace("viscous_v_N_s_per_m = 0.4978", "viscous_v_N_s_per_m = 1.5");
+    assert_ne!(text, ROBOT);
+    let pieces = streamed(&[(&robot(ROBOT), 30), (&robot(&text), 20)], 6.0);
+    let objects = objects(&watched(&[pieces.concat()], &["--json"]));
+    let (end, windows) = objects.split_last().unwrap();
+    assert_eq!((&end["windows"], &end["alarms"]), (&49.into(), &1.into()), "{end}");
+    let told = windows.iter().find(|window| window["alarm_began"] == true).unwrap();
+    let (since_s, to_s) = (told["alarm"]["since_s"].as_f64().unwrap(), told["to_s"].as_f64().unwrap());
+    assert_eq!(told["alarm"]["stage"], "motion", "{told}");
+    assert!((28.0..33.0).contains(&since_s) && to_s <= 44.0, "{told}");
 }
 
 #[test]
