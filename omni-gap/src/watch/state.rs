@@ -25,8 +25,8 @@ pub struct Watch {
 /// How far the model is, by the number of wheels.
 #[derive(Clone, Debug)]
 enum At {
-    Three(OnTheWay<3>),
-    Four(OnTheWay<4>),
+    Three(Box<OnTheWay<3>>),
+    Four(Box<OnTheWay<4>>),
 }
 
 /// How far a model is.
@@ -42,8 +42,8 @@ impl Watch {
     /// A watch that has seen nothing.
     pub fn new(robot: &RobotFile, rule: Rule) -> Self {
         let at = match robot.wheel.len() {
-            3 => At::Three(OnTheWay::default()),
-            _ => At::Four(OnTheWay::default()),
+            3 => At::Three(Box::default()),
+            _ => At::Four(Box::default()),
         };
         Self { rule, robot: robot.clone(), window: 0, alarms: Alarms::default(), at }
     }
@@ -55,7 +55,7 @@ impl Watch {
 
     /// Rows before this time are not needed any more [s]
     pub fn needs_from_s(&self) -> f64 {
-        self.from_s() - BEFORE_S
+        self.begins_s() - BEFORE_S
     }
 
     /// Rows up to this time are needed for the next reading [s]
@@ -68,14 +68,14 @@ impl Watch {
         (self.window + 1) as f64 * self.rule.window_s
     }
 
-    fn from_s(&self) -> f64 {
+    fn begins_s(&self) -> f64 {
         self.window as f64 * self.rule.window_s
     }
 
     /// Reads the next window off a run whose times are those since the watch began, and which has the rows that are needed.
     /// Where the window has no rows, it goes on to the one that has the next row, and tells nothing.
     pub fn read(&mut self, run: &Run) -> Option<Reading> {
-        let (from_s, to_s) = (self.from_s(), self.to_s());
+        let (from_s, to_s) = (self.begins_s(), self.to_s());
         let here = rows(run, from_s..to_s);
         if here.is_empty() {
             let next = run.t_s.get(here.end).map_or(self.window + 1, |t| (t / self.rule.window_s) as u64);
