@@ -51,31 +51,33 @@ const LEAKAGE: usize = 2;
 const MOST_LINES: usize = 3;
 
 /// An order fitted.
-#[derive(Clone, Copy, Debug, Default)]
-struct Fitted {
+#[derive(Clone, Copy, Debug)]
+struct Fitted<const M: usize> {
     samples: usize,
-    /// Of the residual before a cause is taken up.
+    /// Of what the first of so many models leaves.
     power: f64,
-    amplitude: [f64; MODELS],
+    /// Of what each of them leaves.
+    amplitude: [f64; M],
 }
 
 /// The spectrum that shows most, and how plainly; `None` where no order stands out.
 pub(super) fn strongest(all: &[Beats], settings: &ShapeSettings) -> Option<(f64, Shape)> {
-    let spectra: Vec<(&Beats, Vec<Fitted>)> =
-        all.iter().map(|beats| (beats, spectrum(&beats.beats, settings.highest_order))).collect();
+    let spectra: Vec<(&Beats, Vec<Fitted<1>>)> =
+        all.iter().map(|beats| (beats, spectrum(&beats.beats, settings.highest_order, [BEFORE]))).collect();
     let looked_at = spectra.iter().flat_map(|(_, orders)| orders).filter(|order| order.samples >= FEWEST).count();
     let seen = spectra.iter().filter_map(|(beats, orders)| told(beats, orders, looked_at, settings));
     seen.max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Every order from one on.
-fn spectrum(beats: &[Beat], highest: usize) -> Vec<Fitted> {
+/// Every order from one on, of what these models leave.
+fn spectrum<const M: usize>(beats: &[Beat], highest: usize, models: [usize; M]) -> Vec<Fitted<M>> {
     // of cos², sin², cos·sin, and of each residual with cos and sin
-    let mut sums = vec![([0.0; 3], [[0.0; 2]; MODELS], 0_usize); highest];
+    let mut sums = vec![([0.0; 3], [[0.0; 2]; M], 0_usize); highest];
     for beat in beats {
         let (sin, cos) = beat.angle.sin_cos();
         let (mut c, mut s) = (1.0, 0.0);
         let (first, last) = beat.orders;
+        let left = models.map(|model| beat.residual[model]);
         for (k, (own, with, n)) in sums.iter_mut().enumerate() {
             (c, s) = (c * cos - s * sin, c * sin + s * cos);
             let order = (k + 1) as f64;
@@ -86,7 +88,7 @@ fn spectrum(beats: &[Beat], highest: usize) -> Vec<Fitted> {
                 continue;
             }
             *own = [own[0] + c * c, own[1] + s * s, own[2] + c * s];
-            for (with, r) in with.iter_mut().zip(beat.residual) {
+            for (with, r) in with.iter_mut().zip(left) {
                 *with = [with[0] + c * r, with[1] + s * r];
             }
             *n += 1;
@@ -96,21 +98,17 @@ fn spectrum(beats: &[Beat], highest: usize) -> Vec<Fitted> {
         .map(|([cc, ss, cs], with, samples)| {
             let size = cc * ss - cs * cs;
             if samples < FEWEST || size <= 1e-3 * cc * ss {
-                return Fitted::default();
+                return Fitted { samples: 0, power: 0.0, amplitude: [0.0; M] };
             }
             let solved = with.map(|[c, s]| [(c * ss - s * cs) / size, (s * cc - c * cs) / size]);
-            let [c, s] = with[BEFORE];
-            Fitted {
-                samples,
-                power: 0.5 * (solved[BEFORE][0] * c + solved[BEFORE][1] * s),
-                amplitude: solved.map(|[a, b]| a.hypot(b)),
-            }
+            let ([c, s], [a, b]) = (with[0], solved[0]);
+            Fitted { samples, power: 0.5 * (a * c + b * s), amplitude: solved.map(|[a, b]| a.hypot(b)) }
         })
         .collect()
 }
 
 /// What noise would be at an order, by its neighbours, and how many they are.
-fn noise(orders: &[Fitted], at: usize, reach: usize) -> (f64, usize) {
+fn noise<const M: usize>(orders: &[Fitted<M>], at: usize, reach: usize) -> (f64, usize) {
     let near = at.saturating_sub(reach)..(at + reach + 1).min(orders.len());
     let neighbours = near.filter(|k| k.abs_diff(at) > LEAKAGE && orders[*k].samples >= FEWEST);
     let mut powers: Vec<f64> = neighbours.map(|k| orders[k].power).collect();
@@ -118,7 +116,7 @@ fn noise(orders: &[Fitted], at: usize, reach: usize) -> (f64, usize) {
     (powers.get(powers.len() / 2).copied().unwrap_or(0.0) / MEDIAN, powers.len())
 }
 
-fn told(beats: &Beats, orders: &[Fitted], looked_at: usize, settings: &ShapeSettings) -> Option<(f64, Shape)> {
+fn told(beats: &Beats, orders: &[Fitted<1>], looked_at: usize, settings: &ShapeSettings) -> Option<(f64, Shape)> {
     let quotient = |k: usize| {
         let (noise, neighbours) = noise(orders, k, settings.order_neighbours);
         let worth = WORTH_IN_A_MEDIAN * neighbours as f64;
@@ -145,9 +143,10 @@ fn told(beats: &Beats, orders: &[Fitted], looked_at: usize, settings: &ShapeSett
     let amplitude = |power: f64, samples: usize| (4.0 * power / samples as f64).sqrt();
     let square: f64 = beats.beats.iter().map(|beat| beat.residual[BEFORE].powi(2)).sum();
     let held: f64 = kept.iter().map(|(k, ..)| 2.0 * orders[*k].power).sum();
-    let bins = orders.iter().enumerate().filter(|(_, order)| order.samples >= FEWEST).map(|(k, order)| {
+    let told = spectrum(&beats.beats, orders.len(), [BEFORE, NOMINAL, CORRECTED]);
+    let bins = told.iter().enumerate().filter(|(_, order)| order.samples >= FEWEST).map(|(k, order)| {
         let half = 2.0 * amplitude(noise, order.samples) / std::f64::consts::SQRT_2;
-        let [before, nominal, corrected] = [BEFORE, NOMINAL, CORRECTED].map(|model| order.amplitude[model]);
+        let [before, nominal, corrected] = order.amplitude;
         let interval = |x: f64| [(x - half).max(0.0), x + half];
         ShapeBin {
             low: (k + 1) as f64,

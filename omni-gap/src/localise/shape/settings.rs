@@ -47,7 +47,7 @@ impl Default for ShapeSettings {
             window_rows: 5,
             independent_s: 0.25,
             settled_s: 0.1,
-            least_s: 15.0,
+            least_s: 12.0,
             most_s: 60.0,
             bins: 14,
             fewest_independent: 8,
