@@ -132,7 +132,7 @@
       const options = {
         width: figure.clientWidth || 420,
         height: HEIGHT,
-        padding: [8, over.unit.length > 1 ? 24 : 8, 0, 0],
+        padding: [8, over.unit.length > 1 ? 34 : 8, 0, 0],
         legend: { show: false },
         scales: { x: { time: false }, ...(intervals.length ? { y: { range: around(intervals, series) } } : {}) },
         cursor: {
