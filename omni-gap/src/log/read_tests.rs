@@ -75,7 +75,8 @@ fn each_mistake_in_a_log_has_its_line_and_column() {
 #[test]
 fn more_mistakes_are_told() {
     let told = |text: &[u8]| read(text, 3).unwrap_err().to_string();
-    assert!(told(b"t_s,u0_V\n0,\xff\n").contains("a.csv:2: found bytes that are not UTF-8"));
+    assert!(told(b"t_s,x_m,\xff,theta_rad\n0,1,1,1\n").contains("a.csv:1: found bytes that are not UTF-8"));
+    assert!(told(b"t_s,x_m,y_m,theta_rad\n0,1,1,1\n1,1,\xff,1\n").contains("a.csv:3: found bytes that are not UTF-8"));
     assert!(told(b"t_s,x_m,y_m\n0,1,1\n").contains("column `theta_rad`: the column is missing"));
     assert!(told(b"t_s,x_m,x_m\n0,1,1\n").contains("a.csv:1: column `x_m`: the column stands twice"));
     assert!(told(b"t_s,x_m,y_m,theta_rad\n0,,,\n1,,,\n").contains("every signal is empty throughout"));

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ExcerptKnobs {
-    /// Rows that an answer rests on, at the most [rows]: two minutes at 500 rows a second, which ten minutes would not better.
+    /// Rows that an answer rests on, at the most [rows]: a limit of time; two minutes at 500 rows a second.
     pub most_rows: usize,
     /// Into how many pieces these are cut [pieces]: many places of the recording, each long enough to get going.
     pub pieces: usize,
