@@ -6,24 +6,18 @@
 
 mod choose;
 mod looked;
+mod piece;
 mod situations;
 
 use std::borrow::Cow;
-use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::knobs::ExcerptKnobs;
 use crate::log::Run;
 use crate::simulate::AlignedRun;
+use piece::{Piece, cut};
 use situations::Situations;
-
-/// Consecutive rows of one of the runs.
-#[derive(Clone, Debug, PartialEq)]
-struct Piece {
-    run: usize,
-    rows: Range<usize>,
-}
 
 /// The runs, or pieces that stand for them where they have more than `most_rows` rows; then a sentence says what was left out.
 pub(super) fn excerpt<'a>(runs: &'a [Run], most_rows: usize, knobs: &ExcerptKnobs) -> (Cow<'a, [Run]>, Option<String>) {
@@ -72,16 +66,6 @@ pub(super) fn telling_first<const N: usize>(runs: Vec<AlignedRun<N>>, knobs: &Ex
     let order = choose::choose(&looks, &vec![0; runs.len()], 0);
     let mut runs: Vec<Option<AlignedRun<N>>> = runs.into_iter().map(Some).collect();
     order.into_iter().filter_map(|run| runs[run].take()).collect()
-}
-
-/// The runs in equal pieces of at most so many rows.
-fn cut(runs: &[Run], most: usize) -> Vec<Piece> {
-    let of_run = |(run, recorded): (usize, &Run)| {
-        let rows = recorded.rows();
-        let pieces = rows.div_ceil(most).max(1);
-        (0..pieces).map(move |k| Piece { run, rows: rows * k / pieces..rows * (k + 1) / pieces })
-    };
-    runs.iter().enumerate().flat_map(of_run).collect()
 }
 
 #[cfg(test)]

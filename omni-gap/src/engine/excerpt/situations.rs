@@ -3,12 +3,9 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::Piece;
 use super::looked::{Looked, Signal};
+use super::piece::Piece;
 use crate::engine::knobs::ExcerptKnobs;
-
-/// Looks by which the range of a signal is known well enough, about [looks].
-const LOOKS_FOR_A_RANGE: usize = 50_000;
 
 /// What there is to meet.
 pub(super) struct Situations<'a> {
@@ -58,21 +55,16 @@ impl<'a> Situations<'a> {
 
     /// The range of a signal, and of its change, a few looks at either end left out.
     fn ranges(&self, name: &str) -> [Range<f64>; 2] {
-        let every = self.rows.div_ceil(LOOKS_FOR_A_RANGE);
         let mut seen = [Vec::new(), Vec::new()];
         for run in &self.runs {
             let Some(signal) = run.signals.iter().find(|signal| signal.name == name) else { continue };
-            let mut looks = 0;
             self.look(run.t_s, signal, 0..run.t_s.len(), |level, change| {
-                looks += 1;
-                if looks % every == 0 {
-                    seen[0].push(level);
-                    seen[1].push(change);
-                }
+                seen[0].push(level);
+                seen[1].push(change);
             });
         }
         seen.map(|mut values| {
-            values.sort_by(f64::total_cmp);
+            values.sort_unstable_by(f64::total_cmp);
             let left_out = (values.len() as f64 * self.knobs.beyond) as usize;
             let inner = values.get(left_out).zip(values.len().checked_sub(left_out + 1).and_then(|k| values.get(k)));
             inner.map_or(0.0..0.0, |(low, high)| *low..*high)

@@ -5,15 +5,13 @@ use super::choose::choose;
 use super::*;
 use crate::log::{Channel, Group};
 
-const ROWS: usize = 10_000;
-
 /// A run at 100 rows a second whose wheel stands still, but for what `moves` says of each row.
-fn standing(moves: impl Fn(usize) -> f64) -> Run {
-    let wheel = Channel::from_values((0..ROWS).map(moves));
-    let still = Channel::from_values(vec![0.0; ROWS]);
+fn standing(rows: usize, moves: impl Fn(usize) -> f64) -> Run {
+    let wheel = Channel::from_values((0..rows).map(moves));
+    let still = Channel::from_values(vec![0.0; rows]);
     Run {
         name: "drive".into(),
-        t_s: (0..ROWS).map(|row| 0.01 * row as f64).collect(),
+        t_s: (0..rows).map(|row| 0.01 * row as f64).collect(),
         w: Some(Group::new(vec![wheel, still.clone(), still])),
         first_line: Some(2),
         ..Run::default()
@@ -22,15 +20,15 @@ fn standing(moves: impl Fn(usize) -> f64) -> Run {
 
 #[test]
 fn what_is_short_enough_is_left_as_it_is() {
-    let runs = [standing(|_| 0.0)];
-    let (same, told) = excerpt(&runs, ROWS, &ExcerptKnobs::default());
+    let runs = [standing(10_000, |_| 0.0)];
+    let (same, told) = excerpt(&runs, 10_000, &ExcerptKnobs::default());
     assert!(matches!(same, Cow::Borrowed(_)) && told.is_none());
 }
 
 #[test]
 fn what_the_robot_does_once_is_among_the_pieces() {
     // two seconds of driving, 70 s after the start
-    let runs = [standing(|row| if (7_000..7_200).contains(&row) { 20.0 } else { 0.0 })];
+    let runs = [standing(10_000, |row| if (7_000..7_200).contains(&row) { 20.0 } else { 0.0 })];
     let knobs = ExcerptKnobs { pieces: 5, ..ExcerptKnobs::default() };
     let (pieces, told) = excerpt(&runs, 1_000, &knobs);
     assert_eq!(pieces.iter().map(Run::rows).sum::<usize>(), 1_000);
@@ -49,9 +47,9 @@ fn what_the_robot_does_once_is_among_the_pieces() {
 
 #[test]
 fn a_heading_counts_within_its_turn() {
-    let spin = Channel::from_values((0..ROWS).map(|row| 0.02 * row as f64));
-    let still = Channel::from_values(vec![0.0; ROWS]);
-    let run = Run { pose: Some(Group::new(vec![still.clone(), still, spin])), ..standing(|_| 0.0) };
+    let spin = Channel::from_values((0..10_000).map(|row| 0.02 * row as f64));
+    let still = Channel::from_values(vec![0.0; 10_000]);
+    let run = Run { pose: Some(Group::new(vec![still.clone(), still, spin])), ..standing(10_000, |_| 0.0) };
     let knobs = ExcerptKnobs { pieces: 2, ..ExcerptKnobs::default() };
     let runs = [run];
     let situations = Situations::of(&runs, &knobs);
