@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use crate::simulate::{AlignedRun, FreeRun, HORIZON_S, MAX_CHANNELS, PerGroup, Row, SignalGroup, predict};
+use crate::simulate::{AlignedRun, FreeRun, HORIZON_S, MAX_CHANNELS, PerGroup, Row, RowPassed, SignalGroup, predict};
 
 /// Lengths between restarts of the horizon curves [s]
 pub const HORIZONS_S: [f64; 5] = [0.1, 0.25, HORIZON_S, 1.0, 2.0];
@@ -97,14 +97,21 @@ pub(super) fn replayed<const N: usize>(
     runs.par_iter().enumerate().map(replayed).collect()
 }
 
-/// A run of the same input and the same holes as that which a plant is about to go along, simulated from it with the sensors'
-/// noise: of its sigma, and with its memory.
+/// A run of the same input and the same holes as that which a plant is about to go along, as the plant says it.
+pub(super) fn quiet<const N: usize>(mut on_the_way: FreeRun<'_, N, f64>) -> AlignedRun<N> {
+    let run = on_the_way.run();
+    let mut quiet = run.clone();
+    let each = |row: usize, passed: &RowPassed<N, f64>| quiet.measured[row] = run.row_of(passed);
+    on_the_way.drive(0..run.rows(), &[0], |row| run.input(row), each);
+    quiet
+}
+
+/// The same with the sensors' noise: of its sigma, and with its memory.
 ///
 /// ```text
 /// n_k = ρ·n_{k−1} + σ·√(1 − ρ²)·e_k,  ρ = e^(−Δt/τ)
 /// ```
-pub fn replay<const N: usize>(mut on_the_way: FreeRun<'_, N, f64>, seed: u64) -> AlignedRun<N> {
-    let run = on_the_way.run();
+pub fn replay<const N: usize>(on_the_way: FreeRun<'_, N, f64>, seed: u64) -> AlignedRun<N> {
     // a stream for each channel: one more of them changes nothing of the others
     let stream = |channel: usize| {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -112,29 +119,22 @@ pub fn replay<const N: usize>(mut on_the_way: FreeRun<'_, N, f64>, seed: u64) ->
         random
     };
     let mut random: Vec<ChaCha8Rng> = (0..AlignedRun::<N>::channels().count()).map(stream).collect();
-    let mut replayed = run.clone();
+    let mut replayed = quiet(on_the_way);
     let mut noise: Option<Row> = None;
-    on_the_way.drive(
-        0..run.rows(),
-        &[0],
-        |row| run.input(row),
-        |row, passed| {
-            let mut says = run.row_of(passed);
-            let mut now = [0.0; MAX_CHANNELS];
-            for (c, random) in random.iter_mut().enumerate() {
-                let fresh: f64 = StandardNormal.sample(random);
-                now[c] = match noise {
-                    Some(before) if run.correlation_time[c] > 0.0 => {
-                        let ratio = (run.t[row] - run.t[row - 1]) / run.correlation_time[c];
-                        (-ratio).exp() * before[c] + (-(-2.0 * ratio).exp_m1()).sqrt() * fresh
-                    }
-                    _ => fresh,
-                };
-                says[c] += run.sigma[c] * now[c];
-            }
-            noise = Some(now);
-            replayed.measured[row] = says;
-        },
-    );
+    for row in 0..replayed.rows() {
+        let mut now = [0.0; MAX_CHANNELS];
+        for (c, random) in random.iter_mut().enumerate() {
+            let fresh: f64 = StandardNormal.sample(random);
+            now[c] = match noise {
+                Some(before) if replayed.correlation_time[c] > 0.0 => {
+                    let ratio = (replayed.t[row] - replayed.t[row - 1]) / replayed.correlation_time[c];
+                    (-ratio).exp() * before[c] + (-(-2.0 * ratio).exp_m1()).sqrt() * fresh
+                }
+                _ => fresh,
+            };
+            replayed.measured[row][c] += replayed.sigma[c] * now[c];
+        }
+        noise = Some(now);
+    }
     replayed
 }

@@ -121,9 +121,7 @@ fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horizon: 
         by_current: rows(plant, run, horizon, |row| {
             measured(run, row, SignalGroup::Current).map_or(run.input(row), Input::Current)
         }),
-        by_speed: rows(plant, run, horizon, |row| {
-            measured(run, row, SignalGroup::WheelSpeed).map_or(run.input(row), Input::Speed)
-        }),
+        by_speed: by_speeds(plant, run, horizon),
     };
     let (motor, channels) = (&plant.robot().motor, AlignedRun::<N>::channels());
     let ends = 0..channels.of(SignalGroup::Pose).end;
@@ -166,6 +164,12 @@ fn subsets<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horizon: 
         }
     }
     sums
+}
+
+/// What a model says of a run whose wheels turn as measured; where they were not, it is driven by the recorded input.
+pub(super) fn by_speeds<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horizon: f64) -> Vec<Row> {
+    let speeds = |row| measured(run, row, SignalGroup::WheelSpeed).map_or(run.input(row), Input::Speed);
+    rows(plant, run, horizon, speeds)
 }
 
 /// The measured currents or wheel speeds of a row, if all are there.

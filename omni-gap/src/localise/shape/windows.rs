@@ -3,7 +3,7 @@
 //! A window starts from a smoothed measurement, which is wrong where a speed bends. How wrong is told by the same windows of a
 //! recording that the corrected model makes of itself, without noise: what it leaves there is nobody's residual and is taken off.
 
-use model_core::plant::{Input, Plant};
+use model_core::plant::Plant;
 use rayon::prelude::*;
 
 use super::beats::Rows;
@@ -13,7 +13,9 @@ use super::order::Beats;
 use super::residual::Residuals;
 use super::settings::ShapeSettings;
 use super::window::{MODELS, Window};
-use crate::simulate::{AlignedRun, Chain, Prediction, Row, SignalGroup, free_run, predict};
+use crate::localise::gap::quiet;
+use crate::localise::links::by_speeds;
+use crate::simulate::{AlignedRun, Chain, FreeRun, Prediction, Row, SignalGroup, predict};
 
 /// The models whose residuals are laid over features.
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +90,7 @@ struct OneRun<'a, const N: usize> {
 impl<'a, const N: usize> OneRun<'a, N> {
     fn of(models: &'a Models<'a, N>, run: &'a AlignedRun<N>, horizon_s: f64) -> Self {
         let told = predict(models.corrected, run, horizon_s);
-        Self { models, run, horizon_s, told, quiet: quiet(models.corrected, run) }
+        Self { models, run, horizon_s, told, quiet: quiet(FreeRun::new(models.corrected, run)) }
     }
 
     fn windowed(&self, first_cluster: usize, settings: &ShapeSettings) -> Windowed {
@@ -161,25 +163,6 @@ impl<'a, const N: usize> OneRun<'a, N> {
 fn rows_of_windows(restarts: &[usize], rows: usize) -> impl Iterator<Item = std::ops::Range<usize>> {
     let ends = restarts.iter().copied().skip(1).chain(std::iter::once(rows));
     restarts.iter().copied().zip(ends).map(|(first, end)| first..end)
-}
-
-/// A run of the same input and the same holes as the model makes it, without noise.
-fn quiet<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>) -> AlignedRun<N> {
-    let mut quiet = run.clone();
-    free_run(plant, run, &[0], |row| run.input(row), |row, passed| quiet.measured[row] = run.row_of(passed));
-    quiet
-}
-
-/// What a model says of a run whose wheels turn as measured.
-fn by_speeds<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horizon_s: f64) -> Vec<Row> {
-    let speeds = AlignedRun::<N>::channels().of(SignalGroup::WheelSpeed);
-    let input = |row: usize| {
-        let whole = speeds.clone().all(|c| run.saw(row, c));
-        if whole { Input::Speed(std::array::from_fn(|j| run.measured[row][speeds.start + j])) } else { run.input(row) }
-    };
-    let mut rows = Vec::with_capacity(run.rows());
-    free_run(plant, run, &run.restart_rows(horizon_s), input, |_, passed| rows.push(run.row_of(passed)));
-    rows
 }
 
 fn median(values: &[f64]) -> f64 {
