@@ -31,13 +31,24 @@ impl AnswerForm {
 
 /// Says an answer as JSON.
 pub fn say_json(console: &Console, answer: &impl Serialize) -> Result<(), CliError> {
-    console.say(&json(answer, Path::new("standard output"), "Ask without --json, and tell the makers of omni-gap")?)
+    console.say(&json(answer, Path::new(STANDARD_OUTPUT), WITHOUT_JSON)?)
 }
+
+/// One line of an answer that has no end of its own, as JSON.
+pub fn json_line(line: &impl Serialize) -> Result<String, CliError> {
+    written(serde_json::to_string(line), Path::new(STANDARD_OUTPUT), WITHOUT_JSON)
+}
+
+const STANDARD_OUTPUT: &str = "standard output";
+const WITHOUT_JSON: &str = "Ask without --json, and tell the makers of omni-gap";
 
 /// The text of an answer as JSON, for a place; what cannot be written is told with what to do about it.
 pub fn json(answer: &impl Serialize, place: &Path, fix: &str) -> Result<String, CliError> {
-    let json = serde_json::to_string_pretty(answer).map_err(|why| Error::output(place, why.to_string(), fix))?;
-    Ok(json + "\n")
+    written(serde_json::to_string_pretty(answer), place, fix)
+}
+
+fn written(json: serde_json::Result<String>, place: &Path, fix: &str) -> Result<String, CliError> {
+    Ok(json.map_err(|why| Error::output(place, why.to_string(), fix))? + "\n")
 }
 
 /// A run that was written.

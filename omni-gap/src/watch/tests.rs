@@ -5,7 +5,7 @@ use std::path::Path;
 use model_core::effects::EffectKind;
 use model_core::plant::Input;
 
-use super::window::{part, rows};
+use super::window::rows;
 use super::{Reading, Rule, Watch};
 use crate::log::{Catalogue, Channel, EffectEntry, RobotFile, Run};
 use crate::simulate::{EffectInstance, Excitation, Model, SensorSetup, excite, record};
@@ -49,7 +49,7 @@ fn watched(robot: &RobotFile, run: &Run, rule: Rule) -> Vec<Reading> {
     let mut watch = Watch::new(robot, rule);
     let mut readings = Vec::new();
     while run.t_s.last().is_some_and(|last| *last >= watch.needs_to_s()) {
-        let shown = part(run, rows(run, watch.needs_from_s()..watch.needs_to_s() + 1.0 / RATE));
+        let shown = run.part(rows(run, watch.needs_from_s()..watch.needs_to_s() + 1.0 / RATE));
         readings.extend(watch.read(&shown));
     }
     readings

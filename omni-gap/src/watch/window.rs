@@ -36,7 +36,7 @@ impl<const N: usize> Window<N> {
         turned: Option<[f64; N]>,
     ) -> Option<Self> {
         let around = rows(run, between.start - BEFORE_S..between.end + AFTER_S);
-        let part = part(run, around);
+        let part = run.part(around);
         let mut laid = AlignedRun::<N>::new(&part, robot)?;
         let began_s = part.t_s.get(part.driven_span().start)?;
         laid.t.iter_mut().for_each(|t| *t += began_s);
@@ -61,14 +61,6 @@ impl<const N: usize> Window<N> {
 pub fn rows(run: &Run, between: Range<f64>) -> Range<usize> {
     let at = |time: f64| run.t_s.partition_point(|t| *t < time - ROUNDED_S);
     at(between.start)..at(between.end)
-}
-
-/// Some rows of a run.
-pub fn part(run: &Run, rows: Range<usize>) -> Run {
-    let channel = |channel: &Channel| rows.clone().map(|row| channel.get(row)).collect::<Channel>();
-    let mut part = run.with_channels(|_, of| Some(channel(of)));
-    part.t_s = run.t_s[rows].to_vec();
-    part
 }
 
 /// Those of some rows on which nothing at all is there: their records got lost.

@@ -1,15 +1,12 @@
 //! A window a line: for a pipe, a file, a program.
 
-use std::path::Path;
-
-use omni_gap::Error;
 use omni_gap::api::{News, Watched};
 use omni_gap::watch::{Reading, Rule};
 use omni_gap::wire::source::End;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::commands::answer::SCHEMA;
+use crate::commands::answer::{SCHEMA, json_line};
 use crate::commands::cli_error::CliError;
 use crate::commands::console::Console;
 
@@ -111,14 +108,7 @@ impl<'a> Lines<'a> {
     }
 
     fn json(&self, line: &Line) -> Result<bool, CliError> {
-        let text = serde_json::to_string(line).map_err(|why| {
-            Error::output(
-                Path::new("standard output"),
-                why.to_string(),
-                "Ask without --json, and tell the makers of omni-gap",
-            )
-        })?;
-        self.console.say_while_heard(&(text + "\n"))
+        self.console.say_while_heard(&json_line(line)?)
     }
 }
 
