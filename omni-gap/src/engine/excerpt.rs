@@ -11,8 +11,6 @@ mod situations;
 
 use std::borrow::Cow;
 
-use rayon::prelude::*;
-
 use super::knobs::ExcerptKnobs;
 use crate::log::Run;
 use crate::simulate::AlignedRun;
@@ -27,7 +25,7 @@ pub(super) fn excerpt<'a>(runs: &'a [Run], most_rows: usize, knobs: &ExcerptKnob
     }
     let pieces = cut(runs, (most_rows / knobs.pieces).max(2));
     let situations = Situations::of(runs, knobs);
-    let looks: Vec<Vec<u32>> = pieces.par_iter().map(|piece| situations.looks(piece)).collect();
+    let looks = situations.looks_of(&pieces);
     let lengths: Vec<usize> = pieces.iter().map(|piece| piece.rows.len()).collect();
     let mut taken = choose::choose(&looks, &lengths, most_rows);
     taken.sort_unstable();
@@ -60,9 +58,7 @@ pub(super) fn telling_first<const N: usize>(runs: Vec<AlignedRun<N>>, knobs: &Ex
     }
     let whole = |(run, laid): (usize, &AlignedRun<N>)| Piece { run, rows: 0..laid.rows() };
     let pieces: Vec<Piece> = runs.iter().enumerate().map(whole).collect();
-    let situations = Situations::of(&runs, knobs);
-    let looks: Vec<Vec<u32>> = pieces.par_iter().map(|piece| situations.looks(piece)).collect();
-    drop(situations);
+    let looks = Situations::of(&runs, knobs).looks_of(&pieces);
     let order = choose::choose(&looks, &vec![0; runs.len()], 0);
     let mut runs: Vec<Option<AlignedRun<N>>> = runs.into_iter().map(Some).collect();
     order.into_iter().filter_map(|run| runs[run].take()).collect()

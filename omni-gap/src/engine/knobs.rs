@@ -262,7 +262,7 @@ impl Default for LayoutKnobs {
 impl Default for ScreenKnobs {
     fn default() -> Self {
         Self {
-            runs: 4,
+            runs: ExcerptKnobs::default().few_runs,
             least_s: 12.0,
             most_s: 80.0,
             most_rows: 20_000,

@@ -15,12 +15,13 @@ pub(super) fn choose(looks: &[Vec<u32>], rows: &[usize], most_rows: usize) -> Ve
     let (mut taken, mut room) = (Vec::new(), most_rows);
     loop {
         left.retain(|piece| rows[*piece] <= room);
-        let gain = |piece: &usize| -> f64 {
-            let each = met.iter().zip(&looks[*piece]).filter(|(_, more)| **more > 0);
+        let gain = |piece: usize| -> f64 {
+            let each = met.iter().zip(&looks[piece]).filter(|(_, more)| **more > 0);
             each.map(|(n, more)| ((n + u64::from(*more)) as f64).sqrt() - (*n as f64).sqrt()).sum()
         };
         // of equals the first
-        let Some(best) = left.iter().copied().rev().max_by(|a, b| gain(a).total_cmp(&gain(b))) else { break };
+        let gains = left.iter().rev().map(|piece| (*piece, gain(*piece)));
+        let Some((best, _)) = gains.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
         met.iter_mut().zip(&looks[best]).for_each(|(n, more)| *n += u64::from(*more));
         room -= rows[best];
         left.retain(|piece| *piece != best);

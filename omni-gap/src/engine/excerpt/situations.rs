@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use super::looked::{Looked, Signal};
 use super::piece::Piece;
 use crate::engine::knobs::ExcerptKnobs;
@@ -69,6 +71,11 @@ impl<'a> Situations<'a> {
             let inner = values.get(left_out).zip(values.len().checked_sub(left_out + 1).and_then(|k| values.get(k)));
             inner.map_or(0.0..0.0, |(low, high)| *low..*high)
         })
+    }
+
+    /// How often each of some pieces looks at each.
+    pub fn looks_of(&self, pieces: &[Piece]) -> Vec<Vec<u32>> {
+        pieces.par_iter().map(|piece| self.looks(piece)).collect()
     }
 
     /// How often a piece looks at each.
