@@ -119,31 +119,44 @@ async function switches(page) {
   return faults;
 }
 
-// dragging over one chart, and the buttons, change the time of all; “all” brings the whole stretch back
+// dragging over one chart of a group, and the group's buttons, change the stretch of all; “all” brings the whole back
 async function zoom(page) {
   const faults = [];
-  const over = page.locator(".u-over").first();
-  if ((await over.count()) === 0) return faults;
+  for (const group of await page.locator(".time").all()) {
+    const around = group.locator("xpath=ancestor::*[.//*[contains(@class, 'u-over')]][1]");
+    if ((await around.count()) === 0) continue;
+    const title = await around.locator("figcaption").first().textContent();
+    faults.push(...(await zoomed(page, group, around)).map((fault) => `${fault}: ${title}`));
+  }
+  return faults;
+}
+
+async function zoomed(page, group, around) {
+  const faults = [];
+  const over = around.locator(".u-over").first();
   const before = await page.evaluate(drawn);
+  const changes = async (act, fault) => {
+    await act();
+    await page.mouse.move(0, 0);
+    await page.waitForTimeout(50);
+    if ((await page.evaluate(drawn)) === before) faults.push(fault);
+    await group.getByRole("button", { name: "the whole stretch" }).click();
+    await page.mouse.move(0, 0);
+    await page.waitForTimeout(50);
+    if ((await page.evaluate(drawn)) !== before) faults.push("“all” does not bring the whole stretch back");
+  };
   await over.scrollIntoViewIfNeeded();
   const box = await over.boundingBox();
   const y = box.y + box.height / 2;
-  await page.mouse.move(box.x + 0.3 * box.width, y);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 0.6 * box.width, y, { steps: 4 });
-  await page.mouse.up();
-  await page.waitForTimeout(50);
-  if ((await page.evaluate(drawn)) === before) faults.push("dragging does not zoom");
-  if ((await page.locator(".read").first().textContent()) === "") faults.push("nothing is read under the pointer");
-  const group = page.locator(".time").first();
-  await group.getByRole("button", { name: "the whole stretch" }).click();
-  await page.mouse.move(0, 0);
-  await page.waitForTimeout(50);
-  if ((await page.evaluate(drawn)) !== before) faults.push("“all” does not bring the whole stretch back");
-  await group.getByRole("button", { name: "closer" }).click();
-  await page.waitForTimeout(50);
-  if ((await page.evaluate(drawn)) === before) faults.push("“closer” does not zoom");
-  await group.getByRole("button", { name: "the whole stretch" }).click();
+  await changes(async () => {
+    await page.mouse.move(box.x + 0.3 * box.width, y);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 0.6 * box.width, y, { steps: 4 });
+    await page.mouse.up();
+    await page.waitForTimeout(50);
+    if ((await around.locator(".read").first().textContent()) === "") faults.push("nothing is read under the pointer");
+  }, "dragging does not zoom");
+  await changes(() => group.getByRole("button", { name: "closer" }).click(), "“closer” does not zoom");
   return faults;
 }
 

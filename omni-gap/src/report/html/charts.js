@@ -3,7 +3,9 @@
 // this makes a chart of uPlot's.
 (() => {
   "use strict";
-  const HEIGHT = 180, GUTTER = 46, STEP = 0.25, CLOSEST = 8;
+  const HEIGHT = 180, GUTTER = 46, STEP = 0.25;
+  // the least that is shown: so many points, or this share of a chart that has few
+  const FEWEST = 16, LEAST = 0.25;
 
   const ink = (name, of) => getComputedStyle(of).getPropertyValue(name).trim();
   const shown = (value) => (value == null ? "–" : Number(value.toPrecision(4)).toString());
@@ -100,7 +102,8 @@
     scale(factor) {
       const [from, to] = this.range ?? this.whole;
       const [first, last] = this.whole;
-      const half = Math.max(0.5 * factor * (to - from), CLOSEST * this.step);
+      const least = Math.min(FEWEST * this.step, LEAST * (last - first));
+      const half = 0.5 * Math.max(factor * (to - from), least);
       const middle = 0.5 * (from + to);
       const next = [Math.max(first, middle - half), Math.min(last, middle + half)];
       this.show(next[0] <= first && next[1] >= last ? null : next);
