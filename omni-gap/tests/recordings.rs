@@ -133,6 +133,35 @@ fn ros_2_in_sqlite_with_definitions_and_without() {
 }
 
 #[test]
+fn a_recording_of_ros_2_that_was_split_is_one() {
+    // as a folder of a run with [[file]] tables, and with a pattern that fits each of its files
+    assert_same(&opened("ros2-split", &[TOPICS, POSE].concat()).unwrap().0, "ros2-split");
+    let by_pattern = [TOPICS, POSE].concat().replace("[[file]]", "[[file]]\nname = \"ros2-split*\"");
+    let (run, notices) = opened("ros2-split", &by_pattern).unwrap();
+    assert_same(&run, "by pattern");
+    assert!(notices.iter().all(|notice| !notice.contains("left out")), "{notices:?}");
+    // one part alone is what it is
+    let part = opened("ros2-split/ros2-split_1.mcap", &[TOPICS, POSE].concat()).unwrap().0;
+    assert!(part.rows() < expected().rows(), "{}", part.rows());
+    let told = Run::open(&folder().join("ros2-split"), &robot(), None).unwrap_err().to_string();
+    assert!(told.contains("several topics") && told.contains("`/voltages` (60, "), "{told}");
+}
+
+#[test]
+fn a_split_recording_that_lacks_a_file_is_refused_with_its_name() {
+    let to = tempfile::tempdir().unwrap();
+    let spoiled = |metadata: &str| {
+        std::fs::write(to.path().join("metadata.yaml"), metadata).unwrap();
+        let columns = Columns::parse(&[TOPICS, POSE].concat(), Path::new("columns.toml")).unwrap();
+        Run::open(to.path(), &robot(), Some(&columns)).unwrap_err().to_string()
+    };
+    let whole = std::fs::read_to_string(folder().join("ros2-split/metadata.yaml")).unwrap();
+    assert!(spoiled(&whole).contains("lists `ros2-split_0.mcap`, which is not in the folder"));
+    assert!(spoiled("a: [").contains("is no YAML"));
+    assert!(spoiled("a: 1").contains("rosbag2_bagfile_information.relative_file_paths"));
+}
+
+#[test]
 fn ros_1_of_every_compression() {
     for name in ["ros1-none.bag", "ros1-bz2.bag", "ros1-lz4.bag"] {
         assert_same(&opened(name, &[TOPICS, POSE].concat()).unwrap().0, name);

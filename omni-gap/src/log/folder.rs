@@ -10,7 +10,7 @@ use super::motion::Motion;
 use super::read::{open_bridges_apply_nothing, read};
 use super::robot_file::RobotFile;
 use super::run::Run;
-use super::source::holds_topics;
+use super::source::{METADATA, files_of_recording, holds_topics, is_folder_of_topics};
 use crate::error::{Error, InputKind, Result};
 use std::path::{Path, PathBuf};
 
@@ -31,7 +31,7 @@ impl Run {
             Some(columns) if holds_topics(path) && !columns.parts.is_empty() => {
                 of_files(path, robot, &topics(path, &columns.parts)?, Vec::new())
             }
-            _ if !path.is_dir() => Run::load(path, robot.wheel.len(), columns),
+            _ if !path.is_dir() || is_folder_of_topics(path) => Run::load(path, robot.wheel.len(), columns),
             _ => {
                 let problem =
                     "this is a folder, expected a run log, or a mapping with a [[file]] table for each file in it";
@@ -94,6 +94,8 @@ fn found<'a>(
 ) -> Result<Vec<(&'a FileTable, PathBuf)>> {
     let files = entries(folder)?.into_iter().filter(|(_, path)| !path.is_dir());
     let names: Vec<String> = files.map(|(name, _)| name).collect();
+    // files of one recording are that recording, which is the folder
+    let recording = if is_folder_of_topics(folder) { files_of_recording(folder)? } else { Vec::new() };
     let mut all = Vec::new();
     for table in tables {
         let mut fitting: Vec<&String> = names.iter().filter(|name| table.takes(&folder.join(name))).collect();
@@ -101,6 +103,9 @@ fn found<'a>(
             fitting.retain(|name| table.prefers(&folder.join(name)));
         }
         match fitting.as_slice() {
+            [_, _, ..] if fitting.iter().all(|name| recording.contains(&folder.join(name))) => {
+                all.push((table, folder.to_owned()));
+            }
             [name] => all.push((table, folder.join(name))),
             [] if table.optional => notices.push(format!("{}: no file {}", folder.display(), table.title())),
             [] => {
@@ -127,12 +132,9 @@ fn found<'a>(
             return Err(Error::input(path, problem, fix).of_kind(InputKind::Conflict));
         }
     }
-    // what a recorder of ROS 2 writes beside its recording
-    let unused = names
-        .iter()
-        .filter(|name| *name != "metadata.yaml")
-        .map(path_of)
-        .filter(|path| all.iter().all(|(_, used)| used != path));
+    let is_used =
+        |path: &PathBuf| all.iter().any(|(_, used)| used == path || used == folder && recording.contains(path));
+    let unused = names.iter().filter(|name| *name != METADATA).map(path_of).filter(|path| !is_used(path));
     notices.extend(unused.map(|path| format!("{}: no [[file]] names it, left out", path.display())));
     Ok(all)
 }

@@ -6,7 +6,7 @@ use super::correct::Change;
 use super::entries::entries;
 use super::robot_file::RobotFile;
 use super::run::Run;
-use super::source::is_log;
+use super::source::{is_folder_of_topics, is_log};
 use super::toml_walk::read_text;
 use crate::error::{Error, InputKind, Result};
 use std::path::{Path, PathBuf};
@@ -62,7 +62,8 @@ impl Session {
         let (mut session, columns) = Session::begun(robot, columns, catalogue)?;
         let mut paths = Vec::new();
         for path in runs {
-            match path.is_dir() && !columns.as_ref().is_some_and(|columns| columns.is_run(path)) {
+            let is_run = is_folder_of_topics(path) || columns.as_ref().is_some_and(|columns| columns.is_run(path));
+            match path.is_dir() && !is_run {
                 true => paths.extend(session.files_in(path, columns.as_ref())?),
                 false => paths.push(path.clone()),
             }
@@ -101,7 +102,7 @@ impl Session {
         for (name, path) in entries(folder)? {
             let fits = columns.map_or_else(|| is_log(&path), |columns| columns.takes(&name));
             let is_run = columns.is_some_and(|columns| !columns.parts.is_empty());
-            match path.is_dir() {
+            match path.is_dir() && !is_folder_of_topics(&path) {
                 false if fits => paths.push(path),
                 true if fits && is_run => paths.push(path),
                 true if !is_run => self.notices.push(format!(

@@ -5,6 +5,7 @@ use super::groups::Place;
 use super::series::Way;
 use super::tables::{self, Column, Table};
 use crate::error::{Error, InputKind, Result};
+use crate::log::source::is_folder_of_topics;
 use crate::log::{Channel, Missing, entries};
 use std::path::{Path, PathBuf};
 
@@ -71,7 +72,7 @@ impl LoggedRun {
 }
 
 fn files(path: &Path) -> Result<Vec<PathBuf>> {
-    if !path.is_dir() {
+    if !path.is_dir() || is_folder_of_topics(path) {
         return Ok(vec![path.to_owned()]);
     }
     let is_log =

@@ -202,6 +202,30 @@ def ros2_bag(name, keep_definitions):
         database.close()
 
 
+def ros2_split(name):
+    """One recording in two files, as rosbag2 lays it out: its library writes no splits, so each half is a recording of it."""
+    folder = HERE / name
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    everything = list(prepared(store))
+    half = len(everything) // 2
+    files = [f"{name}_{k}.mcap" for k in range(2)]
+    for file, part in zip(files, [everything[:half], everything[half:]]):
+        own = folder / "part"
+        with Bag2(own, version=9, storage_plugin=StoragePlugin.MCAP) as bag:
+            connections = {}
+            for topic, kind, ns, message in part:
+                if topic not in connections:
+                    connections[topic] = bag.add_connection(topic, kind, typestore=store)
+                bag.write(connections[topic], START_NS + ns, store.serialize_cdr(message, kind))
+        (own / "part.mcap").rename(folder / file)
+        text = (own / "metadata.yaml").read_text()
+        shutil.rmtree(own)
+    listed = "".join(f"  - {file}\n" for file in files)
+    (folder / "metadata.yaml").write_text(text.replace("  - part.mcap\n", listed))
+
+
 def ros1_bag(name, compression):
     store = get_typestore(Stores.ROS1_NOETIC)
     store.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms", "tf2_msgs/msg/TFMessage"))
@@ -286,6 +310,7 @@ if __name__ == "__main__":
         ros2_mcap(f"ros2-{compression.name.lower()}.mcap", compression)
     ros2_bag("ros2-sqlite", keep_definitions=True)
     ros2_bag("ros2-sqlite-foxy", keep_definitions=False)
+    ros2_split("ros2-split")
     ros1_bag("ros1-none.bag", None)
     ros1_bag("ros1-bz2.bag", Bag1.CompressionFormat.BZ2)
     ros1_bag("ros1-lz4.bag", Bag1.CompressionFormat.LZ4)

@@ -16,7 +16,7 @@ mod topic;
 mod vision;
 
 use crate::error::{Error, InputKind, Result};
-pub(super) use bag::MCAP;
+pub(super) use bag::{MCAP, METADATA, files as files_of_recording};
 use std::path::Path;
 pub(super) use suffix::ends_in;
 
@@ -39,7 +39,12 @@ pub(crate) fn is_log(path: &Path) -> bool {
 
 /// Whether a file is a recording of topics, each with a clock of its own.
 pub(crate) fn holds_topics(path: &Path) -> bool {
-    ends_in(path, &bag::SUFFIXES) || vision::is_game_log(path)
+    ends_in(path, &bag::SUFFIXES) || vision::is_game_log(path) || is_folder_of_topics(path)
+}
+
+/// Whether a folder is one recording, as rosbag2 leaves it.
+pub(crate) fn is_folder_of_topics(path: &Path) -> bool {
+    bag::is_recording(path)
 }
 
 /// Whether a recording is of the kind that names its topics so: robots are topics of game logs.

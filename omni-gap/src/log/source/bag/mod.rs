@@ -1,12 +1,13 @@
 //! # Recordings of topics: MCAP, and the bags of ROS 1 and ROS 2
 //!
 //! A topic is a table: a row for each of its messages, a column for each number in them, and the times at which it was
-//! recorded. Which kind of file it is is told by how it begins, not by its name.
+//! recorded. Which kind of file it is is told by how it begins, not by its name. The folder that rosbag2 records into is one recording, of however many files.
 
 mod container;
 mod decoder;
 mod flatten;
 mod mcap;
+mod parts;
 mod ros;
 mod ros1;
 mod rows;
@@ -19,6 +20,8 @@ use super::opened::OwnClock;
 use super::topic::{Seen, absent, the_only_one};
 use crate::error::{Error, InputKind, Result};
 use container::Container;
+use parts::Parts;
+pub(in crate::log) use parts::{METADATA, files, is_recording};
 use rows::Rows;
 use std::fs::File;
 use std::io::Read;
@@ -69,6 +72,9 @@ pub(super) fn topics(path: &Path) -> Result<Vec<Seen>> {
 }
 
 fn container(path: &Path) -> Result<Box<dyn Container>> {
+    if is_recording(path) {
+        return Ok(Box::new(Parts(files(path)?.iter().map(|file| container(file)).collect::<Result<_>>()?)));
+    }
     let unreadable = |reason| Error::unreadable(path, &reason);
     let file = File::open(path).map_err(unreadable)?;
     let mut head = Vec::new();
