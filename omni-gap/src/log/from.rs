@@ -67,6 +67,15 @@ impl From {
         }
     }
 
+    /// Whether a column of this name may be needed.
+    pub fn needs(&self, name: &str) -> bool {
+        match self {
+            From::Name(own) => own == name,
+            From::Formula(formula) => formula.names().iter().any(|own| own == name),
+            From::Itself | From::Position(_) => true,
+        }
+    }
+
     /// What the columns that were found make.
     pub fn channel(&self, mut columns: Vec<Channel>) -> Channel {
         match self {

@@ -30,7 +30,9 @@ impl Run {
 /// Reads one file, on its own clock.
 pub(super) fn read(path: &Path, columns: Option<&Mapping>, needs: Needs, notices: &mut Vec<String>) -> Result<Run> {
     let layout = columns.map_or_else(Layout::default, |columns| columns.layout.clone());
-    let source = source::open(path, &layout, columns.and_then(|columns| columns.topic.as_deref()))?;
+    let rules = columns.map_or(&[][..], |columns| &columns.rules);
+    let keeps = |name: &str| rules.is_empty() || rules.iter().any(|(_, rule)| rule.from.needs(name));
+    let mut source = source::open(path, &layout, columns.and_then(|columns| columns.topic.as_deref()), &keeps)?;
     notices.extend(source.notices());
     let bindings = bound(&*source, columns, needs, notices)?;
     let wanted: Vec<usize> = bindings.iter().flat_map(|binding| binding.columns.clone()).collect();

@@ -56,9 +56,9 @@ const BEGINNING: u64 = 1 << 16;
 pub(super) fn open(path: &Path) -> Result<Vec<Table>> {
     if source::holds_topics(path) {
         let read = |topic: source::Topic| {
-            let opened = source::open(path, &Layout::default(), Some(&topic.topic));
+            let opened = source::open(path, &Layout::default(), Some(&topic.topic), &|_| true);
             // a topic that cannot be read is none that a mapping could name
-            let mut table = opened.ok().map(|opened| table(&*opened, None, &[], Some(topic.topic)))?;
+            let mut table = opened.ok().map(|mut opened| table(&mut *opened, None, &[], Some(topic.topic)))?;
             let length = match topic.of_type.as_str() {
                 source::ROBOT_TYPE => Some("mm"),
                 of_type => SI.iter().any(|package| of_type.starts_with(package)).then_some("m"),
@@ -72,15 +72,15 @@ pub(super) fn open(path: &Path) -> Result<Vec<Table>> {
         return Ok(source::topics(path)?.into_iter().filter_map(read).collect());
     }
     if source::is_table_of_its_own(path) {
-        return Ok(vec![table(&*source::open(path, &Layout::default(), None)?, None, &[], None)]);
+        return Ok(vec![table(&mut *source::open(path, &Layout::default(), None, &|_| true)?, None, &[], None)]);
     }
     let Dialect { layout, names } = dialect::guess(&beginning(path)?).ok_or_else(|| {
         let problem = "found no rows of numbers in its first lines, expected a table of text";
         let fix = "Name the log itself: text (any separator), Parquet, MCAP, a ROS bag, or a game log";
         Error::input(path, problem, fix).of_kind(InputKind::Malformed)
     })?;
-    let opened = source::open(path, &layout, None)?;
-    Ok(vec![table(&*opened, Some(layout), &names, None)])
+    let mut opened = source::open(path, &layout, None, &|_| true)?;
+    Ok(vec![table(&mut *opened, Some(layout), &names, None)])
 }
 
 fn beginning(path: &Path) -> Result<String> {
@@ -96,15 +96,21 @@ fn beginning(path: &Path) -> Result<String> {
     Ok(String::from_utf8_lossy(&bytes).trim_start_matches('\u{feff}').to_owned())
 }
 
-fn table(opened: &dyn Source, layout: Option<Layout>, names: &[String], topic: Option<String>) -> Table {
+fn table(opened: &mut dyn Source, layout: Option<Layout>, names: &[String], topic: Option<String>) -> Table {
     let of = topic.clone().unwrap_or_default();
     // a column of text is none of numbers, and its reading fails: then each is read alone
     let all: Vec<usize> = (0..opened.width()).collect();
-    let alone = |place: &usize| opened.columns(&[*place]).ok().map(|mut columns| columns.remove(0));
     let mut values: Vec<Option<Channel>> = match opened.columns(&all) {
         Ok(columns) => columns.into_iter().map(Some).collect(),
-        Err(_) => all.iter().map(alone).collect(),
+        Err(_) => {
+            let mut alone = |place: &usize| opened.columns(&[*place]).ok().map(|mut columns| columns.remove(0));
+            all.iter().map(&mut alone).collect()
+        }
     };
+    let own_clock = opened.clock().and_then(|clock| {
+        let times = values[clock.column].as_ref()?;
+        Some((opened.title(clock.column), times.iter().map(|time| time.unwrap_or(f64::NAN)).collect()))
+    });
     let mut column = |place: usize| {
         let values = values[place].take()?;
         let named = opened.names().get(place);
@@ -116,10 +122,6 @@ fn table(opened: &dyn Source, layout: Option<Layout>, names: &[String], topic: O
             values,
         })
     };
-    let own_clock = opened.clock().and_then(|clock| {
-        let times = opened.columns(&[clock.column]).ok()?.remove(0);
-        Some((opened.title(clock.column), times.iter().map(|time| time.unwrap_or(f64::NAN)).collect()))
-    });
     let columns = all.iter().filter_map(|place| column(*place)).collect();
     Table { path: opened.path().into(), topic, layout, columns, own_clock }
 }

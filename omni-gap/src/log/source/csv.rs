@@ -163,7 +163,7 @@ impl Source for Table {
         self.width
     }
 
-    fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>> {
+    fn columns(&mut self, wanted: &[usize]) -> Result<Vec<Channel>> {
         let rows = self.rows_about()?;
         let mut columns: Vec<Channel> = wanted.iter().map(|_| Channel::with_capacity(rows)).collect();
         let mut reader = self.reader()?;

@@ -28,8 +28,12 @@ impl Source for Held {
         &self.names
     }
 
-    fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>> {
-        Ok(wanted.iter().map(|column| self.columns[*column].clone()).collect())
+    fn columns(&mut self, wanted: &[usize]) -> Result<Vec<Channel>> {
+        let handed_over = |(k, column): (usize, &usize)| match wanted[k + 1..].contains(column) {
+            true => self.columns[*column].clone(),
+            false => std::mem::take(&mut self.columns[*column]),
+        };
+        Ok(wanted.iter().enumerate().map(handed_over).collect())
     }
 
     fn clock(&self) -> Option<&OwnClock> {

@@ -21,6 +21,7 @@ use std::path::Path;
 pub(super) use suffix::ends_in;
 
 pub(crate) use csv::Layout;
+use opened::Keeps;
 pub(crate) use opened::Source;
 pub(crate) use topic::Seen as Topic;
 pub use vision::Packet;
@@ -65,16 +66,17 @@ pub(crate) fn is_table_of_its_own(path: &Path) -> bool {
     ends_in(path, &[RECORDS, PARQUET])
 }
 
-/// Opens a file of samples; `layout` says how text is laid out, `topic` which one of a recording of topics is meant.
+/// Opens a file of samples; `layout` says how text is laid out, `topic` which one of a recording of topics is meant, and
+/// `keeps` which of its columns may be asked for: a message has more numbers in it than a run needs.
 ///
 /// # Errors
 /// Where there is no such file, or it is not of its format.
-pub(crate) fn open(path: &Path, layout: &Layout, topic: Option<&str>) -> Result<Box<dyn Source>> {
+pub(crate) fn open(path: &Path, layout: &Layout, topic: Option<&str>, keeps: &Keeps) -> Result<Box<dyn Source>> {
     if vision::is_game_log(path) || topic.is_some() && vision::is_named_as_one(path) {
         return vision::open(path, topic);
     }
     if holds_topics(path) {
-        return Ok(Box::new(bag::open(path, topic)?));
+        return Ok(Box::new(bag::open(path, topic, keeps)?));
     }
     if let Some(topic) = topic {
         let problem = format!(

@@ -14,6 +14,9 @@ pub(crate) struct OwnClock {
     pub told: String,
 }
 
+/// Which columns of a recording of topics are kept, by name.
+pub(crate) type Keeps<'a> = dyn Fn(&str) -> bool + 'a;
+
 /// An opened file of samples.
 pub(crate) trait Source {
     /// The file.
@@ -27,8 +30,8 @@ pub(crate) trait Source {
         self.names().len()
     }
 
-    /// Reads the wanted columns.
-    fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>>;
+    /// Reads the wanted columns. Each is read once: what a source holds in memory it hands over.
+    fn columns(&mut self, wanted: &[usize]) -> Result<Vec<Channel>>;
 
     /// The clock that its rows have where no mapping names one; none where a column has to be named `t_s`.
     fn clock(&self) -> Option<&OwnClock> {

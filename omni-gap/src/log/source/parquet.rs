@@ -71,7 +71,7 @@ impl Source for Parquet {
         &self.names
     }
 
-    fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>> {
+    fn columns(&mut self, wanted: &[usize]) -> Result<Vec<Channel>> {
         wanted.iter().map(|column| self.column(*column)).collect()
     }
 }

@@ -16,7 +16,7 @@ mod usual;
 mod value;
 
 use super::held::Held;
-use super::opened::OwnClock;
+use super::opened::{Keeps, OwnClock};
 use super::topic::{Seen, absent, the_only_one};
 use crate::error::{Error, InputKind, Result};
 use container::Container;
@@ -36,14 +36,14 @@ pub(in crate::log) const MCAP: &str = ".mcap";
 /// How much of a file tells what it is.
 const HEAD: u64 = 4096;
 
-/// Reads one topic of a recording; the only one where none is named.
-pub(super) fn open(path: &Path, topic: Option<&str>) -> Result<Held> {
+/// Reads one topic of a recording; the only one where none is named. Of columns that are not kept there is but the name.
+pub(super) fn open(path: &Path, topic: Option<&str>, keeps: &Keeps) -> Result<Held> {
     let recording = container(path)?;
     let topic = match topic {
         Some(topic) => topic.to_owned(),
         None => the_only_one(path, &recording.topics()?)?,
     };
-    let mut rows = Rows::default();
+    let mut rows = Rows::new(keeps);
     let mut number = 0;
     let amiss = recording.messages(&topic, &mut |decoder, recorded| {
         number += 1;

@@ -91,7 +91,7 @@ impl Source for Track {
         &self.names
     }
 
-    fn columns(&self, wanted: &[usize]) -> Result<Vec<Channel>> {
+    fn columns(&mut self, wanted: &[usize]) -> Result<Vec<Channel>> {
         // whichever clock is asked for has to increase
         let clocks = [self.clock.column, T_CAPTURE, T_SENT, LOG_TIME];
         let clock = clocks.into_iter().find(|clock| wanted.contains(clock)).unwrap_or(self.clock.column);
@@ -130,24 +130,25 @@ mod tests {
     #[test]
     fn cameras_are_merged_by_the_clock_that_is_wanted() {
         // the second camera is looked at sooner
-        let track = track(&[seen(1.0, 9.3, 1.0, 10.0), seen(1.2, 9.4, 1.0, 12.0), seen(1.1, 9.35, 1.0, 11.0)]);
+        let mut track =
+            self::track(&[seen(1.0, 9.3, 1.0, 10.0), seen(1.2, 9.4, 1.0, 12.0), seen(1.1, 9.35, 1.0, 11.0)]);
         assert_eq!(track.clock.column, T_CAPTURE);
-        let x = |clock| track.columns(&[clock, 6]).unwrap().remove(1);
+        let mut x = |clock| track.columns(&[clock, 6]).unwrap().remove(1);
         assert_eq!(x(T_CAPTURE), Channel::from_values([10.0, 11.0, 12.0]));
-        let late = self::track(&[seen(1.0, 9.5, 1.0, 10.0), seen(1.1, 9.3, 1.0, 11.0)]);
+        let mut late = self::track(&[seen(1.0, 9.5, 1.0, 10.0), seen(1.1, 9.3, 1.0, 11.0)]);
         assert_eq!(late.columns(&[6, LOG_TIME]).unwrap()[0], Channel::from_values([11.0, 10.0]));
     }
 
     #[test]
     fn of_two_rows_at_one_time_the_surer_is_kept_and_told() {
-        let track = track(&[seen(1.0, 9.0, 0.5, 99.0), seen(1.0, 9.1, 0.9, 10.0), seen(1.1, 9.2, 0.9, 11.0)]);
+        let mut track = self::track(&[seen(1.0, 9.0, 0.5, 99.0), seen(1.0, 9.1, 0.9, 10.0), seen(1.1, 9.2, 0.9, 11.0)]);
         assert_eq!(track.columns(&[T_CAPTURE, 6]).unwrap()[1], Channel::from_values([10.0, 11.0]));
         assert!(track.notices[0].contains("1 of 3 rows left out"), "{:?}", track.notices);
     }
 
     #[test]
     fn a_clock_that_stands_still_is_none() {
-        let track = track(&[seen(0.0, 9.0, 1.0, 10.0), seen(0.0, 9.1, 1.0, 11.0)]);
+        let mut track = self::track(&[seen(0.0, 9.0, 1.0, 10.0), seen(0.0, 9.1, 1.0, 11.0)]);
         assert_eq!(track.clock.column, LOG_TIME);
         assert_eq!(track.columns(&[0, 1, 2, 6]).unwrap()[3], Channel::from_values([10.0, 11.0]));
     }
