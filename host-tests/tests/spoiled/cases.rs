@@ -136,11 +136,12 @@ fn rest(run: &mut Run) {
     }
 }
 
-/// The speeds as they were some rows before.
-fn late(run: &mut Run, rows: usize) {
-    for channel in channels(run, "w") {
-        let before = channel.clone();
-        *channel = (0..before.len()).map(|row| before.get(row.saturating_sub(rows))).collect();
+/// A group as it was some rows before; of a negative number, as it will be.
+fn late(run: &mut Run, group: &str, rows: isize) {
+    for channel in channels(run, group) {
+        let now = channel.clone();
+        let from = |row: usize| row.saturating_add_signed(-rows).min(now.len() - 1);
+        *channel = (0..now.len()).map(|row| now.get(from(row))).collect();
     }
 }
 
@@ -148,7 +149,7 @@ const fn spoiled(what: &'static str, expected: Expected, spoil: fn(&mut Files)) 
     Spoiled { what, expected, spoil }
 }
 
-pub const ALL: [Spoiled; 47] = [
+pub const ALL: [Spoiled; 49] = [
     spoiled("nothing", Nothing, |_| {}),
     spoiled("`[effects.coriolis]` with a wheel", Refused("acts on the whole robot"), |f| {
         append(f, "[effects.coriolis]\nwheel = 1\n")
@@ -273,5 +274,11 @@ pub const ALL: [Spoiled; 47] = [
     }),
     spoiled("millivolts", Fatal("wrong_unit"), |f| change(f, "u", None, |_, u| 1000.0 * u)),
     spoiled("wheels 0 and 1 swapped", Fatal("swapped_wheels"), |f| each(f, |run| channels(run, "w").swap(0, 1))),
-    spoiled("encoders 50 ms late", Nothing, |f| each(f, |run| late(run, 10))),
+    spoiled("encoders 50 ms late", Nothing, |f| each(f, |run| late(run, "w", 10))),
+    spoiled("encoders and currents stamped 0.3 s early", Fatal("shifted_signals"), |f| {
+        each(f, |run| ["w", "i"].into_iter().for_each(|group| late(run, group, -60)));
+    }),
+    spoiled("camera frames stamped 0.5 s early", Fatal("shifted_signals"), |f| {
+        each(f, |run| late(run, "pose", -100));
+    }),
 ];

@@ -7,7 +7,7 @@
 //! Reading order: [`Fault`]; `rows` with one file per idea about a single run: `absurd`, `time`, `time_unit`, `frozen`,
 //! `saturated`, `outliers`, `repeated`, `held`, `rectified`, `bunched`, `pushed`, `rate`; then the relations, judged on all runs of a
 //! session (`agree`): `motor` (volts, currents and speeds of each wheel, from the sums in `gram`; `duty`) and `pose` (wheels
-//! against the pose, over `windows`, with the guesses of `frame`; `quaternion`); then the session as a whole: `same` and
+//! against the pose, over `windows`, with the guesses of `frame`; `quaternion`; `shifted`: one in time against another); then the session as a whole: `same` and
 //! `enough`; `grouped` tells once what many runs share. A run of files with a clock each is looked at as `clocks` has it. `order` lists the ways in which wheels can have changed places,
 //! `body` turns wheel speeds into body speed.
 //!
@@ -40,6 +40,7 @@ mod repeated;
 mod rows;
 mod same;
 mod saturated;
+mod shifted;
 mod time;
 mod time_unit;
 mod units;
@@ -55,6 +56,8 @@ mod tests_outliers;
 mod tests_relations;
 #[cfg(test)]
 mod tests_rows;
+#[cfg(test)]
+mod tests_shifted;
 
 pub use fault::Fault;
 
@@ -118,7 +121,9 @@ fn check_runs(runs: &[&Run], robot: &RobotFile) -> Vec<Fault> {
 fn relations(sound: &mut Vec<&Run>, robot: &RobotFile) -> Vec<Fault> {
     let mut faults = Vec::new();
     sound.retain(|run| {
-        let fault = time_unit::by_wheels(run, robot).or_else(|| quaternion::check(run, robot));
+        let fault = time_unit::by_wheels(run, robot)
+            .or_else(|| quaternion::check(run, robot))
+            .or_else(|| shifted::check(run, robot));
         let told = fault.is_some();
         faults.extend(fault);
         !told
