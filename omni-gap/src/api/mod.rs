@@ -14,6 +14,7 @@
 //! | [`predict`](fn@predict) | [`Run`]: what the model says of each measured column |
 //! | [`simulate`](fn@simulate) | [`Run`]: what the robot of a file would have recorded |
 //! | [`check`](fn@check) | [`Fault`]s of the recordings, each with a code and a mend |
+//! | [`informativity`](fn@informativity) | [`Informativity`](crate::identify::Informativity): how well the recordings could tell each number of the robot file at best |
 //! | [`experiments`], [`rehearse`] | [`PlannedExperiments`]: what to play so that a robot's numbers can be told |
 //! | [`rich`], [`rehearse_rich`] | [`PlannedRich`]: what to play so that recordings show as many causes as they can |
 //! | [`sensitivity`](fn@sensitivity) | [`Sensitivity`]: which numbers of a robot file its motion depends on |
@@ -31,6 +32,7 @@ mod by_experiment;
 mod compare;
 mod experiment;
 mod identify;
+mod informativity;
 mod next;
 mod predict;
 mod record;
@@ -57,6 +59,7 @@ pub use experiment::{
     PlannedExperiments, PlannedRich, PlannedScript, RichScript, experiments, rehearse, rehearse_rich, rich,
 };
 pub use identify::{FitRemark, FittedEffectNumber, FittedNumber, Identification, identify};
+pub use informativity::informativity;
 pub use next::next;
 pub use predict::predict;
 pub use record::{Recorded, Recording, record};

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use omni_gap::Error;
 use omni_gap::check::Fault;
+use omni_gap::identify::Informativity;
 use omni_gap::proposal::Proposal;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -100,6 +101,8 @@ pub struct RunsChecked<'a> {
     pub usable: bool,
     /// What is wrong with them, and how to mend it.
     pub faults: &'a [Fault],
+    /// How well they could tell the robot file's numbers at best; none of recordings that a diagnosis cannot use.
+    pub informativity: Option<&'a Informativity>,
     /// What a person should know of them.
     pub notices: &'a [String],
 }

@@ -1,9 +1,11 @@
-//! `check`: faults of the recordings, before anything is fitted.
+//! `check`: faults of the recordings, and what they can tell, before anything is fitted.
 
 use std::path::Path;
 
 use omni_gap::Verdict;
+use omni_gap::api::informativity;
 use omni_gap::check::{Fault, check};
+use omni_gap::report::informativity_terminal;
 
 use super::answer::{AnswerForm, RunsChecked, SCHEMA};
 use super::console::Console;
@@ -11,7 +13,7 @@ use super::console::wrapped;
 use super::done::{DONE, Done};
 use super::given::GivenSession;
 
-/// Look for faults of the recordings, and say how to mend them
+/// Look for faults of the recordings, say how to mend them, and what the recordings can tell
 #[derive(Debug, clap::Args)]
 pub struct Check {
     #[command(flatten)]
@@ -35,6 +37,8 @@ impl Check {
         for notice in &session.notices {
             page += &wrapped(0, &format!("notice: {notice}"));
         }
+        console.phase("asking what they can tell");
+        let told = informativity(&session);
         let fatal = faults.iter().filter(|f| f.fatal).count();
         let runs = session.runs.len() + session.heldout.len();
         page += &match (faults.len(), fatal) {
@@ -42,8 +46,12 @@ impl Check {
             (n, 0) => format!("{runs} run(s) checked: {n} fault(s), none of which forbids a diagnosis.\n"),
             (n, _) => format!("{runs} run(s) checked: {n} fault(s), {fatal} to be mended before a diagnosis.\n"),
         };
+        if let Some(told) = &told {
+            page += &format!("\n{}", informativity_terminal(told));
+        }
+        let (informativity, notices) = (told.as_ref(), session.notices.as_slice());
         let runs_checked =
-            RunsChecked { schema: SCHEMA, runs, usable: fatal == 0, faults: &faults, notices: &session.notices };
+            RunsChecked { schema: SCHEMA, runs, usable: fatal == 0, faults: &faults, informativity, notices };
         self.form.say(console, &page, &runs_checked)?;
         Ok(if fatal > 0 && self.exit_code { Verdict::UnfitData.exit_code() } else { DONE })
     }

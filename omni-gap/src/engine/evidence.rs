@@ -106,7 +106,7 @@ impl<const N: usize> Runs<N> {
             return Err(NOTHING_TO_COMPARE);
         }
         if fit[0].chain != Chain::Voltage {
-            notices.push(format!("no usable voltage: the model is driven by {}", driven(fit[0].chain)));
+            notices.push(format!("no usable voltage: the model is driven by {}", fit[0].chain.said()));
         }
         Ok(Self { fit: telling_first(fit, &knobs.excerpt), held })
     }
@@ -159,13 +159,4 @@ fn laid_out<const N: usize>(
         ));
     }
     Runs::with_some_held_out(fit, knobs)
-}
-
-fn driven(chain: Chain) -> &'static str {
-    match chain {
-        Chain::Voltage => "the commanded voltages",
-        Chain::Current => "the measured currents",
-        Chain::WheelSpeed => "the measured wheel speeds",
-        Chain::SetSpeed => "the commanded wheel speeds",
-    }
 }

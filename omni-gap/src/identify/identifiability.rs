@@ -8,7 +8,7 @@ use super::information::invert;
 /// A relative uncertainty up to which a number counts as known.
 pub(super) const KNOWN: f64 = 0.15;
 /// A number that would be this uncertain if all others were known has left no trace.
-const TRACELESS: f64 = 0.5;
+pub(super) const TRACELESS: f64 = 0.5;
 /// A part of a direction below this share of its largest part is left out of the sentence.
 const PART: f64 = 0.1;
 

@@ -8,7 +8,8 @@ use std::ops::Range;
 const COARSE: f64 = 0.05;
 
 /// The signal that drives a model: the first of the chain that is there and good enough.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, schemars::JsonSchema, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Chain {
     /// Commanded voltages.
     Voltage,
@@ -18,6 +19,18 @@ pub enum Chain {
     WheelSpeed,
     /// Commanded wheel speeds.
     SetSpeed,
+}
+
+impl Chain {
+    /// The signal as it is said.
+    pub const fn said(self) -> &'static str {
+        match self {
+            Self::Voltage => "the commanded voltages",
+            Self::Current => "the measured currents",
+            Self::WheelSpeed => "the measured wheel speeds",
+            Self::SetSpeed => "the commanded wheel speeds",
+        }
+    }
 }
 
 fn good_enough(group: &Group) -> bool {

@@ -194,6 +194,26 @@ fn check_finds_no_fault_in_a_sound_session() {
 }
 
 #[test]
+fn check_says_how_well_the_recordings_could_tell_each_number() {
+    let bench = Bench::with_session();
+    let said = bench.done(&["check", "session"]).out;
+    let line = |key: &str| said.lines().find(|line| line.starts_with(key)).unwrap_or_else(|| panic!("{key}: {said}"));
+    assert!(line("resistance_ohm").contains("10 %") && !line("resistance_ohm").contains("no trace"), "{said}");
+
+    // wheels alone: neither where the camera is nor what it lags moves anything that is measured
+    let wheels: Vec<String> = ["u", "i", "w"]
+        .iter()
+        .zip(["V", "A", "rad_s"])
+        .flat_map(|(stem, unit)| (0..4).map(move |j| format!("{stem}{j}_{unit} = {{ from = \"{stem}{j}_{unit}\" }}\n")))
+        .collect();
+    bench.write("session/columns.toml", &format!("[columns]\nt_s = {{ from = \"t_s\" }}\n{}", wheels.concat()));
+    let robot = bench.read("session/robot.toml");
+    bench.write("session/robot.toml", &format!("{robot}\n[effects.camera_latency]\nlatency_s = 0.02\n"));
+    let said = bench.done(&["check", "session"]).out;
+    assert!(said.contains("latency_s of camera_latency: all that is allowed of it"), "{said}");
+}
+
+#[test]
 fn sensitivity_says_the_terms_and_ranks_the_numbers_with_and_without_files() {
     let bench = Bench::empty();
     bench.write("robot.toml", crate::bench::ROBOT);
