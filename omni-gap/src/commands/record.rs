@@ -1,13 +1,11 @@
 //! `record`: what a robot sends, as a session.
 
+pub mod run_place;
 mod vision;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use model_core::link::hello::Hello;
-use omni_gap::api::{Error, Recorded, Recording, export, known_effects, record};
-use omni_gap::error::Result;
-use omni_gap::log::records::run::notices;
+use omni_gap::api::{Error, Recording, known_effects, record};
 use omni_gap::log::{RobotFile, write_whole};
 use omni_gap::wire::source::Source;
 use omni_gap::wire::vision::{Listener, Watched};
@@ -17,7 +15,8 @@ use super::console::{Console, wrapped};
 use super::done::{DONE, Done};
 use super::given;
 use super::output_path;
-use vision::{PACKETS, RECORDS, Vision};
+use run_place::{RunPlace, name, remarks, text_of};
+use vision::{PACKETS, Vision};
 
 /// Record what a robot sends into a session: the robot file, and a run as it came, NAME.rec
 #[derive(Debug, clap::Args)]
@@ -58,14 +57,13 @@ impl Record {
     pub fn run(&self, console: &Console) -> Done {
         let source = Source::named(&self.from);
         let robot = RobotFile::load(&self.robot, &known_effects())?;
-        let text = std::fs::read_to_string(&self.robot)
-            .map_err(|why| Error::input(&self.robot, why.to_string(), "Check the file's permissions"))?;
+        let text = text_of(&self.robot)?;
         let watched = self.vision.watched();
         let columns = watched.as_ref().map(|watched| vision::columns(&watched.robot));
-        let (folder, file) = self.place(watched.is_some())?;
-        fits(&self.out.join("robot.toml"), &text)?;
+        let place = RunPlace::new(&self.out, &self.name, watched.is_some())?;
+        place.fits("robot.toml", &text)?;
         if let Some(columns) = &columns {
-            fits(&self.out.join("columns.toml"), columns)?;
+            place.fits("columns.toml", columns)?;
         }
         if let (Some(file), Some(_)) = (source.file(), &watched) {
             let problem = "these frames were recorded before, expected a robot that sends while SSL-Vision does";
@@ -80,71 +78,25 @@ impl Record {
         let heard = listener.map(Listener::finish);
         console.end_phase();
 
-        let made = output_path::NewFolder::make(&folder)?;
-        let session = [("robot.toml", Some(&text)), ("columns.toml", columns.as_ref())];
-        for (name, text) in session {
-            if let (path, Some(text)) = (self.out.join(name), text)
-                && !path.exists()
-            {
-                write_whole(&path, text.as_bytes())?;
-            }
+        let made = output_path::NewFolder::make(&place.folder)?;
+        place.begin("robot.toml", &text)?;
+        if let Some(columns) = &columns {
+            place.begin("columns.toml", columns)?;
         }
-        write_whole(&file, &recorded.frames)?;
+        write_whole(&place.records, &recorded.frames)?;
         if let Some(heard) = &heard {
-            heard.write(&folder.join(PACKETS))?;
+            heard.write(&place.folder.join(PACKETS))?;
         }
         made.keep();
-        let mut answer = RunWritten::of(&file, recorded.run.rows());
+        let mut answer = RunWritten::of(&place.records, recorded.run.rows());
         answer.notices = remarks(&recorded, &robot, &self.robot);
         if let (Some(heard), Some(watched)) = (&heard, &watched) {
             answer.notices.extend(vision::told(heard, watched));
         }
         let (rows, seconds) = (answer.rows, recorded.run.duration_s());
-        let mut told = format!("{rows} rows, {seconds:.3} s, written to {}\n", file.display());
+        let mut told = format!("{rows} rows, {seconds:.3} s, written to {}\n", place.records.display());
         answer.notices.iter().for_each(|line| told += &wrapped(2, line));
         self.form.say(console, &told, &answer)?;
         Ok(DONE)
-    }
-
-    /// The folder of the run, and the file of its records; refuses a name that is taken.
-    fn place(&self, is_folder: bool) -> Result<(PathBuf, PathBuf)> {
-        output_path::folder(&self.out, &["robot.toml"])?;
-        let runs = self.out.join("runs");
-        let (folder, file) = (runs.join(&self.name), runs.join(format!("{}.rec", self.name)));
-        if let Some(taken) = [&file, &folder].into_iter().find(|path| path.exists()) {
-            return Err(Error::output(taken, "a run of this name is there", "Name another with --name"));
-        }
-        let records = folder.join(RECORDS);
-        Ok(if is_folder { (folder, records) } else { (runs, file) })
-    }
-}
-
-/// Refuses a file that stands in the session and says something else.
-fn fits(path: &Path, text: &str) -> Result<()> {
-    if path.exists() && std::fs::read_to_string(path).ok().as_deref() != Some(text) {
-        let reason = "the session holds another file of this name";
-        return Err(Error::output(path, reason, "Record into a new session with --out"));
-    }
-    Ok(())
-}
-
-/// What a person should know of a recording.
-fn remarks(recorded: &Recorded, robot: &RobotFile, path: &Path) -> Vec<String> {
-    let mut remarks = notices(&recorded.capture);
-    let other = |hello: &Hello| export(robot, path).is_ok_and(|block| block.checksum != hello.block_check);
-    if recorded.capture.hellos.iter().any(|(_, hello)| other(hello)) {
-        let path = path.display();
-        remarks.push(format!("the robot runs with other parameters than `omni-gap export {path}` writes"));
-    }
-    remarks
-}
-
-/// A name that can be a file's.
-fn name(text: &str) -> std::result::Result<String, String> {
-    let fit = |c: char| c.is_alphanumeric() || "-_.".contains(c);
-    if !text.is_empty() && !text.starts_with('.') && text.chars().all(fit) {
-        Ok(text.to_owned())
-    } else {
-        Err("expected letters, digits, - and _, such as square_2".to_owned())
     }
 }
