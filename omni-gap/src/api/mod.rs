@@ -62,7 +62,7 @@ pub use identify::{FitRemark, FittedEffectNumber, FittedNumber, Identification, 
 pub use informativity::informativity;
 pub use next::next;
 pub use predict::predict;
-pub use record::{Recorded, Recording, record};
+pub use record::{Recorded, Recording, record, record_kept};
 pub use selftest::{Driven, PlannedRuns, confusion, selftest, verify};
 pub use simulate::simulate;
 pub use watch::{News, Watched, Watching, watch};

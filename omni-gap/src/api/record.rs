@@ -1,5 +1,7 @@
 //! Record: what a robot sends, as a run.
 
+use std::path::Path;
+
 use crate::error::Result;
 use crate::log::Run;
 use crate::log::records::capture::Capture;
@@ -54,6 +56,21 @@ pub fn record(recording: &Recording) -> Result<Recorded> {
         frames.extend(bytes.iter().take(capture.bytes_taken - before));
         progress
     })?;
-    let run = run(&capture, &source.place(), name, Some(wheels))?;
+    recorded(capture, frames, &source.place(), name, wheels)
+}
+
+/// A run of frames that were kept while a robot drove; `place` is named in messages.
+///
+/// # Errors
+/// Where there is no record in them, or the robot has another number of wheels.
+pub fn record_kept(frames: &[u8], place: &Path, name: &str, wheels: usize) -> Result<Recorded> {
+    let mut capture = Capture::new(None);
+    capture.take(frames);
+    let frames = frames.iter().take(capture.bytes_taken).copied().collect();
+    recorded(capture, frames, place, name, wheels)
+}
+
+fn recorded(capture: Capture, frames: Vec<u8>, place: &Path, name: &str, wheels: usize) -> Result<Recorded> {
+    let run = run(&capture, place, name, Some(wheels))?;
     Ok(Recorded { run, capture, frames })
 }

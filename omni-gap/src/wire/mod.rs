@@ -2,9 +2,13 @@
 //!
 //! Guarantee: what a robot gets was held to the bounds that the robot holds it to.
 //!
-//! Reading order: [`block`] (a robot file → the parameter block), [`source`] (where bytes come from); what they mean is read
+//! Reading order: [`block`] (a robot file → the parameter block), [`source`] (where bytes come from), [`line`] (frames both ways),
+//! [`robot`] (what a robot is asked to do, and what it answers), [`status`] (how it is); what recordings mean is read
 //! in [`records`](crate::log::records), and [`vision`] (what cameras say of the robot meanwhile).
 
 pub mod block;
+pub mod line;
+pub mod robot;
 pub mod source;
+pub mod status;
 pub mod vision;

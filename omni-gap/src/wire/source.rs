@@ -1,7 +1,7 @@
 //! Where a robot's bytes come from: a file of frames, a network address, a serial line.
 
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::{ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -25,6 +25,11 @@ const PATIENCE: Duration = Duration::from_secs(5);
 
 /// How long one look for bytes waits.
 const LOOK: Duration = Duration::from_millis(100);
+
+/// Bytes in both directions.
+pub(crate) trait Stream: Read + Write + Send {}
+
+impl<S: Read + Write + Send> Stream for S {}
 
 /// Why no more bytes come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,6 +141,19 @@ impl Source {
                     .of_kind(InputKind::NotFound)),
                 Err(why) => Err(self.error(why.to_string(), "Check the file's permissions")),
             },
+            Source::Tcp(_) | Source::Serial(_) => Ok(Box::new(self.connect(baud)?)),
+        }
+    }
+
+    /// Opens both directions; a file has only one. A look for bytes waits a tenth of a second.
+    pub(super) fn connect(&self, baud: u32) -> Result<Box<dyn Stream>> {
+        match self {
+            Source::File(path) if path.exists() => {
+                Err(self.error("this is a file, expected a robot", "Name its device, or tcp:HOST:PORT"))
+            }
+            Source::File(_) => Err(self
+                .error("no such device, expected a robot", "Check its name, or write tcp:HOST:PORT")
+                .of_kind(InputKind::NotFound)),
             Source::Tcp(address) => {
                 let fix = "Write tcp:HOST:PORT, and start what listens there first";
                 let stream = TcpStream::connect(address).map_err(|why| self.error(why.to_string(), fix))?;

@@ -1,0 +1,225 @@
+//! # Robot: what a robot is asked to do, and what it says to that
+//!
+//! Whatever is sent is answered before it counts as done: a block by the checksum of the parameters that the robot then
+//! drives with, a stop by open bridges, forgotten faults by those that are left. A robot that hears nothing for 200 ms opens its
+//! bridges by itself; nothing here is what keeps a robot safe.
+
+use std::time::{Duration, Instant};
+
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::block::BlockErrorKind;
+use model_core::link::command::{Command, CommandError, MAX_CHUNK, Reply};
+use model_core::link::faults::Faults;
+use model_core::link::framing::FrameKind;
+use model_core::link::record::OperatingState;
+
+use super::line::{Heard, Line};
+use super::status::{Status, StatusSeen};
+use crate::error::Result;
+
+/// A robot says who it is once a second; what it does, a thousand times.
+const HELLO: Duration = Duration::from_millis(2500);
+/// An answer comes within milliseconds.
+const ANSWER: Duration = Duration::from_millis(1000);
+/// Erasing a sector of its flash can stop a robot for four seconds.
+const KEPT: Duration = Duration::from_millis(8000);
+/// Tries, of what may be lost on the way.
+const TRIES: usize = 3;
+/// From one command to move to the next: a tenth of what a robot's patience is.
+const EVERY: Duration = Duration::from_millis(20);
+/// How long a robot is asked to stand before its bridges are opened.
+const STANDS: Duration = Duration::from_millis(500);
+
+/// A part of a drive: what is asked of the robot [m/s, m/s, rad/s], and for how long.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leg {
+    /// The twist.
+    pub twist: BodyTwist<f32>,
+    /// How long it is asked for.
+    pub lasts: Duration,
+}
+
+/// Why a robot that was driven stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// It drove for as long as it was asked to.
+    Done,
+    /// Whoever asked had enough.
+    Interrupted,
+    /// It found faults.
+    Faulted(Faults),
+}
+
+/// How a robot is.
+///
+/// # Errors
+/// Where nothing of it is heard.
+pub fn status(line: &mut Line) -> Result<Status> {
+    let mut seen = StatusSeen::default();
+    let until = Instant::now() + HELLO;
+    line.listen(until, |heard| {
+        seen.take(heard);
+        seen.is_whole().then_some(())
+    })?;
+    seen.status().ok_or_else(|| silent(line))
+}
+
+/// Sends a parameter block, and waits until the robot drives with it; how it is then.
+///
+/// # Errors
+/// Where the robot drives, refuses the block, or does not say that it took it.
+pub fn send(line: &mut Line, block: &[u8], checksum: u32) -> Result<Status> {
+    if status(line)?.is_driving() {
+        return Err(line.error("the robot drives, expected one that stands", "`omni-gap robot stop` first"));
+    }
+    let mut answered = None;
+    for _ in 0..TRIES {
+        for (k, bytes) in block.chunks(MAX_CHUNK).enumerate() {
+            line.send(&Command::Chunk { offset: (k * MAX_CHUNK) as u16, bytes })?;
+        }
+        line.send(&Command::Commit { length: block.len() as u16 })?;
+        answered = reply(line, FrameKind::Commit, KEPT)?;
+        // a frame that was damaged on the way is not answered, a block that lost a chunk is refused for its checksum
+        if answered.is_some_and(|reply| reply.taken || reply.reason != BlockErrorKind::Checksum.code()) {
+            break;
+        }
+    }
+    let answered = answered.ok_or_else(|| line.error("the robot does not answer to a block", CHECK_LINE))?;
+    if !answered.taken {
+        let fix = "Export it with the program that the robot\'s firmware was built with";
+        return Err(line.error(format!("the robot refuses the block: {}", refused(answered)), fix));
+    }
+    let took = line.listen(Instant::now() + KEPT, |heard| match heard {
+        Heard::Hello(hello) => (hello.block_check == checksum).then_some(()),
+        _ => None,
+    })?;
+    if took.is_none() {
+        return Err(line.error("the robot took the block and does not say that it drives with it", CHECK_LINE));
+    }
+    status(line)
+}
+
+/// Has the robot forget its faults; how it is then.
+///
+/// # Errors
+/// Where it does not answer.
+pub fn clear(line: &mut Line) -> Result<Status> {
+    for _ in 0..TRIES {
+        line.send(&Command::Clear)?;
+        if reply(line, FrameKind::Clear, ANSWER)?.is_some() {
+            return status(line);
+        }
+    }
+    Err(silent(line))
+}
+
+/// Opens the bridges, and waits until they are; how the robot is then.
+///
+/// # Errors
+/// Where the bridges do not open, or nothing of the robot is heard.
+pub fn stop(line: &mut Line) -> Result<Status> {
+    for _ in 0..TRIES {
+        line.send(&Command::Open)?;
+        let open = line.listen(Instant::now() + ANSWER, |heard| match heard {
+            Heard::Record(record) => (record.state != OperatingState::Driving && record.enabled == 0).then_some(()),
+            _ => None,
+        })?;
+        if open.is_some() {
+            return status(line);
+        }
+    }
+    Err(line.error("the bridges did not open", "Cut the motors\' supply"))
+}
+
+/// Drives a robot leg by leg, brings it to rest and opens its bridges. `goes_on` is told how it is, fifty times a second, and false
+/// ends the drive.
+///
+/// # Errors
+/// Where the robot would not drive, or the line breaks; the robot then opens its bridges by itself.
+pub fn drive(line: &mut Line, legs: &[Leg], mut goes_on: impl FnMut(&Status) -> bool) -> Result<Ended> {
+    ready(line)?;
+    let mut drive = Drive { line, seen: StatusSeen::default(), sequence: 0, began: Instant::now() };
+    let mut ended = Ended::Done;
+    for leg in legs {
+        ended = drive.leg(leg, &mut goes_on)?;
+        if ended != Ended::Done {
+            break;
+        }
+    }
+    if !matches!(ended, Ended::Faulted(_)) {
+        let rest = Leg { twist: BodyTwist::default(), lasts: STANDS };
+        if let Ended::Faulted(faults) = drive.leg(&rest, &mut |_| true)? {
+            ended = Ended::Faulted(faults);
+        }
+    }
+    stop(line)?;
+    Ok(ended)
+}
+
+/// A drive on its way.
+struct Drive<'a> {
+    line: &'a mut Line,
+    seen: StatusSeen,
+    sequence: u16,
+    began: Instant,
+}
+
+impl Drive<'_> {
+    /// Asks for one twist for as long as the leg lasts.
+    fn leg(&mut self, leg: &Leg, goes_on: &mut impl FnMut(&Status) -> bool) -> Result<Ended> {
+        let until = Instant::now() + leg.lasts;
+        while Instant::now() < until {
+            self.sequence = self.sequence.wrapping_add(1);
+            self.line.send(&Command::Drive { sequence: self.sequence, twist: leg.twist })?;
+            let seen = &mut self.seen;
+            let fault = self.line.listen(until.min(Instant::now() + EVERY), |heard| {
+                seen.take(heard);
+                let faulted = matches!(heard, Heard::Record(record) if record.state == OperatingState::Faulted);
+                faulted.then(|| seen.faults())
+            })?;
+            if let Some(faults) = fault {
+                return Ok(Ended::Faulted(faults));
+            }
+            match self.seen.status() {
+                Some(status) if !goes_on(&status) => return Ok(Ended::Interrupted),
+                None if self.began.elapsed() > ANSWER => return Err(silent(self.line)),
+                _ => {}
+            }
+        }
+        Ok(Ended::Done)
+    }
+}
+
+/// Refuses a robot that would not drive.
+fn ready(line: &mut Line) -> Result<()> {
+    let status = status(line)?;
+    let (problem, fix) = match status.state {
+        "open" | "driving" => return Ok(()),
+        "faulted" => (status.faults.join("; "), "Mend the cause, then `omni-gap robot clear`"),
+        "calibrating" => ("it still measures the zeros of its current sensors".into(), "Wait for a second"),
+        _ => ("it has no parameters".into(), "`omni-gap robot send ROBOT.toml`"),
+    };
+    Err(line.error(format!("the robot does not drive: {problem}"), fix))
+}
+
+const CHECK_LINE: &str = "Check the line, and that the firmware is of this program\'s version";
+
+fn silent(line: &Line) -> crate::error::Error {
+    let fix = "Check its power, that its output goes to this input and the other way round, and --baud";
+    line.error("nothing is heard of a robot", fix)
+}
+
+/// The answer to a kind of command, if one comes in time.
+fn reply(line: &mut Line, to: FrameKind, within: Duration) -> Result<Option<Reply>> {
+    line.listen(Instant::now() + within, |heard| match heard {
+        Heard::Reply(reply) => (reply.to == to.code()).then_some(reply),
+        _ => None,
+    })
+}
+
+/// Why a block was refused, in words.
+fn refused(reply: Reply) -> &'static str {
+    let block = BlockErrorKind::ALL.into_iter().find(|kind| kind.code() == reply.reason).map(BlockErrorKind::text);
+    let command = || CommandError::ALL.into_iter().find(|kind| kind.code() == reply.reason).map(CommandError::text);
+    block.or_else(command).unwrap_or("for a reason that this program does not know")
+}

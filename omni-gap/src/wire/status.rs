@@ -1,0 +1,95 @@
+//! How a robot is, by what it says.
+
+use model_core::link::faults::{Fault, Faults};
+use model_core::link::hello::Hello;
+use model_core::link::record::{MOTORS, OperatingState, TelemetryRecord};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::line::Heard;
+
+/// How a robot is.
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
+pub struct Status {
+    /// What it does: `asleep` (without parameters), `calibrating`, `open`, `driving` or `faulted`.
+    pub state: &'static str,
+    /// Motors whose bridges are driven, counted from 0.
+    pub driven: Vec<usize>,
+    /// Its faults, in words.
+    pub faults: Vec<&'static str>,
+    /// Voltage of the bus [V]; none before it has parameters.
+    pub bus_v: Option<f64>,
+    /// The twist that it tries to follow: v and vn [m/s], ω [rad/s].
+    pub wanted: [f32; 3],
+    /// Share of its time that a turn of the currents takes at the worst [1]
+    pub load: f64,
+    /// Who it is; none before it has parameters.
+    pub identity: Option<Identity>,
+}
+
+/// Who a robot is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize)]
+pub struct Identity {
+    /// Version of its firmware.
+    pub firmware: u16,
+    /// Checksum of the parameters that it drives with.
+    pub checksum: u32,
+    /// How many wheels it has.
+    pub wheels: u8,
+}
+
+impl Status {
+    /// Whether its bridges are driven.
+    pub fn is_driving(&self) -> bool {
+        !self.driven.is_empty()
+    }
+}
+
+/// What was heard so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StatusSeen {
+    record: Option<TelemetryRecord>,
+    hello: Option<Hello>,
+}
+
+impl StatusSeen {
+    pub fn take(&mut self, heard: Heard) {
+        match heard {
+            Heard::Record(record) => self.record = Some(record),
+            Heard::Hello(hello) => self.hello = Some(hello),
+            Heard::Reply(_) => {}
+        }
+    }
+
+    /// Whether all that a robot says was heard; without parameters it does not say who it is.
+    pub fn is_whole(&self) -> bool {
+        self.record.is_some() && self.hello.is_some()
+    }
+
+    pub fn faults(&self) -> Faults {
+        self.record.map_or(Faults::NONE, |record| record.faults)
+    }
+
+    /// How it is; none where it said nothing of what it does.
+    pub fn status(&self) -> Option<Status> {
+        let record = self.record?;
+        let state = match record.state {
+            OperatingState::Asleep => "asleep",
+            OperatingState::Calibrating => "calibrating",
+            OperatingState::Open => "open",
+            OperatingState::Driving => "driving",
+            OperatingState::Faulted => "faulted",
+        };
+        let identity =
+            |hello: Hello| Identity { firmware: hello.firmware, checksum: hello.block_check, wheels: hello.wheels };
+        Some(Status {
+            state,
+            driven: (0..MOTORS).filter(|motor| record.enabled >> motor & 1 == 1).collect(),
+            faults: record.faults.iter().map(Fault::text).collect(),
+            bus_v: self.hello.map(|hello| f64::from(hello.calibration.bus_volts_per_count) * f64::from(record.bus.0)),
+            wanted: record.wanted,
+            load: f64::from(record.load) / 1000.0,
+            identity: self.hello.map(identity),
+        })
+    }
+}
