@@ -65,6 +65,12 @@ impl HostLink {
         &self.received
     }
 
+    /// Every byte that has come since this was last asked.
+    pub fn take_received(&mut self) -> Vec<u8> {
+        self.frames.clear();
+        std::mem::take(&mut self.received)
+    }
+
     /// Bytes that still wait to leave.
     pub fn waiting(&self) -> usize {
         self.waiting.len()

@@ -12,6 +12,7 @@
 //! - [`study`]: all of these, on many seeds, and one of them in the emulator too;
 //! - [`page`]: what came of it, and what is promised;
 //! - [`faults`]: every fault, injected while the robot drives;
+//! - [`served`]: one that listens at a network address;
 //! - [`gap`] and [`gap_page`]: drive, record, diagnose, correct, drive again.
 
 mod closed_loop_run;
@@ -25,6 +26,7 @@ pub mod page;
 pub mod ramps;
 pub mod robots;
 pub mod saturation;
+pub mod served;
 mod shadow;
 pub mod study;
 

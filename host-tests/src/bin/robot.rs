@@ -1,0 +1,53 @@
+//! A robot without a board: the firmware and a virtual board on a network address, for `omni-gap robot`, `record` and `watch`.
+//!
+//! `robot [path/to/firmware.elf] [HOST:PORT]`: the image in QEMU, or the same program on the host where none is named. The robot is
+//! the paper's, its wheels, motors and friction a little off from `examples/feup-4w/robot.toml`, its battery sags.
+
+use std::net::TcpListener;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Duration;
+
+use host_tests::emulator::{BoardProgram, Lockstep, Qemu};
+use host_tests::in_loop::served::serve;
+use host_tests::in_loop::{HostProgram, robots};
+use host_tests::virtual_board::VirtualBoard;
+use model_core::plant::paper::four_wheels;
+
+/// Where it listens if it is not said.
+const ADDRESS: &str = "127.0.0.1:7000";
+/// The draw of what is off.
+const SEED: u64 = 1;
+/// How long the emulator may think about one period.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let image = arguments.iter().find(|argument| Path::new(argument).is_file());
+    let address = arguments.iter().find(|argument| Some(*argument) != image).map_or(ADDRESS, String::as_str);
+    let served = match image {
+        Some(image) => {
+            listen(address, || Qemu::start(Path::new(image), PATIENCE).map_err(|why| format!("{image}: {why}")))
+        }
+        None => listen(address, || Ok(HostProgram::default())),
+    };
+    match served {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("robot: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// One robot for everybody who connects, one after another; in between its time stands still.
+fn listen<B: BoardProgram>(address: &str, program: impl Fn() -> Result<B, String>) -> Result<(), String> {
+    let listener = TcpListener::bind(address).map_err(|why| format!("{address}: {why}"))?;
+    println!("a robot listens at tcp:{address}; Ctrl-C switches it off");
+    let mut robot = Lockstep::new(program()?, VirtualBoard::new(robots::board(&four_wheels(), SEED)));
+    for connection in listener.incoming() {
+        let connection = connection.map_err(|why| why.to_string())?;
+        serve(&mut robot, connection).map_err(|why| why.to_string())?;
+    }
+    Ok(())
+}

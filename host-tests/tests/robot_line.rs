@@ -1,0 +1,126 @@
+//! What `omni-gap robot` does, with the firmware at the other end of the line: the program on the host, a virtual board, TCP.
+
+use std::net::{TcpListener, TcpStream};
+use std::path::Path;
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use host_tests::emulator::Lockstep;
+use host_tests::in_loop::HostProgram;
+use host_tests::in_loop::served::serve;
+use host_tests::virtual_board::{BoardSetup, VirtualBoard};
+use model_core::effects::active::Effects;
+use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::link::command::Command;
+use model_core::plant::paper::four_wheels;
+use omni_gap::api::{Exported, RobotFile, export, known_effects, record_kept};
+use omni_gap::wire::line::{Heard, Line};
+use omni_gap::wire::robot::{Ended, Leg, clear, drive, send, status, stop};
+use omni_gap::wire::source::Source;
+
+const AHEAD: BodyTwist<f32> = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
+
+/// Straight on for so many seconds.
+fn ahead(seconds: u64) -> [Leg; 1] {
+    [Leg { twist: AHEAD, lasts: Duration::from_secs(seconds) }]
+}
+
+/// A robot that was just switched on, the line to it, and where it stands once the line is dropped.
+fn robot() -> (Line, JoinHandle<Pose<f64>>) {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let source = Source::named(&format!("tcp:{}", listener.local_addr().unwrap()));
+    let robot = std::thread::spawn(move || {
+        let board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), 3));
+        let mut lockstep = Lockstep::new(HostProgram::default(), board);
+        let (connection, _): (TcpStream, _) = listener.accept().unwrap();
+        serve(&mut lockstep, connection).unwrap();
+        lockstep.board.state().pose
+    });
+    (Line::open(&source, 0).unwrap(), robot)
+}
+
+fn block() -> Exported {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/feup-4w/robot.toml");
+    export(&RobotFile::load(&path, &known_effects()).unwrap(), &path).unwrap()
+}
+
+#[test]
+fn a_robot_gets_parameters_drives_as_far_as_it_is_told_and_stands() {
+    let (mut line, robot) = robot();
+    let asleep = status(&mut line).unwrap();
+    assert_eq!((asleep.state, asleep.identity, asleep.is_driving()), ("asleep", None, false));
+    let told = drive(&mut line, &ahead(1), |_| true).unwrap_err().to_string();
+    assert!(told.contains("it has no parameters") && told.contains("robot send"), "{told}");
+
+    let block = block();
+    let ready = send(&mut line, &block.bytes, block.checksum).unwrap();
+    let who = ready.identity.unwrap();
+    assert_eq!((who.checksum, who.wheels), (block.checksum, 4));
+    assert!((ready.bus_v.unwrap() - 12.0).abs() < 0.1, "{ready:?}");
+
+    line.keep();
+    let mut driving = 0;
+    let ended = drive(&mut line, &ahead(1), |status| {
+        driving += u32::from(status.is_driving() && status.wanted[0] > 0.4);
+        true
+    });
+    assert_eq!(ended.unwrap(), Ended::Done);
+    assert!(driving > 20, "{driving} of 50 looks saw it drive");
+    let stands = status(&mut line).unwrap();
+    assert_eq!((stands.state, stands.driven.len(), stands.faults.len()), ("open", 0, 0));
+    // what came meanwhile is a run: voltages, currents and speeds of all wheels
+    let recorded = record_kept(line.kept(), Path::new("line"), "ahead", 4).unwrap();
+    let fastest = recorded.run.w.as_ref().unwrap().channels[1].present().map(|(_, w)| w.abs()).fold(0.0, f64::max);
+    assert!(
+        recorded.run.rows() > 500 && recorded.run.u.is_some() && fastest > 8.0,
+        "{} rows, {fastest}",
+        recorded.run.rows()
+    );
+    drop(line);
+    // half a metre, but for its ramps; a busy machine may make the robot's time slower than the wall's
+    let pose = robot.join().unwrap();
+    assert!(pose.x > 0.2 && pose.x < 0.6 && pose.y.abs() < 0.02, "{pose:?}");
+}
+
+#[test]
+fn a_robot_that_hears_nothing_more_says_so_until_it_is_cleared() {
+    let (mut line, _robot) = robot();
+    let block = block();
+    send(&mut line, &block.bytes, block.checksum).unwrap();
+    line.send(&Command::Drive { sequence: 7, twist: AHEAD }).unwrap();
+    let silent = line.listen(Instant::now() + Duration::from_secs(10), |heard| match heard {
+        Heard::Record(record) => (!record.faults.is_empty()).then_some(record.faults),
+        _ => None,
+    });
+    assert_eq!(
+        silent.unwrap().unwrap().iter().map(|fault| fault.text()).collect::<Vec<_>>(),
+        ["no command came in time"]
+    );
+    let told = drive(&mut line, &ahead(1), |_| true).unwrap_err().to_string();
+    assert!(told.contains("no command came in time") && told.contains("robot clear"), "{told}");
+    assert_eq!(clear(&mut line).unwrap().state, "open");
+}
+
+#[test]
+fn who_has_enough_brings_the_robot_to_rest_and_a_stop_opens_the_bridges() {
+    let (mut line, _robot) = robot();
+    let block = block();
+    send(&mut line, &block.bytes, block.checksum).unwrap();
+    let mut looks = 0;
+    let ended = drive(&mut line, &ahead(60), |_| {
+        looks += 1;
+        looks < 15
+    });
+    assert_eq!(ended.unwrap(), Ended::Interrupted);
+    line.send(&Command::Drive { sequence: 999, twist: AHEAD }).unwrap();
+    assert_eq!(stop(&mut line).unwrap().state, "open");
+}
+
+#[test]
+fn a_block_that_the_robot_does_not_take_is_told_with_its_reason() {
+    let (mut line, _robot) = robot();
+    let mut block = block();
+    block.bytes[20] ^= 1;
+    let told = send(&mut line, &block.bytes, block.checksum).unwrap_err().to_string();
+    assert!(told.contains("refuses the block: the checksum of the block does not fit"), "{told}");
+}
