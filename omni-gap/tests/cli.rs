@@ -34,6 +34,8 @@ mod next;
 mod record_vision;
 #[path = "cli/robot.rs"]
 mod robot;
+#[path = "cli/robot_verbs.rs"]
+mod robot_verbs;
 #[path = "cli/selftest.rs"]
 mod selftest;
 #[path = "cli/streamed.rs"]

@@ -100,6 +100,12 @@ pub const ERRANDS: &[Errand] = &[
         run: pil,
     },
     Errand {
+        name: "robot",
+        takes: "[HOST:PORT]",
+        does: "a robot without a board at tcp:127.0.0.1:7000: the image in QEMU, with a virtual board; until Ctrl-C",
+        run: robot,
+    },
+    Errand {
         name: "emulate",
         takes: "",
         does: "build the images and compare their bits and instructions (BLESS=1: rewrite)",
@@ -263,6 +269,12 @@ fn pil(_: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
     Line::of(steps::EMULATED_IMAGES).announced()?;
     steps::IN_LOOP.into_iter().try_for_each(|command| Line::of(command).announced())
+}
+
+fn robot(address: &[OsString]) -> Result<(), String> {
+    tool::ensure(tool::TOOLS)?;
+    Line::of(steps::EMULATED_IMAGES).announced()?;
+    address.iter().fold(Line::of(steps::ROBOT), Line::word).announced()
 }
 
 fn emulate(_: &[OsString]) -> Result<(), String> {

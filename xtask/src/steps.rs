@@ -40,6 +40,10 @@ pub const IN_LOOP: [&str; 3] = [
     "cargo run -p host-tests --bin gap -- target/thumbv7em-none-eabihf/firmware/firmware",
 ];
 
+/// A robot without a board: the image on a network address.
+pub const ROBOT: &str =
+    "cargo run --release -p host-tests --bin robot -- target/thumbv7em-none-eabihf/firmware/firmware";
+
 /// All checks. Tests on the source tree itself (the walls between the rooms) are tests like any other.
 pub const STEPS: &[Step] = &[
     Step { name: "format", command: "cargo fmt --all --check", env: &[] },

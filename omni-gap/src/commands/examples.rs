@@ -1,7 +1,7 @@
 //! What a command is called with, for its help.
 
 /// Examples of each command, one a line.
-pub const EXAMPLES: [(&str, &[&str]); 22] = [
+pub const EXAMPLES: [(&str, &[&str]); 23] = [
     ("demo", &["demo"]),
     (
         "diagnose",
@@ -41,6 +41,16 @@ pub const EXAMPLES: [(&str, &[&str]); 22] = [
     ("explain", &["explain", "explain wheel_slip --out slip.svg", "explain columns"]),
     ("export", &["export robot.toml --out block.bin", "export report/corrected_robot.toml --out robot.xml"]),
     ("record", &["record --from /dev/ttyACM0 --robot robot.toml --seconds 20 --out my-robot"]),
+    (
+        "robot",
+        &[
+            "robot status --to /dev/ttyACM0",
+            "robot send report/corrected_robot.toml --to /dev/ttyACM0",
+            "robot drive --leg 0.3,0,0,2 --leg 0,0,1,2 --to tcp:127.0.0.1:7000",
+            "robot drive --leg 0.3,0,0,2 --to /dev/ttyACM0 --robot robot.toml --out my-robot --name ahead",
+            "robot record --from /dev/ttyACM0 --robot robot.toml --out my-robot",
+        ],
+    ),
     (
         "watch",
         &[

@@ -29,6 +29,7 @@ mod next;
 mod output_path;
 mod predict;
 mod record;
+mod robot;
 mod schema;
 mod selftest;
 mod sensitivity;
@@ -75,6 +76,7 @@ enum Command {
     Explain(explain::Explain),
     Export(export::Export),
     Record(record::Record),
+    Robot(robot::Robot),
     Watch(watch::WatchRobot),
     Convert(convert::Convert),
     Completions(completions::Completions),
@@ -118,6 +120,7 @@ impl Cli {
             Command::Explain(c) => c.run(&console),
             Command::Export(c) => c.run(&console),
             Command::Record(c) => c.run(&console),
+            Command::Robot(c) => c.run(&console),
             Command::Watch(c) => c.run(&console),
             Command::Convert(c) => c.run(&console),
             Command::Completions(c) => c.run(Cli::program(), &console),

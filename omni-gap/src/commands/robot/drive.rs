@@ -1,0 +1,167 @@
+//! `robot drive`: leg by leg, recorded if that is asked for.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::command::{FASTEST, FASTEST_TURN};
+use model_core::link::faults::Faults;
+use omni_gap::Error;
+use omni_gap::api::{RobotFile, known_effects, record_kept};
+use omni_gap::log::write_whole;
+use omni_gap::wire::line::Line;
+use omni_gap::wire::robot::{Ended, Leg, drive, status};
+
+use super::ask::Ask;
+use crate::commands::cli_error::CliError;
+use crate::commands::console::Console;
+use crate::commands::output_path::NewFolder;
+use crate::commands::record::run_place::{RunPlace, name, remarks, text_of};
+
+/// What to drive, and where to record it.
+#[derive(Debug, clap::Args)]
+pub struct Drive {
+    /// Speed forward [m/s], to the left [m/s], turning counterclockwise [rad/s], and for how long [s]; may be given several times
+    #[arg(long = "leg", value_name = "V,VN,W,SECONDS", required = true, allow_hyphen_values = true)]
+    legs: Vec<AskedLeg>,
+
+    /// Record the drive into this session: a new one, or one of this robot that gets another run
+    #[arg(long, value_name = "SESSION", requires = "robot")]
+    out: Option<PathBuf>,
+
+    /// The robot's file, for the session
+    #[arg(long, value_name = "ROBOT.toml", requires = "out")]
+    robot: Option<PathBuf>,
+
+    /// The run's name
+    #[arg(long, value_name = "NAME", default_value = "run", value_parser = name, requires = "out")]
+    name: String,
+
+    #[command(flatten)]
+    ask: Ask,
+}
+
+/// A leg as it is asked for.
+#[derive(Clone, Copy, Debug)]
+struct AskedLeg(Leg);
+
+impl Drive {
+    /// Does it.
+    pub fn run(&self, console: &Console) -> Result<(), CliError> {
+        let recording = self.recording()?;
+        let told_to_end = interrupted().map_err(|why| {
+            Error::output(std::path::Path::new("Ctrl-C"), why.to_string(), "Start it from an ordinary shell")
+        })?;
+        let legs: Vec<Leg> = self.legs.iter().map(|asked| asked.0).collect();
+        let mut line = self.ask.line()?;
+        if recording.is_some() {
+            line.keep();
+        }
+        console.phase("driving");
+        let ended = drive(&mut line, &legs, |_| !told_to_end.load(Ordering::Relaxed))?;
+        // what was recorded before a fault tells of it
+        let notices = recording.map(|recording| recording.write(&line, &self.name)).transpose()?.unwrap_or_default();
+        if let Ended::Faulted(faults) = ended {
+            return Err(faulted(&line, faults).into());
+        }
+        let status = status(&mut line)?;
+        self.ask.say(console, &status, &notices)
+    }
+
+    fn recording(&self) -> Result<Option<DriveRecording>, CliError> {
+        let (Some(session), Some(path)) = (&self.out, &self.robot) else { return Ok(None) };
+        let robot = RobotFile::load(path, &known_effects())?;
+        let text = text_of(path)?;
+        let place = RunPlace::new(session, &self.name, false)?;
+        place.fits("robot.toml", &text)?;
+        Ok(Some(DriveRecording { place, robot, path: path.clone(), text }))
+    }
+}
+
+/// A drive that is recorded.
+struct DriveRecording {
+    place: RunPlace,
+    robot: RobotFile,
+    path: PathBuf,
+    text: String,
+}
+
+impl DriveRecording {
+    /// Writes the run; what a person should know of it.
+    fn write(&self, line: &Line, name: &str) -> Result<Vec<String>, CliError> {
+        let recorded = record_kept(line.kept(), &line.place(), name, self.robot.wheel.len())?;
+        let made = NewFolder::make(&self.place.folder)?;
+        self.place.begin("robot.toml", &self.text)?;
+        write_whole(&self.place.records, &recorded.frames)?;
+        made.keep();
+        let (rows, seconds) = (recorded.run.rows(), recorded.run.duration_s());
+        let mut notices = vec![format!("{rows} rows, {seconds:.3} s, written to {}", self.place.records.display())];
+        notices.extend(remarks(&recorded, &self.robot, &self.path));
+        Ok(notices)
+    }
+}
+
+/// Becomes true at Ctrl-C, which then no longer ends the program: the robot is brought to rest first.
+fn interrupted() -> std::io::Result<Arc<AtomicBool>> {
+    let told = Arc::new(AtomicBool::new(false));
+    #[cfg(unix)]
+    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+        signal_hook::flag::register(signal, told.clone())?;
+    }
+    Ok(told)
+}
+
+fn faulted(line: &Line, faults: Faults) -> Error {
+    let told: Vec<&str> = faults.iter().map(|fault| fault.text()).collect();
+    line.error(format!("the robot stopped: {}", told.join("; ")), "Mend the cause, then `omni-gap robot clear`")
+}
+
+impl FromStr for AskedLeg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+        let [v, vn, w, seconds] = fields[..] else {
+            return Err(format!("found {} numbers, expected four: v,vn,w,seconds, such as 0.3,0,0,2", fields.len()));
+        };
+        let twist = BodyTwist {
+            v: within(v, FASTEST, "m/s")?,
+            vn: within(vn, FASTEST, "m/s")?,
+            w: within(w, FASTEST_TURN, "rad/s")?,
+        };
+        let lasts = seconds.parse::<f64>().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+        let lasts = lasts.filter(|lasts| !lasts.is_zero());
+        let lasts = lasts.ok_or_else(|| format!("found {seconds} for the time, expected seconds above zero"))?;
+        Ok(Self(Leg { twist, lasts }))
+    }
+}
+
+fn within(text: &str, most: f32, unit: &str) -> Result<f32, String> {
+    let number = text.parse::<f32>().ok().filter(|x| x.abs() <= most);
+    number.ok_or_else(|| format!("found {text}, expected a speed from -{most} to {most} {unit}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_leg_is_four_numbers_within_what_a_command_may_ask() {
+        let AskedLeg(leg) = "0.3, -0.1,2,1.5".parse().unwrap();
+        assert_eq!((leg.twist, leg.lasts), (BodyTwist { v: 0.3, vn: -0.1, w: 2.0 }, Duration::from_millis(1500)));
+        for (text, says) in [
+            ("0.3,0,2", "found 3 numbers"),
+            ("30,0,0,1", "from -20 to 20 m/s"),
+            ("0,0,-200,1", "from -100 to 100 rad/s"),
+            ("0,nan,0,1", "found nan"),
+            ("0,0,0,0", "seconds above zero"),
+            ("0,0,0,-1", "seconds above zero"),
+        ] {
+            let told = text.parse::<AskedLeg>().unwrap_err();
+            assert!(told.contains(says), "{text}: {told}");
+        }
+    }
+}
