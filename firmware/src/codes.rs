@@ -20,7 +20,7 @@ pub const TICK_SECONDS: f32 = PERIODS_PER_TICK as f32 / PERIODS_PER_SECOND as f3
 /// What was measured in one period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Codes {
-    /// The three phase currents of every motor, each at the centre of that motor's PWM
+    /// The three phase currents of every motor, each at the top of that motor's timer, where its low sides conduct
     pub phases: [[AdcCode; 3]; MOTORS],
     /// The supply
     pub bus: AdcCode,

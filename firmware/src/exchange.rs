@@ -4,8 +4,8 @@
 //! for a [`DownFrame`]; the host, which has the motors and the robot, does the opposite. So the host is the clock:
 //! nothing here depends on how fast either side runs.
 //!
-//! What an [`UpFrame`] asks for holds over the period that follows, as compare registers that are loaded at the update
-//! do; the codes of a [`DownFrame`] are those of that period's PWM centre.
+//! What an [`UpFrame`] asks for holds over the period that follows; the codes of a [`DownFrame`] are those of that
+//! period, sampled when [`crate::registers::timing`] says.
 
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;

@@ -2,12 +2,22 @@
 //!
 //! The halls are followed whether the bridge is closed or not. While the speed is not known the motor commutates in six
 //! steps, by the middle of its sector; once the halls tell where the rotor is between two edges, field-oriented.
+//!
+//! ```text
+//! θ = θ_halls − ω_e·ε                   where the currents were sampled
+//! δ = ω_e·(t_duties − t_sample + ½)     from there to the middle of the period that the duties are for
+//! ū = Σ u(k − 2)/n                      between two samples the voltage of the turn before the last is on the motor
+//! ```
+//!
+//! The instants are those of [`crate::registers::timing`]. Fails when: δ is more than half a radian, at 6,667 rad/s
+//! electrical (5 m/s of the paper's robot), where the series that turns the voltage ahead ends.
 
 use model_core::control::calibration::AdcCode;
 use model_core::control::current_loop::{CurrentMeasurement, CurrentMemory, CurrentSetpoint};
 use model_core::control::halls::{HallCode, HallDecoder, HallFault, angle_of_code};
 
 use crate::codes::PERIODS_PER_TICK;
+use crate::registers::timing;
 use crate::winding_config::WindingConfig;
 
 /// A sector that no rotor is in: the current loop then applies no voltage.
@@ -34,10 +44,12 @@ pub struct MotorMeasurement {
 pub struct MotorController {
     halls: Option<HallDecoder>,
     memory: CurrentMemory<f32>,
-    /// Electrical angle of this period [2⁻¹⁶ turn]
+    /// Electrical angle at which the currents were sampled [2⁻¹⁶ turn]
     angle: u16,
     current: f32,
-    /// The voltage decided last, which is on the motor now [V]
+    /// The voltage decided last, which is on the motor from the next sample on [V]
+    decided: f32,
+    /// The one before it, which is on the motor now [V]
     applied: f32,
     /// Its sum since the last motion turn [V]
     sum: f32,
@@ -57,17 +69,19 @@ impl MotorController {
         Ok(())
     }
 
-    /// Counts the voltage that was on the motor over this period.
+    /// Counts the voltage that was on the motor between the last sample and this one.
     #[inline]
     pub fn accumulate_voltage(&mut self) {
+        // ū = Σ u(k − 2)/n
         self.sum += self.applied;
+        self.applied = self.decided;
     }
 
-    /// The bridge is open in the next period.
+    /// The bridge is open from now on.
     #[inline]
     pub fn bridge_opened(&mut self) {
         self.memory = CurrentMemory::default();
-        self.applied = 0.0;
+        (self.decided, self.applied) = (0.0, 0.0);
     }
 
     /// Duties of the next period [1]; those of no voltage where the bridge is to be open.
@@ -84,7 +98,8 @@ impl MotorController {
             codes: measured.codes,
             offsets: measured.offsets,
             angle: angle_of_code(self.angle),
-            ahead: self.halls.as_ref().map_or(0.0, HallDecoder::ahead),
+            // δ = ω_e·(t_duties − t_sample + ½)
+            ahead: self.halls.as_ref().map_or(0.0, HallDecoder::ahead::<f32>) * timing::SAMPLE_TO_ACTUATION,
             bus: measured.bus,
             per_bus: measured.per_bus,
         };
@@ -94,7 +109,7 @@ impl MotorController {
         };
         self.current = output.current;
         if closed {
-            self.applied = output.voltage;
+            self.decided = output.voltage;
             return output.duties;
         }
         self.bridge_opened();
@@ -106,7 +121,8 @@ impl MotorController {
     fn sector(&mut self, six_step: bool) -> Option<u8> {
         let Some(halls) = &self.halls else { return Some(NO_SECTOR) };
         if halls.interval() > 0 && !six_step {
-            self.angle = halls.angle_code();
+            // θ = θ_halls − ω_e·ε
+            self.angle = halls.angle_code_before(timing::HALLS_READ_PARTS);
             return None;
         }
         // the middle of the sector

@@ -10,8 +10,9 @@
 //! once its halls tell where the rotor is between two edges. A fault opens the bridges in the turn that sees it; it is
 //! latched until it is cleared. Without parameters nothing is driven.
 //!
-//! A voltage decided in one period holds over the next (compare registers are loaded at the update), so the mean that a
-//! record tells covers exactly the periods from its predecessor's codes to its own.
+//! A voltage decided with one sample is on the motor from the next sample on, for a period
+//! ([`crate::registers::timing`]); the mean that a record tells covers exactly the time from its predecessor's codes to
+//! its own.
 
 use model_core::control::current_loop::CurrentSetpoint;
 use model_core::control::halls::HallCode;

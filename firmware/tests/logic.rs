@@ -2,7 +2,7 @@
 
 mod program;
 
-use firmware::codes::Codes;
+use firmware::codes::{Codes, PERIODS_PER_TICK};
 use firmware::command_receiver::{CommandReceiver, ReceivedCommand};
 use firmware::motion::events;
 use firmware::motor_controller::NO_VOLTAGE;
@@ -12,7 +12,7 @@ use firmware::winding_signals::WindingFeedback;
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::{BlockErrorKind, Parameters};
+use model_core::link::block::{BlockErrorKind, ControlMode, Parameters};
 use model_core::link::command::{Command, Reply};
 use model_core::link::faults::{Fault, Faults};
 use model_core::link::framing::{FrameKind, MAX_FRAME};
@@ -293,4 +293,38 @@ fn the_largest_limit_that_a_block_may_state_can_be_seen_being_broken() {
     assert!(nearest_end > trip);
     // the crest of the limit itself, 2/√3 of it, is no fault
     assert!(1500.0 * 1.1548 < trip);
+}
+
+#[test]
+fn the_voltage_of_a_record_is_what_was_on_the_motor_since_the_record_before() {
+    let mut block = block(four_wheels());
+    block.mode = ControlMode::Voltage;
+    let mut program = Program::driving(&Parameters::Four(block));
+    let bus = 1354.0 * block.bus_volts_per_count;
+    // a rotor at rest in sector 0: b is driven up and c down. What turn k decides is on the motor over the period that
+    // begins with the sample of turn k + 1
+    let mut on_the_motor = Vec::new();
+    let mut decided = 0.0;
+    let (mut records, mut changes) = (program.records.len(), 0);
+    for k in 0..20 * PERIODS_PER_TICK {
+        if k.is_multiple_of(100) {
+            program.drive();
+        }
+        on_the_motor.push(decided);
+        let command = program.period(&still());
+        // motor 1 rolls along v
+        decided = (command.duties[1][1] - command.duties[1][2]) * bus;
+        if program.records.len() == records {
+            continue;
+        }
+        records = program.records.len();
+        let told = program.records.last().map_or(0.0, |record| record.voltage[1]);
+        // of the period that begins with this sample nothing is over yet, and the one before began with `decided` of then
+        let since = on_the_motor.len() - 1;
+        let Some(from) = since.checked_sub(PERIODS_PER_TICK as usize) else { continue };
+        let mean = on_the_motor[from..since].iter().sum::<f32>() / PERIODS_PER_TICK as f32;
+        assert!((told - mean).abs() < 1e-5, "{told} V told, {mean} V on the motor");
+        changes += u32::from((on_the_motor[since - 1] - on_the_motor[from]).abs() > 1e-3);
+    }
+    assert!(changes > 5, "a voltage that stays says nothing: {changes}");
 }

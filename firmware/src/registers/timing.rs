@@ -34,6 +34,32 @@
 //! 1 − n · 2 · 216/8400 (0.949, 0.897, 0.846); what it couples over only a board can show.
 //!
 //! The tops are those of the timers, the latch is the moment at which the compare registers are written (`board/f405`).
+//!
+//! # When, in periods
+//!
+//! What the control path and the simulated board have to know of all this is when four things happen. It stands here
+//! once, in current periods, counted from the sample of motor k's currents at its own top:
+//!
+//! ```text
+//! SAMPLE          HALLS_READ                            DUTIES             SAMPLE_TO_ACTUATION
+//!    0 ───────────── 0.05 ─────────────────────────────── 1 ───────────────────── 1.5 ───► periods
+//! top k                                                top k + 1               bottom k + 1
+//! ```
+//!
+//! | what | why then |
+//! |---|---|
+//! | [`SAMPLE`] | TIM1's OC4REF rises [`TRIGGER_TO_HOLD`] before the top (PWM mode 2, compare count [`TRIGGER`] on the way up), and the converters hold at the top; the motors behind are a rank later, and so are their tops |
+//! | [`HALLS_READ`] | the lines are read when the last rank is over: [`TOP_TO_END`] after the sample of motor 0, and 1½ ranks less after the mean of the four samples |
+//! | [`DUTIES`] | compare registers are preloaded and taken at update events; a centre-aligned timer without repetition count has them at its bottoms and tops; they are written by the latch, after the bottom and before the top: the next event is the top |
+//! | [`SAMPLE_TO_ACTUATION`] | a pulse of a centre-aligned timer lies around the bottom, half a period after the top from which its compare count is in force |
+//!
+//! Sources: RM0090, advanced-control timers, counter modes and update event; PWM centre-aligned mode. A test plays the
+//! timers by their registers and finds the same instants (`firmware/tests/registers/instants.rs`).
+//!
+//! Neglects: that the motors' samples are up to 1½ ranks (1.9 µs, 0.04 periods) from the mean that [`HALLS_READ`] is
+//! counted from, and the time from the interrupt to the reading of the lines (some 1 µs).
+
+use model_core::control::halls::HALL_PARTS;
 
 use crate::codes::{MOTORS, PERIODS_PER_SECOND};
 
@@ -127,7 +153,20 @@ pub const LATCH: u16 = TOPS[1] - (LATCH_BEFORE_TOP + RANK) as u16;
 /// Core cycles from the converters' interrupt to the latch: what a turn of the currents may take.
 pub const TURN: u32 = PERIOD - LATCH_BEFORE_TOP - TOP_TO_END;
 
+/// When the currents that a turn works with are held [periods]: all instants are counted from here.
+pub const SAMPLE: f32 = 0.0;
+/// When the hall lines are read that go with them, in the mean of the motors [periods].
+pub const HALLS_READ: f32 = (TOP_TO_END - (MOTORS as u32 - 1) * RANK / 2) as f32 / PERIOD as f32;
+/// The same in parts of which [`HALL_PARTS`] are a period, rounded.
+pub const HALLS_READ_PARTS: u32 = (HALLS_READ * HALL_PARTS as f32 + 0.5) as u32;
+/// When the duties take effect that the turn decides; they hold for a period [periods].
+pub const DUTIES: f32 = 1.0;
+/// From the sample to the middle of the time over which these duties hold [periods].
+pub const SAMPLE_TO_ACTUATION: f32 = DUTIES - SAMPLE + 0.5;
+
 // The last timer is past its bottom when the latch comes, and the latch comes after the interrupt.
 const _: () = assert!(PERIOD / 2 + (MOTORS as u32 - 1) * RANK < PERIOD - LATCH_BEFORE_TOP);
+// The windings count a voltage for the period after the next sample: duties take effect with a sample.
+const _: () = assert!(DUTIES - SAMPLE == 1.0);
 // The timers' ranks are whole counts.
 const _: () = assert!(RANK.is_multiple_of(CORE_HZ / TIMER_HZ[2]) && (TRIGGER as u32).is_multiple_of(2));

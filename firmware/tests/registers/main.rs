@@ -2,6 +2,7 @@
 //! kept as a table that a person can judge (`golden/registers.md`; `BLESS=1` writes it anew).
 
 mod fields;
+mod instants;
 
 use std::collections::BTreeSet;
 use std::fmt::Write;

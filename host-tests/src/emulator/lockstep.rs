@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! up(k): outputs of turn k − 1, bytes of the link       →  they hold over period k
-//! down(k): codes of the middle of period k, bytes       →  turn k
+//! down(k): codes of period k, bytes                     →  turn k
 //! ```
 
 use firmware::exchange::{DownFrame, UpFrame};

@@ -13,6 +13,12 @@
 //! `actuation_delay` is refused: on this board nothing stands between command and bridge, a late command is late on the
 //! link. Within a period the wheels' speeds are those of its beginning; the plant then takes one step under the mean
 //! currents.
+//!
+//! A period begins where duties come into force; when it is sampled say the [`Instants`]. A bridge that opens is open
+//! before the sample: its enable does not wait for the duties.
+//!
+//! Neglects: that on the chip each motor's period begins a little after that of the one before, that an enable acts in
+//! the turn that decides it, up to a period before the duties, and that the supply's code is a period old.
 
 use firmware::codes::{Codes, MOTORS};
 use firmware::exchange::TOPS;
@@ -32,6 +38,7 @@ use super::adc::{AdcChannel, FULL_SCALE};
 use super::battery::Battery;
 use super::faults::{InjectedFault, OnBoard};
 use super::halls::HallSwitches;
+use super::instants::Instants;
 use super::machine::{BridgeLegs, LegLoss, Machine, PeriodResult, RotorFlux, Vector, phases};
 
 /// One PWM period [s].
@@ -70,6 +77,8 @@ pub struct BoardSetup<const N: usize> {
     pub noise: f64,
     /// How far the hall switches sit from their places, at most [rad, electrical]
     pub hall_spread: f64,
+    /// When currents are sampled and halls are read
+    pub instants: Instants,
     /// What zeros, placements, rotor angles and noise are drawn with
     pub seed: u64,
 }
@@ -87,6 +96,7 @@ impl<const N: usize> BoardSetup<N> {
             offset_spread: 12.0,
             noise: 1.5,
             hall_spread: 0.0,
+            instants: Instants::default(),
             seed,
         }
     }
@@ -107,6 +117,8 @@ struct BoardMotor {
     sensor_offset: f64,
     /// Space vector of the phase currents [A]
     current: Vector,
+    /// Phase currents when they were sampled last [A]
+    sampled: [f64; 3],
     /// Electrical angle [rad]
     angle: f64,
     outcome: PeriodResult,
@@ -178,11 +190,12 @@ impl<const N: usize> VirtualBoard<N> {
         }
     }
 
-    /// One period under these outputs; the codes are those of its middle.
+    /// One period under these outputs; the codes are those of its instants.
     pub fn period(&mut self, outputs: &Outputs) -> Codes {
         self.bus = self.bus_now();
         let speeds = self.wheel_speeds();
         let mut codes = self.resting();
+        let Instants { sample, halls } = self.setup.instants;
         for (j, motor) in self.motors.iter_mut().enumerate() {
             let legs = BridgeLegs {
                 duties: outputs.compare[j].map(|count| (f64::from(count) / f64::from(TOPS[j])).min(1.0)),
@@ -192,11 +205,10 @@ impl<const N: usize> VirtualBoard<N> {
             // ω = p·l·ω_w
             let speed = motor.machine.pole_pairs * self.setup.robot.motor.gear_ratio * speeds[j];
             let magnet = RotorFlux { angle: motor.angle, speed };
-            motor.outcome = motor.machine.period(&mut motor.current, &legs, magnet, PERIOD);
-            let middle = magnet.angle + 0.5 * speed * PERIOD;
-            motor.angle = (magnet.angle + speed * PERIOD).rem_euclid(std::f64::consts::TAU);
-            codes.halls[j] = HallCode(motor.halls.code(middle));
-            codes.phases[j] = motor.codes(middle, &mut self.rng);
+            motor.period(&legs, magnet, sample);
+            motor.angle = magnet.after(PERIOD).angle.rem_euclid(std::f64::consts::TAU);
+            codes.halls[j] = HallCode(motor.halls.code(magnet.after((sample + halls) * PERIOD).angle));
+            codes.phases[j] = motor.codes(magnet.after(sample * PERIOD).angle, &mut self.rng);
         }
         codes.bus = AdcCode(self.bus_channel.code(self.bus, &mut self.rng));
         self.drawn = self.motors.iter().map(|motor| motor.outcome.bus_current).sum();
@@ -334,7 +346,31 @@ impl BoardMotor {
         let halls = HallSwitches { errors: [(); 3].map(|()| within(setup.hall_spread)) };
         let angle = within(std::f64::consts::PI).rem_euclid(std::f64::consts::TAU);
         let (current, outcome) = (Vector::default(), PeriodResult::default());
-        Self { machine, channels, halls, sensor_offset, current, angle, outcome }
+        Self { machine, channels, halls, sensor_offset, current, sampled: [0.0; 3], angle, outcome }
+    }
+
+    /// A period whose currents are sampled when a `sample` of it is over [1].
+    fn period(&mut self, legs: &BridgeLegs, magnet: RotorFlux, sample: f64) {
+        if !legs.enabled {
+            self.current = Vector::default();
+        }
+        let before = self.part(sample, legs, magnet);
+        self.sampled = phases(self.current);
+        let after = self.part(1.0 - sample, legs, magnet.after(sample * PERIOD));
+        let mean = |before: f64, after: f64| sample * before + (1.0 - sample) * after;
+        self.outcome = PeriodResult {
+            current: mean(before.current, after.current),
+            bus_current: mean(before.bus_current, after.bus_current),
+        };
+    }
+
+    /// A share of a period [1]; one of no length leaves all as it is.
+    fn part(&mut self, share: f64, legs: &BridgeLegs, magnet: RotorFlux) -> PeriodResult {
+        if share > 0.0 {
+            self.machine.period(&mut self.current, legs, magnet, share * PERIOD)
+        } else {
+            PeriodResult::default()
+        }
     }
 
     /// Codes of the phase currents, sampled while the rotor is at an electrical angle [rad].
@@ -343,7 +379,7 @@ impl BoardMotor {
         // 2/√3·o
         let turning = Vector::new(0.0, 2.0 / 3.0_f64.sqrt() * self.sensor_offset) * Vector::from_polar(1.0, angle);
         let wrong = phases(turning);
-        std::array::from_fn(|x| AdcCode(self.channels[x].code(self.outcome.sampled[x] + wrong[x], rng)))
+        std::array::from_fn(|x| AdcCode(self.channels[x].code(self.sampled[x] + wrong[x], rng)))
     }
 }
 
@@ -355,3 +391,7 @@ fn in_plant(active: &ActiveEffect<Effect<f64>>) -> bool {
 #[cfg(test)]
 #[path = "board_tests.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "instants_tests.rs"]
+mod instants_tests;

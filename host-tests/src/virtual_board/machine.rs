@@ -21,9 +21,6 @@
 //! Duties, bus voltage and speed are held over a period, and the solution is then exact, its means too; with dead time
 //! a period is cut into pieces over which the loss is held.
 //!
-//! A period begins where the new duties take effect, at the far end of the PWM's triangle. The currents are sampled at
-//! its middle, where the ripple passes through zero: half a period after the duties have come into force.
-//!
 //! While the bridge is open the current is zero: the diodes carry it against the whole bus, and it is gone in a
 //! fraction of a period; its last charge, some ten microseconds' worth, is not accounted for.
 //!
@@ -98,11 +95,16 @@ pub struct RotorFlux {
     pub speed: f64,
 }
 
+impl RotorFlux {
+    /// Where it is `time` [s] later.
+    pub fn after(self, time: f64) -> Self {
+        Self { angle: self.angle + self.speed * time, ..self }
+    }
+}
+
 /// What came of a period.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PeriodResult {
-    /// Phase currents at the middle of the period [A]
-    pub sampled: [f64; 3],
     /// Mean DC-equivalent current: torque over K_t [A]
     pub current: f64,
     /// Mean current drawn from the bus [A]
@@ -140,10 +142,7 @@ impl Machine {
         let share = 1.0 / f64::from(pieces);
         let mut outcome = PeriodResult::default();
         for k in 0..pieces {
-            if 2 * k == pieces {
-                outcome.sampled = phases(*current);
-            }
-            let begins = RotorFlux { angle: magnet.angle + magnet.speed * dt * share * f64::from(k), ..magnet };
+            let begins = magnet.after(dt * share * f64::from(k));
             let piece = self.piece(current, self.voltage(legs, *current), begins, dt * share);
             // ī = √3/2·ī_q
             outcome.current += share * 0.5 * 3.0_f64.sqrt() * piece.turning.im;
@@ -154,12 +153,12 @@ impl Machine {
         outcome
     }
 
-    /// How many pieces a period is cut into: an even number, so that one ends at the middle.
+    /// How many pieces a period is cut into.
     fn pieces(&self, dt: f64) -> u32 {
         // a loss held over a piece of h changes the current by V_l/i₀·h/L of itself: kept below an eighth
-        self.loss.map_or(2, |loss| {
+        self.loss.map_or(1, |loss| {
             let slope = loss.voltage / loss.smoothing_current;
-            2 * (4.0 * slope * dt / self.inductance).ceil().clamp(8.0, 500.0) as u32
+            (8.0 * slope * dt / self.inductance).ceil().clamp(16.0, 1000.0) as u32
         })
     }
 

@@ -10,15 +10,17 @@
 //! ```
 //!
 //! The windings are solved here and share no line with the robot's code; body, wheels and their effects are the core's
-//! plant, driven by the mean current of each motor. [`board`] puts it together, [`faults`] is what can go wrong with
-//! it.
+//! plant, driven by the mean current of each motor. [`board`] puts it together, [`instants`] says when it samples,
+//! [`faults`] is what can go wrong with it.
 
 pub mod adc;
 pub mod battery;
 pub mod board;
 pub mod faults;
 pub mod halls;
+pub mod instants;
 pub mod machine;
 
 pub use board::{BoardSetup, Outputs, VirtualBoard};
 pub use faults::InjectedFault;
+pub use instants::Instants;

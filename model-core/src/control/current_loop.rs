@@ -22,7 +22,7 @@
 //! | R, L | `resistance`, `inductance` | Ω, H | DC-equivalent: between two terminals |
 //!
 //! The gains put the regulator's zero on the winding's pole, exactly so for a voltage held over a period; what is left
-//! of the loop is an integrator and the delay until duties act. Even if that is a whole period, there is no overshoot up
+//! of the loop is an integrator and the delay until duties act. Where that is a whole period, there is no overshoot up
 //! to w = 1/(4·Δt), and the loop is stable up to 1/Δt. All vectors are carried in DC-equivalent numbers, in which d and
 //! q have the motor's R and L and the limit of the voltage is the bus itself (see [`crate::control::phases`]).
 //!
@@ -93,8 +93,8 @@ pub struct CurrentMeasurement<T = f32> {
     pub offsets: [T; 3],
     /// θ, electrical angle of the rotor [rad]; six steps do not look at it
     pub angle: T,
-    /// ω_e·Δt, by how much the rotor will be ahead of it in the middle of the period that the duties are for [rad];
-    /// up to half a radian, and not looked at by six steps
+    /// By how much the rotor will be ahead of it in the middle of the period that the duties are for [rad]: ω_e times the
+    /// time from the sample to there. Up to half a radian, and not looked at by six steps
     pub ahead: T,
     /// U, bus voltage, above zero [V]
     pub bus: T,

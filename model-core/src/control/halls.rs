@@ -4,7 +4,7 @@
 //! sector k:  θ in k·60° − 30° ..< k·60° + 30°     codes 1, 3, 2, 6, 4, 5 (a = 1, b = 2, c = 4)
 //! ω_e = s·(2π/6)·n/Σ t                            mean over the last n ≤ 6 sectors, in rad a period
 //! |ω_e| ≤ 1¼·(2π/6)/t₀                            while the next edge is late
-//! θ = edge + s·min(ω_e·(t₀ + ½), 60°)             within the sector
+//! θ = edge + s·min(ω_e·(t₀ + ½ − ε), 60°)         within the sector
 //! ```
 //!
 //! | symbol | code | unit | meaning |
@@ -14,6 +14,7 @@
 //! | s | | 1 | sense in which the last edge was crossed |
 //! | t | | periods | what each of the last sectors took |
 //! | t₀ | [`HallDecoder::since_edge`] | periods | since the last edge |
+//! | ε | `before` | periods | how long before the reading θ is wanted: where the currents were sampled |
 //! | n | | 1 | sectors looked at |
 //!
 //! The switches are read once a period, so that an edge is known to a period: ±½ on average, hence the ½ in the angle.
@@ -52,6 +53,9 @@ pub enum HallFault {
 
 /// Periods without an edge after which the rotor is taken to rest: 50 ms at 20 kHz.
 pub const REST: u16 = 1000;
+
+/// Parts of a period, in which it is told how long before the reading an angle is wanted.
+pub const HALL_PARTS: u32 = 256;
 
 /// A sixth of a turn, where a turn is 2³²; six of them just fit.
 const SIXTH: u32 = 715_827_882;
@@ -234,15 +238,23 @@ impl HallDecoder {
         self.sector
     }
 
-    /// θ, electrical angle within the sector, in 2⁻¹⁶ turns.
+    /// θ, electrical angle within the sector when it was read, in 2⁻¹⁶ turns.
     #[inline]
     pub fn angle_code(&self) -> u16 {
+        self.angle_code_before(0)
+    }
+
+    /// θ a little before it was read, in 2⁻¹⁶ turns; `before` is ε in parts of which [`HALL_PARTS`] are a period, half of
+    /// them at most.
+    #[inline]
+    pub fn angle_code_before(&self, before: u32) -> u16 {
         let centre = u32::from(self.sector) * SIXTH;
         if self.step == 0 {
             return high(centre);
         }
-        // θ = edge + s·min(ω_e·(t₀ + ½), 60°)
-        let advance = self.step.saturating_mul(u32::from(self.since_edge)).saturating_add(self.step / 2).min(SIXTH);
+        // θ = edge + s·min(ω_e·(t₀ + ½ − ε), 60°)
+        let within = self.step / HALL_PARTS * (HALL_PARTS / 2).saturating_sub(before);
+        let advance = self.step.saturating_mul(u32::from(self.since_edge)).saturating_add(within).min(SIXTH);
         let beyond = advance.wrapping_sub(SIXTH / 2);
         high(if self.backwards { centre.wrapping_sub(beyond) } else { centre.wrapping_add(beyond) })
     }
