@@ -5,10 +5,14 @@
 //! | over-current | any phase beyond the trip current | 1 |
 //! | over-voltage, under-voltage | supply out of its range | 3 in a row |
 //! | hall code | a code that no rotor makes, or a sector left out | 2 in a row |
-//! | driver line | a gate driver pulls the line | 1 |
+//! | driver line | a gate driver pulls the line, the supply in its range and the offsets known | 1 |
 //!
 //! Several periods in a row where one sample may be noise; a short is never waited for. What is seen is latched, whether
 //! it opens all bridges or costs one wheel of four: what cost a wheel is kept apart, because the robot drives on.
+//!
+//! A gate driver pulls its line for an undervoltage of its own too, as every driver does while the supply comes up: before
+//! the supply is there nothing is driven, and the line says nothing new. A supply that breaks down while the robot drives
+//! is found as such.
 
 use model_core::control::calibration::AdcCode;
 use model_core::link::faults::{Fault, Faults};
@@ -24,6 +28,14 @@ pub struct TripLimits {
     pub least_supply: f32,
     /// Highest supply [V]
     pub most_supply: f32,
+}
+
+impl TripLimits {
+    /// True for a supply [V] that is in its range; no supply is without parameters.
+    #[inline]
+    pub fn allow_supply(&self, bus: f32) -> bool {
+        self.least_supply <= bus && bus <= self.most_supply
+    }
 }
 
 /// Periods in a row that a supply out of range must last.

@@ -111,13 +111,13 @@ impl Windings {
         if self.config.wheels > 0 {
             self.protection.supply(&self.config.limits, bus);
         }
-        if codes.driver_fault {
-            self.protection.latch(Fault::DriverLine);
-        }
         if !self.offsets.are_known() {
             self.offsets.learn(&codes.phases);
         }
         let ready = self.offsets.are_known();
+        if codes.driver_fault && ready && self.config.limits.allow_supply(bus) {
+            self.protection.latch(Fault::DriverLine);
+        }
         let broken = self.offsets.bad() & self.config.motors();
         if broken != 0 {
             for j in (0..MOTORS).filter(|j| broken >> j & 1 != 0) {

@@ -85,6 +85,31 @@ fn a_command_does_not_restart_a_robot_with_a_fault_and_a_clear_does_not_drive_it
 }
 
 #[test]
+fn a_driver_that_complains_before_the_supply_is_there_is_no_fault() {
+    let coming_up = |codes: Codes| Codes { driver_fault: true, ..codes };
+    // 6 V, below what the block allows; three such periods are an undervoltage of their own
+    let low = Codes { bus: AdcCode(677), ..still() };
+    let named = |program: &Program| program.windings.protection().faults();
+    let mut program = Program::new();
+    // without parameters no supply is in range; nothing is driven
+    program.ticks(60, &coming_up(still()));
+    assert!(named(&program).is_empty(), "{:?}", named(&program));
+
+    let mut program = Program::new();
+    program.send_block(&bytes(&four()));
+    program.ticks(40, &coming_up(still()));
+    assert!(named(&program).is_empty(), "the offsets are not known yet: {:?}", named(&program));
+    program.ticks(10, &still());
+    program.ticks(60, &coming_up(low));
+    assert!(named(&program).iter().eq([Fault::UnderVoltage]), "{:?}", named(&program));
+
+    let mut program = Program::driving(&four());
+    assert_eq!(program.period(&coming_up(low)).enabled, 0b1111, "one low sample may be noise");
+    assert_eq!(program.period(&coming_up(still())).enabled, 0, "the supply is there, and a driver complains");
+    assert!(named(&program).iter().eq([Fault::DriverLine]));
+}
+
+#[test]
 fn a_lost_wheel_opens_in_the_turn_that_sees_it_and_is_named_while_the_others_drive() {
     let mut program = Program::driving(&four());
     assert_eq!(program.period(&bad_hall(2)).enabled, 0b1111, "once is a glitch");
