@@ -30,8 +30,10 @@ pub struct UpFrame {
     pub compare: [[u16; 3]; MOTORS],
     /// One bit a motor: its gate driver is enabled
     pub enabled: u8,
-    /// The watchdog has bitten; nothing is driven any more
+    /// The watchdog has fired: the program starts anew after this period
     pub watchdog_fired: bool,
+    /// The program has failed, and its board waits for the watchdog with the bridges open
+    pub fail_safe: bool,
     /// Processor cycles that the last current turn took, as the emulator counts
     pub cycles: u16,
     /// Bytes for the link
@@ -45,12 +47,36 @@ pub struct DownFrame {
     pub codes: Codes,
     /// True: the image is to end
     pub end: bool,
+    /// Injected: what the program is to fail by
+    pub crash: Option<Crash>,
     /// Injected overrun: so many times 64 idle instructions in the current turn
     pub burn_current: u16,
     /// The same in the next motion turn
     pub burn_motion: u16,
     /// Bytes from the link
     pub link: LinkBytes,
+}
+
+/// What a program may fail by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Crash {
+    /// It panics
+    Panic = 1,
+    /// It executes what is no instruction
+    HardFault,
+    /// The same, after its stack pointer has come to lead nowhere
+    Stack,
+    /// An interrupt comes that nothing is bound to
+    UnknownInterrupt,
+    /// The non-maskable interrupt comes, as from a crystal that stops
+    NonMaskable,
+}
+
+impl Crash {
+    /// All of them, in the order of their codes.
+    pub const ALL: [Crash; 5] =
+        [Crash::Panic, Crash::HardFault, Crash::Stack, Crash::UnknownInterrupt, Crash::NonMaskable];
 }
 
 /// What the link carries in one period, [`LINK_BYTES`] at most.
@@ -88,7 +114,7 @@ impl UpFrame {
         let mut put = Cursor { bytes: &mut bytes, at: 0 };
         put.put(self.period.to_le_bytes());
         self.compare.as_flattened().iter().for_each(|count| put.put(count.to_le_bytes()));
-        put.put([self.enabled, u8::from(self.watchdog_fired)]);
+        put.put([self.enabled, u8::from(self.watchdog_fired) | u8::from(self.fail_safe) << 1]);
         put.put(self.cycles.to_le_bytes());
         put.put([self.link.len]);
         put.put(self.link.held);
@@ -102,7 +128,8 @@ impl UpFrame {
         let compare = [(); MOTORS].map(|()| [(); 3].map(|()| u16::from_le_bytes(get.take())));
         let [enabled, flags] = get.take();
         let cycles = u16::from_le_bytes(get.take());
-        Self { period, compare, enabled, watchdog_fired: flags & 1 != 0, cycles, link: get.link() }
+        let (watchdog_fired, fail_safe) = (flags & 1 != 0, flags & 2 != 0);
+        Self { period, compare, enabled, watchdog_fired, fail_safe, cycles, link: get.link() }
     }
 }
 
@@ -117,7 +144,7 @@ impl DownFrame {
         self.codes.phases.as_flattened().iter().for_each(|code| put.put(code.0.to_le_bytes()));
         put.put(self.codes.bus.0.to_le_bytes());
         put.put(self.codes.halls.map(|code| code.0));
-        put.put([u8::from(self.codes.driver_fault), u8::from(self.end)]);
+        put.put([u8::from(self.codes.driver_fault), u8::from(self.end), self.crash.map_or(0, |crash| crash as u8)]);
         put.put(self.burn_current.to_le_bytes());
         put.put(self.burn_motion.to_le_bytes());
         put.put([self.link.len]);
@@ -131,11 +158,12 @@ impl DownFrame {
         let phases = [(); MOTORS].map(|()| [(); 3].map(|()| AdcCode(u16::from_le_bytes(get.take()))));
         let bus = AdcCode(u16::from_le_bytes(get.take()));
         let halls = get.take().map(HallCode);
-        let [line, end] = get.take();
+        let [line, end, crash] = get.take();
+        let crash = Crash::ALL.into_iter().find(|known| *known as u8 == crash);
         let codes = Codes { phases, bus, halls, driver_fault: line != 0 };
         let burn_current = u16::from_le_bytes(get.take());
         let burn_motion = u16::from_le_bytes(get.take());
-        Self { codes, end: end != 0, burn_current, burn_motion, link: get.link() }
+        Self { codes, end: end != 0, crash, burn_current, burn_motion, link: get.link() }
     }
 }
 
@@ -184,6 +212,7 @@ mod tests {
             compare: [[1, 2, 3], [4, 5, 6], [7, 8, 9], [10, 11, 4200]],
             enabled: 0b1010,
             watchdog_fired: true,
+            fail_safe: true,
             cycles: 65_000,
             link: LinkBytes::of(&[1, 2, 3, 4, 5, 6, 7, 8, 9, 255]),
         };
@@ -208,12 +237,13 @@ mod tests {
                 driver_fault: true,
             },
             end: true,
+            crash: Some(Crash::UnknownInterrupt),
             burn_current: 513,
             burn_motion: 1027,
             link: LinkBytes::of(&[9; LINK_BYTES]),
         };
         assert_eq!(DownFrame::from_bytes(&down.to_bytes()), down);
-        assert_eq!(down.to_bytes()[DownFrame::LEN - 2], 9);
+        assert_eq!(down.to_bytes()[DownFrame::LEN - 1], 9);
     }
 
     #[test]

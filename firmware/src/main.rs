@@ -15,8 +15,11 @@
 
 mod tasks;
 
-// a panic, which the control path cannot reach, ends in the watchdog's reset, which opens the bridges
-use panic_halt as _;
+/// A panic, which the control path cannot reach, opens the bridges; the watchdog then restarts the chip.
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    firmware::board::fail_safe()
+}
 
 #[rtic::app(device = firmware::board::pac, peripherals = true)]
 mod app {

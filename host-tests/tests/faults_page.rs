@@ -30,6 +30,7 @@ fn the_library_keeps_the_promises_of_the_page_and_says_what_the_page_says() {
     let results = Results {
         cases: cases.into_par_iter().map(play).collect(),
         wheel_losses: LOSSES.into_par_iter().map(go_on).collect(),
+        crashes: Vec::new(),
         watchdog: NOT_STARVED,
     };
     let broken = broken_promises(&results);

@@ -7,18 +7,23 @@
 //! An instruction takes one nanosecond there (`-icount shift=0`), six times as fast as the chip; [`cycles`] counts
 //! instructions, in steps of six. Semihosting calls cost one instruction each.
 
-use core::cell::UnsafeCell;
 use core::hint::black_box;
 
 use cortex_m::peripheral::{NVIC, SYST, syst::SystClkSource};
 use cortex_m_rt::exception;
-use cortex_m_semihosting::{debug, nr::open, syscall};
+use cortex_m_semihosting::debug;
 use defmt_semihosting as _;
 use heapless::spsc::Queue;
 use stm32f4xx_hal::pac;
 
 use crate::codes::{Codes, MOTORS};
-use crate::exchange::{DOWN_FILE, DownFrame, LINK_BYTES, LinkBytes, TOPS, UP_FILE, UpFrame, compare};
+use crate::exchange::{LINK_BYTES, LinkBytes, TOPS, UpFrame, compare};
+
+mod host;
+mod line;
+
+pub use host::fail_safe;
+use line::Line;
 
 /// Processor cycles in one period of a chip that runs at 168 MHz.
 pub const CYCLES_PER_PERIOD: u32 = 8_400;
@@ -26,29 +31,13 @@ pub const CYCLES_PER_PERIOD: u32 = 8_400;
 /// What SysTick counts in one period.
 const SYSTICK_PER_PERIOD: u32 = 8_400;
 
-/// Periods after which an unfed watchdog fires: 20 ms.
-const WATCHDOG_PERIODS: u32 = 400;
-
 /// Bytes on their way out and in; the task of the link is the one end, the exchange the other.
-static SERIAL: Line = Line(UnsafeCell::new(Buffers { out: Queue::new(), inward: Queue::new() }));
-static PERIODS_UNFED: Line<u32> = Line(UnsafeCell::new(0));
-static BURN: Line<u16> = Line(UnsafeCell::new(0));
+static SERIAL: Line<Buffers> = Line::new(Buffers { out: Queue::new(), inward: Queue::new() });
+static BURN: Line<u16> = Line::new(0);
 
 struct Buffers {
     out: Queue<u8, 1024>,
     inward: Queue<u8, 1024>,
-}
-
-struct Line<T = Buffers>(UnsafeCell<T>);
-
-// SAFETY: one core, and every use goes through `with`, which masks all interrupts.
-unsafe impl<T> Sync for Line<T> {}
-
-impl<T> Line<T> {
-    fn with<R>(&self, f: impl FnOnce(&mut T) -> R) -> R {
-        // SAFETY: interrupts are masked, so no other task runs, and `f` cannot come here again with the same line.
-        cortex_m::interrupt::free(|_| f(unsafe { &mut *self.0.get() }))
-    }
 }
 
 /// Everything on the board, asleep.
@@ -66,8 +55,6 @@ pub struct Parts {
 /// The bridges of all motors, with what is measured there.
 pub struct Bridges {
     syst: SYST,
-    up: usize,
-    down: usize,
     next: UpFrame,
     began: u32,
 }
@@ -75,34 +62,19 @@ pub struct Bridges {
 /// The link to the host.
 pub struct SerialLink(());
 
-/// The watchdog: when it fires, all bridges open for good.
-pub struct Watchdog(());
+/// The watchdog: when it fires, the machine starts anew.
+pub struct Watchdog {
+    restarted: bool,
+}
 
 /// Where the parameter block is stored: memory, which a reset of the emulator forgets.
 pub struct FlashStore(());
 
 /// Takes the board, everything asleep.
 pub fn take(core: cortex_m::Peripherals, _device: pac::Peripherals) -> Parts {
-    let bridges = Bridges {
-        syst: core.SYST,
-        up: open(UP_FILE, open::W_TRUNC_BINARY),
-        down: open(DOWN_FILE, open::R_BINARY),
-        next: UpFrame::default(),
-        began: 0,
-    };
-    Parts { bridges, serial: SerialLink(()), watchdog: Watchdog(()), flash_store: FlashStore(()) }
-}
-
-/// Opens a file of the host; ends the emulator where there is none.
-fn open(name: &str, mode: usize) -> usize {
-    let mut path = [0_u8; 16];
-    path[..name.len()].copy_from_slice(name.as_bytes());
-    // SAFETY: semihosting reads `len` bytes of `path`, which ends with a zero and lives over the call.
-    let handle = unsafe { syscall!(OPEN, path.as_ptr(), mode, name.len()) };
-    if handle == usize::MAX {
-        debug::exit(debug::EXIT_FAILURE);
-    }
-    handle
+    let watchdog = Watchdog { restarted: host::connect() };
+    let bridges = Bridges { syst: core.SYST, next: UpFrame::default(), began: 0 };
+    Parts { bridges, serial: SerialLink(()), watchdog, flash_store: FlashStore(()) }
 }
 
 impl Bridges {
@@ -117,32 +89,15 @@ impl Bridges {
 
     /// What was measured in this period. Called once a period, first of all.
     pub fn read(&mut self) -> Codes {
-        let unfed = PERIODS_UNFED.with(|unfed| {
-            *unfed = unfed.saturating_add(1);
-            *unfed
-        });
-        if unfed > WATCHDOG_PERIODS {
-            self.next.watchdog_fired = true;
-        }
-        if self.next.watchdog_fired {
-            self.next.enabled = 0;
+        if host::is_unfed() {
+            (self.next.watchdog_fired, self.next.enabled) = (true, 0);
         }
         let mut out = [0; LINK_BYTES];
         let count = SERIAL.with(|serial| take_from(&mut serial.out, &mut out));
         self.next.link = LinkBytes::of(&out[..count]);
 
-        let sent = self.next.to_bytes();
-        let mut got = [0_u8; DownFrame::LEN];
-        // SAFETY: semihosting reads and writes the lengths given, of buffers that live over the calls.
-        let left = unsafe {
-            syscall!(WRITE, self.up, sent.as_ptr(), sent.len()) + syscall!(READ, self.down, got.as_mut_ptr(), got.len())
-        };
-        let down = DownFrame::from_bytes(&got);
-        if left != 0 || down.end {
-            debug::exit(if left == 0 { debug::EXIT_SUCCESS } else { debug::EXIT_FAILURE });
-        }
+        let down = host::exchange(&self.next);
         self.began = cycles();
-        self.next.period = self.next.period.wrapping_add(1);
         SERIAL.with(|serial| {
             for byte in down.link.as_slice() {
                 let _full = serial.inward.enqueue(*byte);
@@ -150,6 +105,9 @@ impl Bridges {
         });
         BURN.with(|burn| *burn = (*burn).max(down.burn_motion));
         idle(down.burn_current);
+        if let Some(crash) = down.crash {
+            host::fail_by(crash);
+        }
         down.codes
     }
 
@@ -201,7 +159,12 @@ fn take_from(queue: &mut Queue<u8, 1024>, into: &mut [u8]) -> usize {
 impl Watchdog {
     /// Feeds the watchdog.
     pub fn feed(&mut self) {
-        PERIODS_UNFED.with(|unfed| *unfed = 0);
+        host::feed();
+    }
+
+    /// True if it was the watchdog that restarted the machine.
+    pub fn restarted(&self) -> bool {
+        self.restarted
     }
 }
 

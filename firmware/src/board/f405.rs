@@ -20,10 +20,11 @@
 //! Opening a bridge does not wait for that.
 //!
 //! The enables are plain outputs: a halted core does not open the bridges, so the watchdog goes on while a debugger
-//! halts it.
+//! halts it, and a program that fails opens them itself before it waits for the watchdog ([`fail_safe`]).
 
 mod bridges;
 mod check;
+mod fail_safe;
 mod flash_store;
 mod parts;
 mod serial;
@@ -37,6 +38,7 @@ use crate::registers::timing;
 
 pub use bridges::Bridges;
 pub use check::{Reading, counters, pending, readings};
+pub use fail_safe::fail_safe;
 pub use flash_store::FlashStore;
 pub use parts::{HSE_HZ, Parts, take};
 pub use serial::SerialLink;

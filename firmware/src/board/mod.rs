@@ -7,11 +7,15 @@
 //! |---|---|
 //! | `Bridges` | `start`, `read` the codes of this period, `drive` the next one; `spent`, `is_late` |
 //! | `SerialLink` | `send` and `receive` bytes, as many as it has room for |
-//! | `Watchdog` | `feed` |
+//! | `Watchdog` | `feed`, `restarted` |
 //! | `FlashStore` | `load` and `save` the parameter block |
 //!
-//! and a counter of processor cycles, [`cycles`], with `CYCLES_PER_PERIOD`.
+//! and a counter of processor cycles, [`cycles`], with `CYCLES_PER_PERIOD`. What a program comes to that has failed stands
+//! in [`handlers`]: every board has a `fail_safe` for it.
 #![allow(unsafe_code)]
+
+#[cfg(feature = "board")]
+mod handlers;
 
 #[cfg(feature = "emulated")]
 mod emulated;

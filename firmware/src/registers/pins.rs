@@ -169,6 +169,25 @@ pub const fn bus() -> Pin {
     panic!("the supply has a pin")
 }
 
+/// BSRR of a port: the enables of all gate drivers on it go low.
+///
+/// A one in the upper half of the register resets its pin, a zero leaves it (RM0090, GPIO port bit set/reset register).
+pub const fn enables_low(port: char) -> u32 {
+    let (mut bits, mut at) = (0, 0);
+    while at < PINS.len() {
+        if let Job::Enable { .. } = PINS[at].job
+            && PINS[at].port == port
+        {
+            bits |= 1 << (16 + PINS[at].number);
+        }
+        at += 1;
+    }
+    bits
+}
+
+// Ports A and B have all enables: a board that fails opens its bridges with these two.
+const _: () = assert!((enables_low('A').count_ones() + enables_low('B').count_ones()) as usize == MOTORS);
+
 impl Pin {
     /// Its channel at the converters, if it has one (datasheet DS8626, pin definitions: ADC123_INx and ADC12_INx).
     pub const fn channel(self) -> Option<u8> {

@@ -5,7 +5,8 @@
 //! then fires after 30 ms.
 //!
 //! Erasing a flash sector stalls the core for seconds, so the watchdog is given a long timeout before ([`PR_LONG`]).
-//! Source: RM0090, independent watchdog.
+//! What a reset came from is kept by the clock controller until it is told to forget ([`RESTARTED`], [`FORGET`]).
+//! Source: RM0090, independent watchdog; RCC clock control and status register.
 
 /// KR: feed.
 pub const FEED: u16 = 0xAAAA;
@@ -15,6 +16,13 @@ pub const OPEN: u16 = 0x5555;
 pub const START: u16 = 0xCCCC;
 /// SR: PR or RLR is still on its way into the watchdog's clock domain.
 pub const BUSY: u16 = 0b11;
+
+/// RCC CSR: this watchdog has reset the chip (IWDGRSTF).
+pub const RESTARTED: u32 = 1 << 29;
+/// RCC CSR: forget what the reset came from (RMVF), and leave the oscillator as it is.
+pub const FORGET: u32 = 1 << 24;
+/// RCC CR: the clock security system watches the crystal; where it stops, a non-maskable interrupt comes (CSSON).
+pub const CLOCK_SECURITY: u32 = 1 << 19;
 
 /// PR: oscillator by 4.
 pub const PR: u16 = 0;

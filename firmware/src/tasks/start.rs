@@ -7,6 +7,7 @@ use firmware::inbox::Inbox;
 use firmware::motion::Motion;
 use firmware::tx_queue;
 use firmware::windings::Windings;
+use model_core::link::faults::Fault;
 
 use crate::app;
 use crate::tasks::load::Load;
@@ -22,15 +23,13 @@ pub fn init(cx: app::init::Context<'_>) -> (app::Shared, app::Local) {
         inbox.put(command);
     }
     defmt::info!("asleep; bridges open, {} bytes of parameters kept", stored.len());
+    let mut windings = Windings::default();
+    if watchdog.restarted() {
+        windings.latch(Fault::Watchdog);
+    }
     bridges.start();
     (
-        app::Shared {
-            windings: Windings::default(),
-            inbox,
-            load: Load::default(),
-            serial,
-            heartbeats: Heartbeats::new(),
-        },
+        app::Shared { windings, inbox, load: Load::default(), serial, heartbeats: Heartbeats::new() },
         app::Local { bridges, motion_control: Motion::default(), receiver, tx_producer, tx_consumer, watchdog },
     )
 }

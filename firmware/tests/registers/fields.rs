@@ -178,3 +178,12 @@ pub const DMA_LIFCR: &[Field] = &[
 ];
 pub const IWDG_PR: &[Field] = &[("PR", 0, 3, &[(0, "by 4"), (5, "by 128")])];
 pub const IWDG_RLR: &[Field] = &[("RL", 0, 12, &[])];
+pub const RCC_CR: &[Field] =
+    &[("HSEON", 16, 1, &[]), ("CSSON", 19, 1, &[(1, "clock security system on")]), ("PLLON", 24, 1, &[])];
+pub const RCC_CSR: &[Field] = &[
+    ("RMVF", 24, 1, &[(1, "forget")]),
+    ("PORRSTF", 27, 1, &[]),
+    ("SFTRSTF", 28, 1, &[]),
+    ("IWDGRSTF", 29, 1, &[(1, "reset by the independent watchdog")]),
+    ("WWDGRSTF", 30, 1, &[]),
+];

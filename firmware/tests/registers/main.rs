@@ -24,7 +24,7 @@ fn settings() -> Vec<(String, u32, &'static [Field])> {
         all.push((name("SMPR1"), adc::SMPR1, ADC_SMPR1));
         all.push((name("SMPR2"), adc::SMPR2, ADC_SMPR2));
     }
-    let rest: [(&str, u32, &[Field]); 38] = [
+    let rest: [(&str, u32, &[Field]); 41] = [
         ("ADC1 SQR1", adc::SQR1, ADC_SQR1),
         ("ADC1 SQR3", adc::SQR3, ADC_SQR3),
         ("ADC1 CR2, started", adc::CR2_TRIGGERED, ADC_CR2),
@@ -63,6 +63,9 @@ fn settings() -> Vec<(String, u32, &'static [Field])> {
         ("IWDG RLR", u32::from(watchdog::RLR), IWDG_RLR),
         ("IWDG PR, while erasing", u32::from(watchdog::PR_LONG), IWDG_PR),
         ("IWDG RLR, while erasing", u32::from(watchdog::RLR_LONG), IWDG_RLR),
+        ("RCC CR, added", watchdog::CLOCK_SECURITY, RCC_CR),
+        ("RCC CSR, after a bite", watchdog::RESTARTED, RCC_CSR),
+        ("RCC CSR, added", watchdog::FORGET, RCC_CSR),
     ];
     all.extend(rest.into_iter().map(|(name, value, fields)| (name.to_string(), value, fields)));
     all

@@ -5,7 +5,7 @@
 //! down(k): codes of period k, bytes                     →  turn k
 //! ```
 
-use firmware::exchange::{DownFrame, UpFrame};
+use firmware::exchange::{Crash, DownFrame, UpFrame};
 
 use super::host_link::HostLink;
 use super::program::{BoardProgram, RunError};
@@ -20,6 +20,8 @@ pub struct Lockstep<B, const N: usize> {
     pub link: HostLink,
     /// The program
     pub program: B,
+    /// What the program is to fail by in the next current turn
+    pub crash: Option<Crash>,
     /// Idle instructions to put into the next current turn, in units of 64
     pub burn_current: u16,
     /// The same for the next motion turn
@@ -31,7 +33,8 @@ pub struct Lockstep<B, const N: usize> {
 impl<B: BoardProgram, const N: usize> Lockstep<B, N> {
     /// Connects the two.
     pub fn new(program: B, board: VirtualBoard<N>) -> Self {
-        Self { board, link: HostLink::default(), program, burn_current: 0, burn_motion: 0, period: None, last: None }
+        let link = HostLink::default();
+        Self { board, link, program, crash: None, burn_current: 0, burn_motion: 0, period: None, last: None }
     }
 
     /// One period; what the program asked of it.
@@ -50,6 +53,7 @@ impl<B: BoardProgram, const N: usize> Lockstep<B, N> {
         let down = DownFrame {
             codes,
             end: false,
+            crash: self.crash.take(),
             burn_current: std::mem::take(&mut self.burn_current),
             burn_motion: std::mem::take(&mut self.burn_motion),
             link: self.link.transmit(),
@@ -86,7 +90,8 @@ impl<const N: usize> Lockstep<super::Qemu, N> {
     pub fn end(mut self) -> Result<(), RunError> {
         let up = self.program.up()?;
         let codes = self.board.period(&Outputs { compare: up.compare, enabled: up.enabled });
-        let last = DownFrame { codes, end: true, burn_current: 0, burn_motion: 0, link: self.link.transmit() };
+        let link = self.link.transmit();
+        let last = DownFrame { codes, end: true, crash: None, burn_current: 0, burn_motion: 0, link };
         self.program.end(&last)
     }
 }

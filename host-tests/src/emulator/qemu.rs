@@ -198,7 +198,7 @@ mod tests {
     fn down() -> DownFrame {
         let phases = [[AdcCode(2048); 3]; 4];
         let codes = Codes { phases, bus: AdcCode(1354), halls: [HallCode(1); 4], driver_fault: false };
-        DownFrame { codes, end: false, burn_current: 0, burn_motion: 0, link: LinkBytes::default() }
+        DownFrame { codes, end: false, crash: None, burn_current: 0, burn_motion: 0, link: LinkBytes::default() }
     }
 
     /// A shell in the emulator's place.

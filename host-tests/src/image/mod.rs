@@ -7,11 +7,13 @@
 //! - [`thumb`]: what an instruction does to flow and stack;
 //! - [`flow`]: one function, every way through it;
 //! - [`calls`]: the graph, what is reached from where, the deepest way;
+//! - [`fail_safe`]: the way from a fault or a panic to open bridges, instruction by instruction;
 //! - [`names`]: which functions are panics, allocations, double precision;
 //! - [`page`]: all of it as a page, and the promises that it must keep.
 
 pub mod calls;
 pub mod elf;
+pub mod fail_safe;
 pub mod flow;
 pub mod names;
 pub mod page;

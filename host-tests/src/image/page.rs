@@ -8,6 +8,7 @@ use std::fmt::Write;
 
 use super::calls::{EXCEPTION_FRAME, Graph, Reach, nested};
 use super::elf::{Image, Section};
+use super::fail_safe::{MOST, instructions_to_open};
 use super::names::{allocates, double_precision, panics};
 use crate::golden;
 
@@ -31,7 +32,7 @@ pub const CONTROL: u8 = 3;
 const ABOVE: [(&str, u8); 2] = [("SysTick", u8::MAX), ("TIM8_CC", u8::MAX)];
 
 /// Handlers after which nothing else runs.
-const LAST: [&str; 3] = ["HardFault", "HardFaultTrampoline", "DefaultHandler"];
+const LAST: [&str; 3] = ["HardFault", "NonMaskableInt", "DefaultHandler"];
 
 /// A handler, and what can be reached from it.
 #[derive(Clone, Debug)]
@@ -49,6 +50,9 @@ pub struct Handler {
     /// The deepest way, by name
     pub deepest: Vec<String>,
 }
+
+/// What a panic's way is called.
+const PANIC: &str = "panic";
 
 /// All figures of an image.
 #[derive(Clone, Debug)]
@@ -71,6 +75,9 @@ pub struct ImageMeasurement {
     pub missing: Vec<&'static str>,
     /// Stack of all at once [bytes]
     pub stack: u32,
+    /// Handlers after which nothing else runs and the panic's, each with its instructions up to open bridges, or why there
+    /// is no such way
+    pub fail_safe: Vec<(String, Result<u32, String>)>,
 }
 
 /// A promise about the image.
@@ -100,6 +107,7 @@ impl ImageMeasurement {
             }
         };
         let (mut handlers, mut strangers) = (Vec::new(), BTreeSet::new());
+        let mut last: BTreeSet<(&str, u32)> = BTreeSet::new();
         for (number, address) in &image.vectors {
             let names = image.functions.get(address).map_or(&[][..], |function| &function.names);
             let one_of = |known: &[(&'static str, u8)]| {
@@ -107,8 +115,9 @@ impl ImageMeasurement {
             };
             if *number == 1 {
                 handlers.push(handler("the program", 0, *address));
-            } else if names.iter().any(|name| LAST.contains(&name.trim_end_matches('_'))) {
+            } else if let Some(name) = LAST.iter().find(|last| names.iter().any(|name| name == **last)) {
                 // what has no handler of its own shares one, and its names
+                last.insert((if *number == 2 { LAST[1] } else { name }, *address));
             } else if let Some((name, priority)) = one_of(&TASKS).or(one_of(&ABOVE)) {
                 handlers.push(handler(name, priority, *address));
             } else {
@@ -119,6 +128,12 @@ impl ImageMeasurement {
         let missing = TASKS.map(|(task, _)| task).into_iter().filter(|task| !handlers.iter().any(|h| h.name == *task));
         let urgent = handlers.iter().filter(|h| h.priority > 0).map(|h| (h.priority, h.reach.stack));
         let program = handlers.iter().find(|h| h.priority == 0).map_or(0, |h| h.reach.stack);
+        let panics = image.functions.values().filter(|function| function.name().ends_with("rust_begin_unwind"));
+        last.extend(panics.map(|function| (PANIC, function.address)));
+        let way = |(name, entry): &(&str, u32)| {
+            ((*name).to_owned(), instructions_to_open(image, *entry, LAST.contains(name)))
+        };
+        let fail_safe = last.iter().map(way);
         let named = |is: fn(&str) -> bool| {
             let symbols = image.symbols.iter().filter(|name| is(&format!("{:#}", rustc_demangle::demangle(name))));
             symbols.cloned().collect::<Vec<_>>()
@@ -132,6 +147,7 @@ impl ImageMeasurement {
             missing: missing.collect(),
             stack: nested(program, urgent),
             strangers: strangers.into_iter().collect(),
+            fail_safe: fail_safe.collect(),
             handlers,
         }
     }
@@ -170,7 +186,23 @@ impl ImageMeasurement {
             none("calls by register within reach of the control path", indirect.into_iter().collect()),
             none("doubts about the stack of a task", doubts.into_iter().collect()),
             none("interrupts that are no task's, tasks without an interrupt", odd),
+            self.fail_safe_promise(),
         ]
+    }
+
+    /// Every fault, every unknown interrupt and a panic open the bridges, and do so soon.
+    fn fail_safe_promise(&self) -> Promise {
+        let found = |(name, way): &(String, Result<u32, String>)| match way {
+            Ok(count) => format!("{name} {count}"),
+            Err(why) => format!("{name}: {why}"),
+        };
+        let all = LAST.into_iter().chain([PANIC]).all(|name| self.fail_safe.iter().any(|(has, _)| has == name));
+        let soon = self.fail_safe.iter().all(|(_, way)| way.as_ref().is_ok_and(|count| *count <= MOST));
+        Promise {
+            what: "instructions from a fault or a panic to open bridges, on a stack of its own, at most 40",
+            found: self.fail_safe.iter().map(found).collect::<Vec<_>>().join(", "),
+            kept: all && soon,
+        }
     }
 }
 

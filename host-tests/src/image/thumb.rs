@@ -235,7 +235,7 @@ fn constant(h: u16, g: u16, base: u16) -> Action {
 }
 
 /// ThumbExpandImm.
-fn expanded(twelve: u32) -> i32 {
+pub(super) fn expanded(twelve: u32) -> i32 {
     let byte = twelve & 0xFF;
     let value = match twelve >> 8 {
         0 => byte,

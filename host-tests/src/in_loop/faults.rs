@@ -9,12 +9,14 @@
 //! - [`run_case`]: one case, from the start to the robot driving again;
 //! - [`wheel_loss`]: a robot of four wheels that goes on with three;
 //! - [`watchdog`]: the tasks starved;
+//! - [`mod@crash`]: a program that fails;
 //! - [`mod@page`]: the table that a person judges, and the promises that it must keep.
 //!
 //! Times are counted in periods as the board sees them, so they are exact and the same in every run: an event belongs to
 //! the period in whose codes or bytes it is whole for the first time.
 
 pub mod case;
+pub mod crash;
 pub mod page;
 pub mod run_case;
 pub mod test_robot;
@@ -23,6 +25,7 @@ pub mod wheel_loss;
 
 pub use page::{broken_promises, page};
 
+use firmware::exchange::Crash;
 use rayon::prelude::*;
 
 use crate::emulator::{BoardProgram, RunError};
@@ -34,6 +37,8 @@ pub struct Results {
     pub cases: Vec<(case::FaultCase, run_case::FaultOutcome)>,
     /// Four wheels that go on with three
     pub wheel_losses: Vec<(wheel_loss::WheelLoss, wheel_loss::WheelLossOutcome)>,
+    /// A program that fails
+    pub crashes: Vec<(Crash, crash::CrashOutcome)>,
     /// The tasks starved
     pub watchdog: watchdog::WatchdogOutcome,
 }
@@ -54,9 +59,14 @@ pub fn results<B: BoardProgram>(
         .into_par_iter()
         .filter(|loss| loss.title.contains(word))
         .map(|loss| Ok((loss, wheel_loss::run_with_three_wheels(&loss, start()?)?)));
+    let crashes = Crash::ALL
+        .into_par_iter()
+        .filter(|by| crash::title(*by).contains(word))
+        .map(|by| Ok((by, crash::crash(by, start()?)?)));
     Ok(Results {
         cases: cases.collect::<Result<_, RunError>>()?,
         wheel_losses: wheel_losses.collect::<Result<_, RunError>>()?,
+        crashes: crashes.collect::<Result<_, RunError>>()?,
         watchdog: watchdog::starve_tasks(start()?)?,
     })
 }

@@ -3,7 +3,7 @@
 use stm32f4xx_hal::pac;
 
 use crate::codes::MOTORS;
-use crate::registers::{adc, link, timers, timing};
+use crate::registers::{adc, link, timers, timing, watchdog};
 
 /// A register of the running board, and what it should hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub struct Reading {
 }
 
 /// Registers that stay as they were set once the board has started.
-pub fn readings() -> [Reading; 29] {
+pub fn readings() -> [Reading; 30] {
     // SAFETY: these registers are only read, and reading them changes nothing.
     unsafe {
         let (tim1, tim8, tim3, tim4) = (&*pac::TIM1::PTR, &*pac::TIM8::PTR, &*pac::TIM3::PTR, &*pac::TIM4::PTR);
@@ -55,6 +55,7 @@ pub fn readings() -> [Reading; 29] {
             is("TIM1 CCR4", tim1.ccr4().read().bits(), timers::CCR4_TIM1),
             is("TIM1 CCMR2", tim1.ccmr2_output().read().bits(), timers::CCMR2_TIM1),
             is("TIM1 BDTR", tim1.bdtr().read().bits(), timers::BDTR_STARTED),
+            is("RCC CR", (*pac::RCC::PTR).cr().read().bits() & watchdog::CLOCK_SECURITY, watchdog::CLOCK_SECURITY),
             is("USART3 BRR", u32::from(usart.brr().read().bits()), u32::from(link::BRR)),
             is("DMA1 S1CR", dma.st(link::IN_STREAM).cr().read().bits(), link::IN_CR | link::EN),
         ]

@@ -20,7 +20,7 @@ use super::watchdog::Watchdog;
 use crate::drivers::fault::FaultLine;
 use crate::drivers::gate::GateDriver;
 use crate::drivers::halls::HallLines;
-use crate::registers::{adc, timers, timing};
+use crate::registers::{adc, timers, timing, watchdog};
 
 /// The board's crystal [Hz]; 4 to 26 MHz.
 pub const HSE_HZ: u32 = 8_000_000;
@@ -45,6 +45,8 @@ pub fn take(mut core: cortex_m::Peripherals, device: pac::Peripherals) -> Parts 
         .pclk1(timing::APB1_HZ.Hz())
         .pclk2(timing::APB2_HZ.Hz());
     let mut rcc = device.RCC.freeze(clocks);
+    // SAFETY: one bit added to what stands there; the crystal runs by now.
+    rcc.cr().modify(|r, w| unsafe { w.bits(r.bits() | watchdog::CLOCK_SECURITY) });
     core.DCB.enable_trace();
     core.DWT.enable_cycle_counter();
 
@@ -157,7 +159,7 @@ pub fn take(mut core: cortex_m::Peripherals, device: pac::Peripherals) -> Parts 
             bus: AdcCode(0),
         },
         serial: SerialLink::new(device.USART3, device.DMA1),
-        watchdog: Watchdog::new(device.IWDG),
+        watchdog: Watchdog::new(device.IWDG, &rcc),
         flash_store: FlashStore::new(device.FLASH),
     }
 }

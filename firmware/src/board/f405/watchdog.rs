@@ -12,11 +12,21 @@ static RUNNING: AtomicBool = AtomicBool::new(false);
 /// The independent watchdog.
 pub struct Watchdog {
     iwdg: pac::IWDG,
+    restarted: bool,
 }
 
 impl Watchdog {
-    pub(super) fn new(iwdg: pac::IWDG) -> Self {
-        Self { iwdg }
+    /// The watchdog, not started; the clock controller says what the last reset came from, and then forgets it.
+    pub(super) fn new(iwdg: pac::IWDG, rcc: &pac::rcc::RegisterBlock) -> Self {
+        let restarted = rcc.csr().read().bits() & watchdog::RESTARTED != 0;
+        // SAFETY: the bit that forgets, added to what stands there.
+        rcc.csr().modify(|r, w| unsafe { w.bits(r.bits() | watchdog::FORGET) });
+        Self { iwdg, restarted }
+    }
+
+    /// True if it was this watchdog that restarted the chip.
+    pub fn restarted(&self) -> bool {
+        self.restarted
     }
 
     /// Feeds the watchdog; the first time it is started.

@@ -6,7 +6,8 @@ use model_core::link::framing::FrameKind;
 
 use super::Results;
 use super::case::{FaultCase, FaultCause, is_timed};
-use super::run_case::FaultOutcome;
+use super::crash::{CrashOutcome, title};
+use super::run_case::{FaultOutcome, near};
 use super::test_robot::ACCELERATION;
 use super::wheel_loss::{LEGS, WheelLoss, WheelLossOutcome};
 
@@ -39,6 +40,10 @@ pub fn page(results: &Results) -> String {
         time(WATCHDOG_PERIODS),
         watchdog.closed_after,
     );
+    page += CRASHES;
+    for (by, came) in &results.crashes {
+        page += &crash_row(title(*by), came);
+    }
     page + LEVELS
 }
 
@@ -80,16 +85,28 @@ const WATCHDOG: &str = "
 ## Watchdog
 
 Motion turns are made so long that none ends: nothing below them runs, nobody feeds the dog. The dog here is the emulated \
-board's own, which counts exchanges and opens the bridges for good; the chip's, which restarts it, is for a board to show.
+board's own, which counts exchanges and restarts the machine; the chip's, which counts its own oscillator, is for a board to \
+show.
 
+";
+
+const CRASHES: &str = "
+## A program that fails
+
+While the robot drives, its program comes to an end in a current turn. The board's own way then opens the bridges and waits \
+for the watchdog; the records of the start that follows name `Watchdog` (code 12) alone until CLEAR. *after*: with its block \
+sent again, the speed after 1 s of commands.
+
+| it comes to | bridges open | restarted after | named, open until CLEAR | after |
+|---|---|---|---|---|
 ";
 
 const LEVELS: &str = "
 ## At which level
 
 Every row is played on the image in QEMU; converters, hall lines, fault line, supply and link are the virtual board's. \
-What has no part there: the reset that the chip's watchdog makes and `Watchdog` (code 12) latched by the start that \
-follows; the gate drivers' own reaction; brown-out.
+What has no part there: the registers that the chip's board writes when its program fails (they are read off its linked \
+image, page `image.md`) and those that say what a reset came from; the gate drivers' own reaction; brown-out.
 ";
 
 /// Periods as a time.
@@ -148,6 +165,16 @@ fn row(case: &FaultCase, played: &FaultOutcome) -> String {
     )
 }
 
+fn crash_row(title: &str, came: &CrashOutcome) -> String {
+    let told = |periods: Option<u32>| periods.map_or("**never**".into(), time);
+    let named = match (came.named, came.closed_after) {
+        (true, 0) => "yes".into(),
+        (false, 0) => "**not named**".into(),
+        (_, periods) => format!("**closed for {periods}**"),
+    };
+    format!("| {title} | {} | {} | {named} | {:.2} m/s |\n", told(came.open), told(came.restarted), came.speed)
+}
+
 fn reason(to: u8, code: u8) -> String {
     let words = if to == FrameKind::Commit.code() {
         BlockErrorKind::from_code(code).map(BlockErrorKind::text)
@@ -203,6 +230,12 @@ pub fn broken_promises(results: &Results) -> Vec<String> {
         let reduced = loss.motor >= 4 || gone.acceleration < 0.9 * f64::from(ACCELERATION[0]);
         if !((0..4).all(near) && reduced && gone.without) {
             broken.push(format!("wheel lost: {}: {gone:?}", loss.title));
+        }
+    }
+    for (by, came) in &results.crashes {
+        let soon = came.open.is_some_and(|k| k <= 1) && came.restarted.is_some_and(|k| k <= WATCHDOG_PERIODS);
+        if !(soon && came.named && came.closed_after == 0 && near(came.speed)) {
+            broken.push(format!("{}: {came:?}", title(*by)));
         }
     }
     let watchdog = &results.watchdog;

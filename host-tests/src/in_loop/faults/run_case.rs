@@ -66,8 +66,13 @@ pub struct FaultOutcome {
 impl FaultOutcome {
     /// True if the robot drives as it is told again.
     pub fn drives(&self) -> bool {
-        (self.speed - ALONG.v).abs() < NEAR
+        near(self.speed)
     }
+}
+
+/// True for the speed [m/s] of a robot that follows what is commanded.
+pub fn near(speed: f64) -> bool {
+    (speed - ALONG.v).abs() < NEAR
 }
 
 /// Plays a case.

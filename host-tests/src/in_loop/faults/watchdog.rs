@@ -1,7 +1,7 @@
 //! The tasks starved: motion turns that never end, so that idle does not come to feed the watchdog.
 //!
-//! The watchdog of the emulator is the emulated board's own: it counts exchanges and opens the bridges for good. The
-//! chip's watchdog counts by its own oscillator and restarts the chip; that is for a board to show.
+//! The watchdog of the emulator is the emulated board's own: it counts exchanges and restarts the machine. The chip's
+//! watchdog counts by its own oscillator and restarts the chip; that is for a board to show.
 
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::ControlMode;
