@@ -1,13 +1,13 @@
 //! What `omni-gap robot` does, with the firmware at the other end of the line: the program on the host, a virtual board, TCP.
 
-use std::net::{TcpListener, TcpStream};
+use std::net::TcpListener;
 use std::path::Path;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use host_tests::emulator::Lockstep;
 use host_tests::in_loop::HostProgram;
-use host_tests::in_loop::served::serve;
+use host_tests::in_loop::served::{serve, unwaiting};
 use host_tests::virtual_board::{BoardSetup, VirtualBoard};
 use model_core::effects::active::Effects;
 use model_core::geometry::frames::{BodyTwist, Pose};
@@ -17,6 +17,7 @@ use omni_gap::api::{Exported, RobotFile, export, known_effects, record_kept};
 use omni_gap::wire::line::{Heard, Line};
 use omni_gap::wire::robot::{Ended, Leg, clear, drive, send, status, stop};
 use omni_gap::wire::source::Source;
+use serialport::{SerialPort, TTYPort};
 
 const AHEAD: BodyTwist<f32> = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
 
@@ -32,8 +33,8 @@ fn robot() -> (Line, JoinHandle<Pose<f64>>) {
     let robot = std::thread::spawn(move || {
         let board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), 3));
         let mut lockstep = Lockstep::new(HostProgram::default(), board);
-        let (connection, _): (TcpStream, _) = listener.accept().unwrap();
-        serve(&mut lockstep, connection).unwrap();
+        let mut connection = unwaiting(listener.accept().unwrap().0).unwrap();
+        serve(&mut lockstep, &mut connection).unwrap();
         lockstep.board.state().pose
     });
     (Line::open(&source, 0).unwrap(), robot)
@@ -123,4 +124,25 @@ fn a_block_that_the_robot_does_not_take_is_told_with_its_reason() {
     block.bytes[20] ^= 1;
     let told = send(&mut line, &block.bytes, block.checksum).unwrap_err().to_string();
     assert!(told.contains("refuses the block: the checksum of the block does not fit"), "{told}");
+}
+
+#[test]
+fn a_serial_device_is_a_line_like_any_other() {
+    let (mut far_end, device) = TTYPort::pair().unwrap();
+    far_end.set_timeout(Duration::ZERO).unwrap();
+    // while the device is open here too, it stays when the program at this end goes away
+    let source = Source::named(&device.name().unwrap());
+    std::thread::spawn(move || {
+        let board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), 3));
+        serve(&mut Lockstep::new(HostProgram::default(), board), &mut far_end)
+    });
+    assert!(matches!(source, Source::Serial(_)), "{source:?}");
+    let block = block();
+    let ready = send(&mut Line::open(&source, 2_000_000).unwrap(), &block.bytes, block.checksum).unwrap();
+    assert_eq!(ready.identity.unwrap().checksum, block.checksum);
+    // as each command of a person opens the line anew
+    let mut line = Line::open(&source, 2_000_000).unwrap();
+    assert_eq!(drive(&mut line, &ahead(1), |_| true).unwrap(), Ended::Done);
+    assert_eq!(status(&mut line).unwrap().state, "open");
+    drop(device);
 }

@@ -101,7 +101,7 @@ pub const ERRANDS: &[Errand] = &[
     },
     Errand {
         name: "robot",
-        takes: "[HOST:PORT]",
+        takes: "[HOST:PORT|pty]",
         does: "a robot without a board at tcp:127.0.0.1:7000: the image in QEMU, with a virtual board; until Ctrl-C",
         run: robot,
     },

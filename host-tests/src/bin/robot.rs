@@ -1,6 +1,7 @@
-//! A robot without a board: the firmware and a virtual board on a network address, for `omni-gap robot`, `record` and `watch`.
+//! A robot without a board: the firmware and a virtual board on a network address or a serial device, for `omni-gap robot`,
+//! `record` and `watch`.
 //!
-//! `robot [path/to/firmware.elf] [HOST:PORT]`: the image in QEMU, or the same program on the host where none is named. The robot is
+//! `robot [path/to/firmware.elf] [HOST:PORT | pty]`: the image in QEMU, or the same program on the host where none is named. The robot is
 //! the paper's, its wheels, motors and friction a little off from `examples/feup-4w/robot.toml`, its battery sags.
 
 use std::net::TcpListener;
@@ -9,13 +10,16 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use host_tests::emulator::{BoardProgram, Lockstep, Qemu};
-use host_tests::in_loop::served::serve;
+use host_tests::in_loop::served::{serve, unwaiting};
 use host_tests::in_loop::{HostProgram, robots};
 use host_tests::virtual_board::VirtualBoard;
 use model_core::plant::paper::four_wheels;
+use serialport::{SerialPort, TTYPort};
 
 /// Where it listens if it is not said.
 const ADDRESS: &str = "127.0.0.1:7000";
+/// In place of an address: a serial device of its own.
+const PTY: &str = "pty";
 /// The draw of what is off.
 const SEED: u64 = 1;
 /// How long the emulator may think about one period.
@@ -42,12 +46,18 @@ fn main() -> ExitCode {
 
 /// One robot for everybody who connects, one after another; in between its time stands still.
 fn listen<B: BoardProgram>(address: &str, program: impl Fn() -> Result<B, String>) -> Result<(), String> {
+    let mut robot = Lockstep::new(program()?, VirtualBoard::new(robots::board(&four_wheels(), SEED)));
+    if address == PTY {
+        let (mut line, device) = TTYPort::pair().map_err(|why| format!("a serial device: {why}"))?;
+        line.set_timeout(Duration::ZERO).map_err(|why| why.to_string())?;
+        println!("a robot listens at {}; Ctrl-C switches it off", device.name().unwrap_or_default());
+        return serve(&mut robot, &mut line).map_err(|why| why.to_string());
+    }
     let listener = TcpListener::bind(address).map_err(|why| format!("{address}: {why}"))?;
     println!("a robot listens at tcp:{address}; Ctrl-C switches it off");
-    let mut robot = Lockstep::new(program()?, VirtualBoard::new(robots::board(&four_wheels(), SEED)));
     for connection in listener.incoming() {
-        let connection = connection.map_err(|why| why.to_string())?;
-        serve(&mut robot, connection).map_err(|why| why.to_string())?;
+        let mut connection = connection.and_then(unwaiting).map_err(|why| why.to_string())?;
+        serve(&mut robot, &mut connection).map_err(|why| why.to_string())?;
     }
     Ok(())
 }

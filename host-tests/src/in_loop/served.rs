@@ -1,6 +1,7 @@
-//! # Served: a robot on a network address, no faster than a real one
+//! # Served: a robot at the other end of a connection, no faster than a real one
 //!
-//! A program in lockstep with a virtual board, its serial line a connection: what drives a robot over TCP drives this one.
+//! A program in lockstep with a virtual board, its serial line a connection: what drives a robot over TCP or a serial device
+//! drives this one.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -23,16 +24,24 @@ pub enum ServeError {
     Connection(#[from] io::Error),
 }
 
-/// Serves a robot until the other side goes away.
+/// A connection that is never waited for.
+///
+/// # Errors
+/// Where it is broken.
+pub fn unwaiting(connection: TcpStream) -> io::Result<TcpStream> {
+    connection.set_nonblocking(true)?;
+    connection.set_nodelay(true)?;
+    Ok(connection)
+}
+
+/// Serves a robot until the other side goes away. The connection is not waited for: where nothing has come it says so at once.
 ///
 /// # Errors
 /// [`ServeError`] where the program fails or the connection breaks.
 pub fn serve<B: BoardProgram, const N: usize>(
     robot: &mut Lockstep<B, N>,
-    mut connection: TcpStream,
+    connection: &mut (impl Read + Write),
 ) -> Result<(), ServeError> {
-    connection.set_nonblocking(true)?;
-    connection.set_nodelay(true)?;
     let turn = Duration::from_secs_f64(f64::from(PERIODS) * PERIOD);
     let mut due = Instant::now();
     let mut bytes = [0; 1 << 12];
@@ -41,7 +50,7 @@ pub fn serve<B: BoardProgram, const N: usize>(
         match connection.read(&mut bytes) {
             Ok(0) => return Ok(()),
             Ok(count) => robot.link.send(&bytes[..count]),
-            Err(why) if why.kind() == ErrorKind::WouldBlock => {}
+            Err(why) if matches!(why.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {}
             Err(why) if why.kind() == ErrorKind::ConnectionReset => return Ok(()),
             Err(why) => return Err(why.into()),
         }
@@ -49,7 +58,7 @@ pub fn serve<B: BoardProgram, const N: usize>(
         waiting.extend(robot.link.take_received());
         match connection.write(&waiting) {
             Ok(count) => drop(waiting.drain(..count)),
-            Err(why) if why.kind() == ErrorKind::WouldBlock => {}
+            Err(why) if matches!(why.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {}
             Err(why) if matches!(why.kind(), ErrorKind::BrokenPipe | ErrorKind::ConnectionReset) => return Ok(()),
             Err(why) => return Err(why.into()),
         }
