@@ -22,6 +22,7 @@
 //! | [`confusion`](fn@confusion) | [`Confusion`]: which cause would be taken for which in them, by the angles between them |
 //! | [`effect_shown`] | [`EffectShown`]: what an effect of the catalogue does to a short drive |
 //! | [`export`], [`record`](fn@record) | the parameter block of a robot file; a [`Run`] of what a robot sent, and its frames |
+//! | [`wire::robot`](crate::wire::robot) | a robot at the other end of a line: how it is, parameters sent, driven, stopped, cleared |
 //! | [`watch`](fn@watch) | [`Reading`](crate::watch::Reading)s: while a robot drives, whether the gap is at its floor, and at which stage it leaves it |
 //!
 //! Sessions come from files ([`Session::load`]) or from memory ([`Session`] has public fields). Whatever is wrong with
