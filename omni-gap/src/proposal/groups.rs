@@ -83,6 +83,16 @@ fn wheel_key(wheel: &str) -> (u64, String) {
     (wheel.parse().unwrap_or(u64::MAX), wheel.to_owned())
 }
 
+/// What is said of a table that has a place and no heading.
+fn place_alone(table: &Table) -> Option<String> {
+    let title =
+        |role: Role| table.columns.iter().find(|column| column.name.role == Some(role)).map(|column| &column.title);
+    let (x, y) = title(Role::X).zip(title(Role::Y))?;
+    Some(format!(
+        "{x} and {y} look like a place, and no column like its heading: map theta_rad by hand, a pose is all three"
+    ))
+}
+
 /// x, y and heading of one table; of several, of that which is measured from outside.
 fn pose(tables: &[Table], notes: &mut Vec<String>) -> Option<[Place; 3]> {
     const OUTSIDE: [&str; 7] = ["vision", "camera", "mocap", "optitrack", "vicon", "pose", "video"];
@@ -91,6 +101,9 @@ fn pose(tables: &[Table], notes: &mut Vec<String>) -> Option<[Place; 3]> {
         Some([(t, first(Role::X)?), (t, first(Role::Y)?), (t, first(Role::Heading)?)])
     };
     let mut all: Vec<[Place; 3]> = (0..tables.len()).filter_map(of_table).collect();
+    if all.is_empty() {
+        notes.extend(tables.iter().filter_map(place_alone));
+    }
     let title = |pose: &[Place; 3]| tables[pose[0].0].title().to_lowercase();
     all.sort_by_key(|pose| !OUTSIDE.iter().any(|word| title(pose).contains(word)));
     for other in all.iter().skip(1) {

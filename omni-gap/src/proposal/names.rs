@@ -226,6 +226,8 @@ fn of_body(words: &[String], unit: Option<&str>) -> Option<Role> {
         () if is("x") => Some(Role::X),
         () if is("y") => Some(Role::Y),
         () if words.any(&HEADING) => Some(Role::Heading),
+        // an angle of what a camera sees
+        () if others.is_empty() && matches!(unit, Some("deg" | "rad")) => Some(Role::Heading),
         () => None,
     }
 }
@@ -281,6 +283,7 @@ mod tests {
             ("pose.orientation.yaw", Role::Heading, None, None),
             ("ang", Role::Heading, None, None),
             ("phi_rad", Role::Heading, None, Some("rad")),
+            ("cam_deg", Role::Heading, None, Some("deg")),
             ("battery_voltage", Role::Battery, None, None),
             ("angular_velocity.z", Role::Gyro, None, None),
             ("gyro_z_deg_s", Role::Gyro, None, Some("deg/s")),
@@ -303,6 +306,7 @@ mod tests {
             "layout.data_offset",
             "temp1",
             "gyro_x",
+            "joint_deg",
             "target_x",
             "pose.covariance[3]",
             "power_supply_status",

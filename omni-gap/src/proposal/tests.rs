@@ -279,6 +279,21 @@ fn places_for_names_and_a_clock_since_1970() {
 }
 
 #[test]
+fn a_place_without_a_heading_is_told() {
+    let mut layout = Layout::new(4)
+        .column("t", time(1.0, 0.0))
+        .of_wheels(|j| format!("w{j}"), &[0, 1, 2, 3], w)
+        .of_wheels(|j| format!("u{j}"), &[0, 1, 2, 3], u);
+    layout = layout.column("cam_x_m", pose(0, 1.0, 0.0)).column("cam_y_m", pose(1, 1.0, 0.0));
+    let (proposal, _kept) = proposed(&layout, &recorded(4));
+    let told = |part: &str| proposal.notes.iter().any(|note| note.contains(part));
+    assert!(told("cam_x_m and cam_y_m look like a place, and no column like its heading"), "{:?}", proposal.notes);
+    let (proposal, _kept) = proposed(&layout.column("cam_deg", pose(2, 57.29577951308232, 0.0)), &recorded(4));
+    let theta = proposal.lines.iter().find(|line| line.column == "theta_rad").unwrap();
+    assert!(theta.rule.contains("cam_deg") && theta.rule.contains("deg"), "{theta:?}");
+}
+
+#[test]
 fn names_and_units_in_two_lines() {
     let layout = Layout {
         separator: ";",
