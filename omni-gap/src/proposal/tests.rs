@@ -1,5 +1,7 @@
 //! Foreign layouts of one recording: what is proposed for each has to read as the recording that it was made of.
 
+mod foreign;
+
 use super::*;
 use crate::check::synthetic::{Made, robot, run};
 use crate::log::{Channel, Columns, Run};
@@ -7,84 +9,10 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path;
 
-/// Columns of a foreign log: a name, and the number of each row.
-type Foreign = Vec<(String, Box<dyn Fn(&Run, usize) -> Option<f64>>)>;
-
-/// How a foreign log is written.
-struct Layout {
-    wheels: usize,
-    separator: &'static str,
-    decimal: char,
-    above: &'static str,
-    header: bool,
-    columns: Foreign,
-}
-
-impl Layout {
-    fn new(wheels: usize) -> Layout {
-        Layout { wheels, separator: ",", decimal: '.', above: "", header: true, columns: Vec::new() }
-    }
-
-    fn column(mut self, name: &str, of: impl Fn(&Run, usize) -> Option<f64> + 'static) -> Layout {
-        self.columns.push((name.to_owned(), Box::new(of)));
-        self
-    }
-
-    /// A column for each wheel; `order` says of which wheel the first, the second and so on are.
-    fn of_wheels(
-        mut self,
-        name: impl Fn(usize) -> String,
-        order: &[usize],
-        of: fn(&Run, usize, usize) -> Option<f64>,
-    ) -> Layout {
-        for (place, wheel) in order.iter().copied().enumerate() {
-            self = self.column(&name(place), move |run, row| of(run, wheel, row));
-        }
-        self
-    }
-
-    fn text(&self, run: &Run) -> String {
-        let mut text = self.above.to_owned();
-        let join = |fields: Vec<String>| fields.join(self.separator) + "\n";
-        if self.header {
-            text += &join(self.columns.iter().map(|(name, _)| name.clone()).collect());
-        }
-        for row in 0..run.rows() {
-            let field = |of: Option<f64>| {
-                of.map_or(String::new(), |value| format!("{value}").replace('.', &self.decimal.to_string()))
-            };
-            text += &join(self.columns.iter().map(|(_, of)| field(of(run, row))).collect());
-        }
-        text
-    }
-}
+use foreign::{Layout, i, pose, time, u, w};
 
 fn recorded(wheels: usize) -> Run {
     run(&Made { wheels, ..Made::default() })
-}
-
-fn time(scale: f64, since: f64) -> impl Fn(&Run, usize) -> Option<f64> {
-    move |run, row| Some((since + run.t_s[row]) * scale)
-}
-
-fn at(group: &Option<crate::log::Group>, channel: usize, row: usize) -> Option<f64> {
-    group.as_ref()?.channels[channel].get(row).ok()
-}
-
-fn w(run: &Run, wheel: usize, row: usize) -> Option<f64> {
-    at(&run.w, wheel, row)
-}
-
-fn u(run: &Run, wheel: usize, row: usize) -> Option<f64> {
-    at(&run.u, wheel, row)
-}
-
-fn i(run: &Run, wheel: usize, row: usize) -> Option<f64> {
-    at(&run.i, wheel, row)
-}
-
-fn pose(channel: usize, factor: f64, offset: f64) -> impl Fn(&Run, usize) -> Option<f64> {
-    move |run, row| Some(factor * at(&run.pose, channel, row)? + offset)
 }
 
 fn proposed(layout: &Layout, run: &Run) -> (Proposal, tempfile::TempDir) {
