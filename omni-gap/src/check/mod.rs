@@ -7,8 +7,9 @@
 //! Reading order: [`Fault`]; `rows` with one file per idea about a single run: `absurd`, `time`, `time_unit`, `frozen`,
 //! `saturated`, `outliers`, `repeated`, `held`, `rectified`, `bunched`, `pushed`, `rate`; then the relations, judged on all runs of a
 //! session (`agree`): `motor` (volts, currents and speeds of each wheel, from the sums in `gram`; `duty`) and `pose` (wheels
-//! against the pose, over `windows`, with the guesses of `frame`; `quaternion`; `shifted`: one in time against another); then the session as a whole: `same` and
-//! `enough`; `grouped` tells once what many runs share. A run of files with a clock each is looked at as `clocks` has it. `order` lists the ways in which wheels can have changed places,
+//! against the pose, over `windows`, with the guesses of `frame`; `quaternion`), and `shifted` (one signal in time against
+//! another); then the session as a whole: `same` and `enough`; `grouped` tells once what many runs share. A run of files with a
+//! clock each is looked at as `clocks` has it. `order` lists the ways in which wheels can have changed places,
 //! `body` turns wheel speeds into body speed.
 //!
 //! Left to the diagnosis, since a robot can have it as well as a recording: encoders or currents that are late (a filter, a

@@ -6,7 +6,7 @@
 //!
 //! p and q are whatever fits: slip and a wrong radius change them.
 
-use super::integral::{Between, Integral};
+use super::integral::{Between, means};
 use super::shifts::{FEWEST_WINDOWS, LeftByShift, MOST_WINDOWS, shifts};
 use crate::check::body::{BodyFromWheels, row_of};
 use crate::log::{RobotFile, Run};
@@ -51,13 +51,14 @@ pub(super) fn left_by_shift(run: &Run, robot: &RobotFile) -> Option<LeftByShift>
     if steps.len() < FEWEST_WINDOWS {
         return None;
     }
-    let turned: Vec<Integral> =
-        speed.channels.iter().map(|channel| Integral::of(&run.t_s, channel, Between::Line)).collect();
+    let spans: Vec<(f64, f64)> = steps.iter().map(|step| (step.from_s, step.to_s)).collect();
+    let turned: Vec<Vec<Vec<f64>>> =
+        speed.channels.iter().map(|channel| means(run, channel, Between::Line, &spans, &shifts)).collect();
     let all: f64 = steps.iter().map(|s| s.speed[0].powi(2) + s.speed[1].powi(2) + (lever_m * s.speed[2]).powi(2)).sum();
-    let left = |shift: f64| {
+    let left = |(at, shift): (usize, f64)| {
         let (mut going, mut turning) = (Products::default(), Products::default());
-        for Step { from_s, to_s, speed, heading } in &steps {
-            let means: Vec<f64> = turned.iter().map(|wheel| wheel.mean(from_s - shift, to_s - shift)).collect();
+        for (k, Step { speed, heading, .. }) in steps.iter().enumerate() {
+            let means: Vec<f64> = turned.iter().map(|wheel| wheel[at][k]).collect();
             let [v, vn, w] = body.twist(&means);
             let (sin, cos) = heading.sin_cos();
             going.add(speed[0], cos * v - sin * vn);
@@ -66,7 +67,7 @@ pub(super) fn left_by_shift(run: &Run, robot: &RobotFile) -> Option<LeftByShift>
         }
         (shift, 1.0 - (going.explained() + turning.explained()) / all)
     };
-    (all > 0.0).then(|| shifts.into_iter().map(left).collect())
+    (all > 0.0).then(|| shifts.into_iter().enumerate().map(left).collect())
 }
 
 /// Steps of the pose spread over a run, so far from its ends that every shift stays within it.

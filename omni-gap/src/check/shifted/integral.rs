@@ -1,6 +1,6 @@
-//! A signal's integral over time, at any time.
+//! A signal's means over spans of time, shifted by this and that.
 
-use crate::log::Channel;
+use crate::log::{Channel, Run};
 
 /// What a signal holds between two rows.
 #[derive(Clone, Copy)]
@@ -11,14 +11,28 @@ pub(super) enum Between {
     Line,
 }
 
-/// ∫ x dt from the first row on [unit of x times s]; a hole has the value before it.
-pub(super) struct Integral<'a> {
+/// The means of a signal over spans (from, to) [s], for each shift [s] one for each span; a hole has the value before it. Every
+/// shifted span lies within the run.
+pub(super) fn means(
+    run: &Run,
+    channel: &Channel,
+    between: Between,
+    spans: &[(f64, f64)],
+    shifts: &[f64],
+) -> Vec<Vec<f64>> {
+    let integral = Integral::of(&run.t_s, channel, between);
+    let of = |shift: &f64| spans.iter().map(|(from, to)| integral.mean(from - shift, to - shift)).collect();
+    shifts.iter().map(of).collect()
+}
+
+/// ∫ x dt from the first row on [unit of x times s].
+struct Integral<'a> {
     t_s: &'a [f64],
     sum: Vec<f64>,
 }
 
 impl<'a> Integral<'a> {
-    pub fn of(t_s: &'a [f64], channel: &Channel, between: Between) -> Self {
+    fn of(t_s: &'a [f64], channel: &Channel, between: Between) -> Self {
         let (mut sum, mut total, mut before) = (Vec::with_capacity(t_s.len()), 0.0, 0.0);
         for (row, t) in t_s.iter().enumerate() {
             let now = channel.get(row).unwrap_or(before);
@@ -36,7 +50,7 @@ impl<'a> Integral<'a> {
     }
 
     /// The mean from one time to a later one, both within the run.
-    pub fn mean(&self, from_s: f64, to_s: f64) -> f64 {
+    fn mean(&self, from_s: f64, to_s: f64) -> f64 {
         (self.at(to_s) - self.at(from_s)) / (to_s - from_s)
     }
 

@@ -8,7 +8,7 @@
 
 use nalgebra::DMatrix;
 
-use super::integral::{Between, Integral};
+use super::integral::{Between, means};
 use super::shifts::{FEWEST_WINDOWS, LeftByShift, MOST_WINDOWS, shifts};
 use crate::check::body::{MOST_CHANNELS, row_of};
 use crate::log::Run;
@@ -32,25 +32,31 @@ pub(super) fn left_by_shift(run: &Run) -> Option<LeftByShift> {
     let drive = run.u.as_ref().or(run.wset.as_ref()).filter(|group| !group.unsigned)?;
     let shifts = shifts(run.duration_s());
     let windows = windows(run, *shifts.last()?);
-    let commands: Vec<Integral> =
-        drive.channels.iter().map(|channel| Integral::of(&run.t_s, channel, Between::Held)).collect();
     let n = speed.channels.len();
     if windows.len() < FEWEST_WINDOWS {
         return None;
     }
+    let spans: Vec<(f64, f64)> = windows.iter().map(|window| (window.from_s, window.to_s)).collect();
+    let commands: Vec<Vec<Vec<f64>>> =
+        drive.channels.iter().map(|channel| means(run, channel, Between::Held, &spans, &shifts)).collect();
     let answers = DMatrix::from_fn(windows.len(), n, |k, j| windows[k].speeds_up[j]);
     let speeds = DMatrix::from_fn(windows.len(), 2 * n, |k, c| {
         let w = windows[k].speed[c % n];
         if c < n { w } else { w.signum() }
     });
     let without = left(&speeds, &answers)?;
-    let with = |shift: f64| {
-        let mean = |k: usize, j: usize| commands[j].mean(windows[k].from_s - shift, windows[k].to_s - shift);
+    let with = |(at, shift): (usize, f64)| {
         let explains =
-            DMatrix::from_fn(windows.len(), n + 2 * n, |k, c| if c < n { mean(k, c) } else { speeds[(k, c - n)] });
+            DMatrix::from_fn(
+                windows.len(),
+                n + 2 * n,
+                |k, c| {
+                    if c < n { commands[c][at][k] } else { speeds[(k, c - n)] }
+                },
+            );
         Some((shift, left(&explains, &answers)? / without))
     };
-    (without > 0.0).then(|| shifts.into_iter().filter_map(with).collect())
+    (without > 0.0).then(|| shifts.into_iter().enumerate().filter_map(with).collect())
 }
 
 /// Windows spread over a run, so far from its ends that every shift stays within it.
