@@ -60,7 +60,7 @@ pub use experiment::{
     PlannedExperiments, PlannedRich, PlannedScript, RichScript, experiments, rehearse, rehearse_rich, rich,
 };
 pub use identify::{FitRemark, FittedEffectNumber, FittedNumber, Identification, identify};
-pub use informativity::informativity;
+pub use informativity::{check_and_informativity, informativity};
 pub use next::next;
 pub use predict::predict;
 pub use record::{Recorded, Recording, record, record_kept};

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use omni_gap::Verdict;
-use omni_gap::api::informativity;
-use omni_gap::check::{Fault, check};
+use omni_gap::api::check_and_informativity;
+use omni_gap::check::Fault;
 use omni_gap::report::informativity_terminal;
 
 use super::answer::{AnswerForm, RunsChecked, SCHEMA};
@@ -32,13 +32,11 @@ impl Check {
     pub fn run(&self, console: &Console) -> Done {
         let session = self.session.load(console)?;
         console.phase("checking the recordings");
-        let faults = check(&session);
+        let (faults, told) = check_and_informativity(&session);
         let mut page: String = faults.iter().map(summary).collect();
         for notice in &session.notices {
             page += &wrapped(0, &format!("notice: {notice}"));
         }
-        console.phase("asking what they can tell");
-        let told = informativity(&session);
         let fatal = faults.iter().filter(|f| f.fatal).count();
         let runs = session.runs.len() + session.heldout.len();
         page += &match (faults.len(), fatal) {
