@@ -38,10 +38,7 @@ pub fn effect_free<const N: usize>(model: &Model<N>) -> Vec<Free> {
 pub fn told<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, free: Vec<Free>) -> Vec<Free> {
     let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();
     let hess = linearise(model, shots, &starts_of(model, shots), &slots, false).reduced().hess;
-    let moves = |(k, free): &(usize, Free)| {
-        let room = free.within.1 - free.within.0;
-        hess[(*k, *k)] * room * room > 1.0
-    };
+    let moves = |(k, free): &(usize, Free)| free.moves(hess[(*k, *k)]);
     free.into_iter().enumerate().filter(moves).map(|(_, free)| free).collect()
 }
 

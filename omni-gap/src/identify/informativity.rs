@@ -93,14 +93,18 @@ pub fn informativity<const N: usize>(runs: &[&AlignedRun<N>], file: &RobotFile, 
         Nominal::ALL.iter().map(|p| Slot::Nominal(*p)).chain(carried.iter().map(|free| free.slot)).collect();
     let hess = linearise(&model, shots, &starts_of(&model, shots), &slots, false).reduced().hess;
     // a number of an effect in parts of the room that it has
-    let unit = |k: usize| k.checked_sub(Nominal::COUNT).map_or(1.0, |k| carried[k].within.1 - carried[k].within.0);
+    let unit = |k: usize| k.checked_sub(Nominal::COUNT).map_or(1.0, |k| carried[k].room());
     let information = DMatrix::from_fn(slots.len(), slots.len(), |a, b| hess[(a, b)] * unit(a) * unit(b));
     let bound = invert(&(&information + stated(prior, slots.len())));
     let numbers = NOMINAL_KEYS.iter().filter(|key| key.value(file) != 0.0);
     Informativity {
         driven_by: runs.first().map_or(Chain::Voltage, |run| run.chain),
         numbers: numbers.map(|key| number_prospect(key, file, &information, &bound)).collect(),
-        effects: carried.iter().enumerate().map(|(k, free)| effect_prospect(&model, k, free, &information)).collect(),
+        effects: carried
+            .iter()
+            .enumerate()
+            .map(|(k, free)| effect_prospect(&model, free, hess[(Nominal::COUNT + k, Nominal::COUNT + k)]))
+            .collect(),
     }
 }
 
@@ -151,16 +155,10 @@ fn most_alike(own: usize, bound: &DMatrix<f64>) -> Option<(&'static str, f64)> {
         .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
 }
 
-fn effect_prospect<const N: usize>(
-    model: &Model<N>,
-    k: usize,
-    free: &Free,
-    information: &DMatrix<f64>,
-) -> EffectProspect {
+fn effect_prospect<const N: usize>(model: &Model<N>, free: &Free, information: f64) -> EffectProspect {
     let Slot::Param(at, param) = free.slot else { unreachable!("{:?} is no number of an effect", free.slot) };
     let effect = &model.effects[at];
-    let own = Nominal::COUNT + k;
-    let (key, told) = (effect.card().params[param].key, information[(own, own)] > 1.0);
+    let (key, told) = (effect.card().params[param].key, free.moves(information));
     EffectProspect { effect: effect.id, wheel: effect.wheel, key, told }
 }
 

@@ -1,11 +1,12 @@
 //! How well recordings could tell the numbers of their robot file, for a person at a terminal.
 
-use model_core::effects::nominal;
+use model_core::effects::nominal::{self, Table};
 
 use super::number::{NBSP, percent};
 use super::terminal::Page;
 use crate::identify::{EffectProspect, Informativity, NumberProspect, Prospect};
 use crate::log::Chain;
+use crate::simulate::NominalKey;
 
 /// A number that is stated to better than this is weighed or measured, and need not be told by recordings [1].
 const ROUGH: f64 = 0.1;
@@ -14,8 +15,10 @@ const PAIR: f64 = 0.8;
 /// Above this share of what is stated nothing was gained [1].
 const NOTHING_GAINED: f64 = 0.99;
 
-/// What wheels that turn as they were told still tell.
-const GEOMETRY: [&str; 2] = ["radius_m", "distance_m"];
+/// Whether it is of a wheel: what wheels that turn as they were told still tell.
+fn is_geometry(number: &NumberProspect) -> bool {
+    NominalKey::of(number.key).is_some_and(|key| key.table == Table::Wheel.name())
+}
 
 fn by_speeds(chain: Chain) -> bool {
     matches!(chain, Chain::WheelSpeed | Chain::SetSpeed)
@@ -38,7 +41,7 @@ pub fn informativity_terminal(told: &Informativity) -> String {
     );
     table(&mut page.0, &told.numbers);
     let rough = |number: &&NumberProspect| number.stated_relative >= ROUGH;
-    let of_forces = |number: &&NumberProspect| !GEOMETRY.contains(&number.key);
+    let of_forces = |number: &&NumberProspect| !is_geometry(number);
     let traceless = |number: &&NumberProspect| number.prospect == Prospect::NoTrace;
     if by_speeds(told.driven_by) && told.numbers.iter().filter(of_forces).all(|number| traceless(&number)) {
         page.line("no trace", &no_forces(told.driven_by));
