@@ -12,9 +12,11 @@ use host_tests::virtual_board::{BoardSetup, VirtualBoard};
 use model_core::effects::active::Effects;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::link::command::Command;
+use model_core::link::message::Message;
+use model_core::link::record::OperatingState;
 use model_core::plant::paper::four_wheels;
 use omni_gap::api::{Exported, RobotFile, export, known_effects, record_kept};
-use omni_gap::wire::line::{Heard, Line};
+use omni_gap::wire::line::Line;
 use omni_gap::wire::robot::{Ended, Leg, clear, drive, send, status, stop};
 use omni_gap::wire::source::Source;
 use serialport::{SerialPort, TTYPort};
@@ -49,7 +51,7 @@ fn block() -> Exported {
 fn a_robot_gets_parameters_drives_as_far_as_it_is_told_and_stands() {
     let (mut line, robot) = robot();
     let asleep = status(&mut line).unwrap();
-    assert_eq!((asleep.state, asleep.identity, asleep.is_driving()), ("asleep", None, false));
+    assert_eq!((asleep.state, asleep.identity, asleep.is_driving()), (OperatingState::Asleep, None, false));
     let told = drive(&mut line, &ahead(1), |_| true).unwrap_err().to_string();
     assert!(told.contains("it has no parameters") && told.contains("robot send"), "{told}");
 
@@ -65,10 +67,10 @@ fn a_robot_gets_parameters_drives_as_far_as_it_is_told_and_stands() {
         driving += u32::from(status.is_driving() && status.wanted[0] > 0.4);
         true
     });
-    assert_eq!(ended.unwrap(), Ended::Done);
+    assert_eq!(ended.unwrap().ended, Ended::Done);
     assert!(driving > 20, "{driving} of 50 looks saw it drive");
     let stands = status(&mut line).unwrap();
-    assert_eq!((stands.state, stands.driven.len(), stands.faults.len()), ("open", 0, 0));
+    assert_eq!((stands.state, stands.driven.len(), stands.faults.len()), (OperatingState::Open, 0, 0));
     // what came meanwhile is a run: voltages, currents and speeds of all wheels
     let recorded = record_kept(line.kept(), Path::new("line"), "ahead", 4).unwrap();
     let fastest = recorded.run.w.as_ref().unwrap().channels[1].present().map(|(_, w)| w.abs()).fold(0.0, f64::max);
@@ -89,8 +91,8 @@ fn a_robot_that_hears_nothing_more_says_so_until_it_is_cleared() {
     let block = block();
     send(&mut line, &block.bytes, block.checksum).unwrap();
     line.send(&Command::Drive { sequence: 7, twist: AHEAD }).unwrap();
-    let silent = line.listen(Instant::now() + Duration::from_secs(10), |heard| match heard {
-        Heard::Record(record) => (!record.faults.is_empty()).then_some(record.faults),
+    let silent = line.listen(Instant::now() + Duration::from_secs(10), |message| match message {
+        Message::Record(record) => (!record.faults.is_empty()).then_some(record.faults),
         _ => None,
     });
     assert_eq!(
@@ -99,7 +101,7 @@ fn a_robot_that_hears_nothing_more_says_so_until_it_is_cleared() {
     );
     let told = drive(&mut line, &ahead(1), |_| true).unwrap_err().to_string();
     assert!(told.contains("no command came in time") && told.contains("robot clear"), "{told}");
-    assert_eq!(clear(&mut line).unwrap().state, "open");
+    assert_eq!(clear(&mut line).unwrap().state, OperatingState::Open);
 }
 
 #[test]
@@ -112,9 +114,9 @@ fn who_has_enough_brings_the_robot_to_rest_and_a_stop_opens_the_bridges() {
         looks += 1;
         looks < 15
     });
-    assert_eq!(ended.unwrap(), Ended::Interrupted);
+    assert_eq!(ended.unwrap().ended, Ended::Interrupted);
     line.send(&Command::Drive { sequence: 999, twist: AHEAD }).unwrap();
-    assert_eq!(stop(&mut line).unwrap().state, "open");
+    assert_eq!(stop(&mut line).unwrap().state, OperatingState::Open);
 }
 
 #[test]
@@ -142,7 +144,7 @@ fn a_serial_device_is_a_line_like_any_other() {
     assert_eq!(ready.identity.unwrap().checksum, block.checksum);
     // as each command of a person opens the line anew
     let mut line = Line::open(&source, 2_000_000).unwrap();
-    assert_eq!(drive(&mut line, &ahead(1), |_| true).unwrap(), Ended::Done);
-    assert_eq!(status(&mut line).unwrap().state, "open");
+    assert_eq!(drive(&mut line, &ahead(1), |_| true).unwrap().ended, Ended::Done);
+    assert_eq!(status(&mut line).unwrap().state, OperatingState::Open);
     drop(device);
 }

@@ -4,8 +4,8 @@ use firmware::exchange::UpFrame;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::link::block::{MAX_BYTES, Parameters};
 use model_core::link::command::{Command, MAX_CHUNK, Reply};
-use model_core::link::framing::FrameKind;
 use model_core::link::hello::Hello;
+use model_core::link::message::Message;
 use model_core::link::record::TelemetryRecord;
 
 use crate::emulator::{BoardProgram, Lockstep, RunError};
@@ -166,12 +166,11 @@ impl<B: BoardProgram, const N: usize> ClosedLoopRun<B, N> {
 
     fn read(&mut self) {
         for frame in self.lockstep.link.frames() {
-            let payload = &frame.payload;
-            match FrameKind::from_code(frame.kind) {
-                Some(FrameKind::Record) => self.log.records.extend(TelemetryRecord::from_bytes(payload)),
-                Some(FrameKind::Hello) => self.log.hellos.extend(Hello::from_bytes(payload)),
-                Some(FrameKind::Reply) => self.log.replies.extend(Reply::from_bytes(payload)),
-                _ => {}
+            match Message::decode(frame.kind, &frame.payload) {
+                Some(Message::Record(record)) => self.log.records.push(record),
+                Some(Message::Hello(hello)) => self.log.hellos.push(hello),
+                Some(Message::Reply(reply)) => self.log.replies.push(reply),
+                None => {}
             }
         }
     }

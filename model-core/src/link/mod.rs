@@ -1,7 +1,7 @@
 //! # Link: what robot and host tell each other
 //!
 //! Frames on a serial line ([`framing`]); in them commands and their replies ([`command`]), a record of every turn
-//! ([`record`]), who the robot is ([`hello`]), which faults it has ([`faults`]), and the parameters that it drives with
+//! ([`record`]), who the robot is ([`hello`]), which of these a frame holds ([`message`]), which faults it has ([`faults`]), and the parameters that it drives with
 //! ([`block`]). All numbers are little-endian.
 
 mod bytes;
@@ -13,6 +13,8 @@ pub mod command;
 pub mod record;
 
 pub mod hello;
+
+pub mod message;
 
 pub mod faults;
 

@@ -34,6 +34,7 @@ mod schema;
 mod selftest;
 mod sensitivity;
 mod simulate;
+mod told_to_end;
 mod validate;
 mod watch;
 

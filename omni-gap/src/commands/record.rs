@@ -3,10 +3,10 @@
 pub mod run_place;
 mod vision;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use omni_gap::api::{Error, Recording, known_effects, record};
-use omni_gap::log::{RobotFile, write_whole};
+use omni_gap::log::RobotFile;
 use omni_gap::wire::source::Source;
 use omni_gap::wire::vision::{Listener, Watched};
 
@@ -14,7 +14,6 @@ use super::answer::{AnswerForm, RunWritten};
 use super::console::{Console, wrapped};
 use super::done::{DONE, Done};
 use super::given;
-use super::output_path;
 use run_place::{RunPlace, name, remarks, text_of};
 use vision::{PACKETS, Vision};
 
@@ -59,12 +58,9 @@ impl Record {
         let robot = RobotFile::load(&self.robot, &known_effects())?;
         let text = text_of(&self.robot)?;
         let watched = self.vision.watched();
-        let columns = watched.as_ref().map(|watched| vision::columns(&watched.robot));
-        let place = RunPlace::new(&self.out, &self.name, watched.is_some())?;
-        place.fits("robot.toml", &text)?;
-        if let Some(columns) = &columns {
-            place.fits("columns.toml", columns)?;
-        }
+        let columns = watched.as_ref().map(|watched| ("columns.toml", vision::columns(&watched.robot)));
+        let beside = std::iter::once(("robot.toml", text)).chain(columns).collect();
+        let place = RunPlace::new(&self.out, &self.name, watched.is_some(), beside)?;
         if let (Some(file), Some(_)) = (source.file(), &watched) {
             let problem = "these frames were recorded before, expected a robot that sends while SSL-Vision does";
             return Err(Error::input(file, problem, "Leave --vision out, or name the robot with --from").into());
@@ -78,23 +74,13 @@ impl Record {
         let heard = listener.map(Listener::finish);
         console.end_phase();
 
-        let made = output_path::NewFolder::make(&place.folder)?;
-        place.begin("robot.toml", &text)?;
-        if let Some(columns) = &columns {
-            place.begin("columns.toml", columns)?;
-        }
-        write_whole(&place.records, &recorded.frames)?;
-        if let Some(heard) = &heard {
-            heard.write(&place.folder.join(PACKETS))?;
-        }
-        made.keep();
+        let write_heard = |folder: &Path| heard.as_ref().map_or(Ok(()), |heard| heard.write(&folder.join(PACKETS)));
+        let mut told = place.write(&recorded, write_heard)? + "\n";
         let mut answer = RunWritten::of(&place.records, recorded.run.rows());
         answer.notices = remarks(&recorded, &robot, &self.robot);
         if let (Some(heard), Some(watched)) = (&heard, &watched) {
             answer.notices.extend(vision::told(heard, watched));
         }
-        let (rows, seconds) = (answer.rows, recorded.run.duration_s());
-        let mut told = format!("{rows} rows, {seconds:.3} s, written to {}\n", place.records.display());
         answer.notices.iter().for_each(|line| told += &wrapped(2, line));
         self.form.say(console, &told, &answer)?;
         Ok(DONE)

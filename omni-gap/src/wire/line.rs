@@ -5,24 +5,12 @@ use std::io::{ErrorKind, Read, Write};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use model_core::link::command::{Command, Reply};
-use model_core::link::framing::{Frame, FrameDecoder, FrameKind, MAX_FRAME};
-use model_core::link::hello::Hello;
-use model_core::link::record::TelemetryRecord;
+use model_core::link::command::Command;
+use model_core::link::framing::{FrameDecoder, MAX_FRAME};
+use model_core::link::message::Message;
 
 use super::source::{Source, Stream};
 use crate::error::{Error, InputKind, Result};
-
-/// What a robot says.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Heard {
-    /// What a turn of its loop left behind.
-    Record(TelemetryRecord),
-    /// Who it is.
-    Hello(Hello),
-    /// An answer to a command.
-    Reply(Reply),
-}
 
 /// An open line to a robot.
 pub struct Line {
@@ -83,7 +71,7 @@ impl Line {
     ///
     /// # Errors
     /// Where the line is broken or closed.
-    pub fn listen<T>(&mut self, until: Instant, mut take: impl FnMut(Heard) -> Option<T>) -> Result<Option<T>> {
+    pub fn listen<T>(&mut self, until: Instant, mut take: impl FnMut(Message) -> Option<T>) -> Result<Option<T>> {
         let mut bytes = [0; 1 << 12];
         while Instant::now() < until {
             let count = match self.stream.read(&mut bytes) {
@@ -99,8 +87,9 @@ impl Line {
             let bytes = bytes.get(..count).unwrap_or_default();
             self.kept.iter_mut().for_each(|kept| kept.extend(bytes));
             for byte in bytes {
-                let heard = self.decoder.push(*byte).and_then(heard);
-                if let Some(answer) = heard.and_then(&mut take) {
+                let frame = self.decoder.push(*byte);
+                let message = frame.and_then(|frame| Message::decode(frame.kind, frame.payload));
+                if let Some(answer) = message.and_then(&mut take) {
                     return Ok(Some(answer));
                 }
             }
@@ -110,15 +99,5 @@ impl Line {
 
     fn closed(&self) -> Error {
         self.error("the other side closed the line", "Start what listens there again").of_kind(InputKind::Unreadable)
-    }
-}
-
-/// What a frame says; none where it means nothing to this program.
-fn heard(frame: Frame) -> Option<Heard> {
-    match FrameKind::from_code(frame.kind)? {
-        FrameKind::Record => TelemetryRecord::from_bytes(frame.payload).map(Heard::Record),
-        FrameKind::Hello => Hello::from_bytes(frame.payload).map(Heard::Hello),
-        FrameKind::Reply => Reply::from_bytes(frame.payload).map(Heard::Reply),
-        _ => None,
     }
 }

@@ -11,9 +11,10 @@ use model_core::link::block::BlockErrorKind;
 use model_core::link::command::{Command, CommandError, MAX_CHUNK, Reply};
 use model_core::link::faults::Faults;
 use model_core::link::framing::FrameKind;
+use model_core::link::message::Message;
 use model_core::link::record::OperatingState;
 
-use super::line::{Heard, Line};
+use super::line::Line;
 use super::status::{Status, StatusSeen};
 use crate::error::Result;
 
@@ -39,6 +40,18 @@ pub struct Leg {
     pub lasts: Duration,
 }
 
+/// What to do about a fault.
+pub const MEND: &str = "Mend the cause, then `omni-gap robot clear`";
+
+/// What became of a drive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Driven {
+    /// Why it ended.
+    pub ended: Ended,
+    /// How the robot is then, its bridges open.
+    pub status: Status,
+}
+
 /// Why a robot that was driven stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ended {
@@ -57,8 +70,8 @@ pub enum Ended {
 pub fn status(line: &mut Line) -> Result<Status> {
     let mut seen = StatusSeen::default();
     let until = Instant::now() + HELLO;
-    line.listen(until, |heard| {
-        seen.take(heard);
+    line.listen(until, |message| {
+        seen.take(message);
         seen.is_whole().then_some(())
     })?;
     seen.status().ok_or_else(|| silent(line))
@@ -89,14 +102,13 @@ pub fn send(line: &mut Line, block: &[u8], checksum: u32) -> Result<Status> {
         let fix = "Export it with the program that the robot\'s firmware was built with";
         return Err(line.error(format!("the robot refuses the block: {}", refused(answered)), fix));
     }
-    let took = line.listen(Instant::now() + KEPT, |heard| match heard {
-        Heard::Hello(hello) => (hello.block_check == checksum).then_some(()),
-        _ => None,
+    let mut seen = StatusSeen::default();
+    let took = line.listen(Instant::now() + KEPT, |message| {
+        seen.take(message);
+        seen.drives_with(checksum).then(|| seen.status())
     })?;
-    if took.is_none() {
-        return Err(line.error("the robot took the block and does not say that it drives with it", CHECK_LINE));
-    }
-    status(line)
+    took.flatten()
+        .ok_or_else(|| line.error("the robot took the block and does not say that it drives with it", CHECK_LINE))
 }
 
 /// Has the robot forget its faults; how it is then.
@@ -120,8 +132,8 @@ pub fn clear(line: &mut Line) -> Result<Status> {
 pub fn stop(line: &mut Line) -> Result<Status> {
     for _ in 0..TRIES {
         line.send(&Command::Open)?;
-        let open = line.listen(Instant::now() + ANSWER, |heard| match heard {
-            Heard::Record(record) => (record.state != OperatingState::Driving && record.enabled == 0).then_some(()),
+        let open = line.listen(Instant::now() + ANSWER, |message| match message {
+            Message::Record(record) => (record.state != OperatingState::Driving && record.enabled == 0).then_some(()),
             _ => None,
         })?;
         if open.is_some() {
@@ -136,7 +148,7 @@ pub fn stop(line: &mut Line) -> Result<Status> {
 ///
 /// # Errors
 /// Where the robot would not drive, or the line breaks; the robot then opens its bridges by itself.
-pub fn drive(line: &mut Line, legs: &[Leg], mut goes_on: impl FnMut(&Status) -> bool) -> Result<Ended> {
+pub fn drive(line: &mut Line, legs: &[Leg], mut goes_on: impl FnMut(&Status) -> bool) -> Result<Driven> {
     ready(line)?;
     let mut drive = Drive { line, seen: StatusSeen::default(), sequence: 0, began: Instant::now() };
     let mut ended = Ended::Done;
@@ -152,8 +164,7 @@ pub fn drive(line: &mut Line, legs: &[Leg], mut goes_on: impl FnMut(&Status) -> 
             ended = Ended::Faulted(faults);
         }
     }
-    stop(line)?;
-    Ok(ended)
+    Ok(Driven { ended, status: stop(line)? })
 }
 
 /// A drive on its way.
@@ -172,9 +183,9 @@ impl Drive<'_> {
             self.sequence = self.sequence.wrapping_add(1);
             self.line.send(&Command::Drive { sequence: self.sequence, twist: leg.twist })?;
             let seen = &mut self.seen;
-            let fault = self.line.listen(until.min(Instant::now() + EVERY), |heard| {
-                seen.take(heard);
-                let faulted = matches!(heard, Heard::Record(record) if record.state == OperatingState::Faulted);
+            let fault = self.line.listen(until.min(Instant::now() + EVERY), |message| {
+                seen.take(message);
+                let faulted = matches!(message, Message::Record(record) if record.state == OperatingState::Faulted);
                 faulted.then(|| seen.faults())
             })?;
             if let Some(faults) = fault {
@@ -194,10 +205,12 @@ impl Drive<'_> {
 fn ready(line: &mut Line) -> Result<()> {
     let status = status(line)?;
     let (problem, fix) = match status.state {
-        "open" | "driving" => return Ok(()),
-        "faulted" => (status.faults.join("; "), "Mend the cause, then `omni-gap robot clear`"),
-        "calibrating" => ("it still measures the zeros of its current sensors".into(), "Wait for a second"),
-        _ => ("it has no parameters".into(), "`omni-gap robot send ROBOT.toml`"),
+        OperatingState::Open | OperatingState::Driving => return Ok(()),
+        OperatingState::Faulted => (status.faults.join("; "), MEND),
+        OperatingState::Calibrating => {
+            ("it still measures the zeros of its current sensors".into(), "Wait for a second")
+        }
+        OperatingState::Asleep => ("it has no parameters".into(), "`omni-gap robot send ROBOT.toml`"),
     };
     Err(line.error(format!("the robot does not drive: {problem}"), fix))
 }
@@ -211,8 +224,8 @@ fn silent(line: &Line) -> crate::error::Error {
 
 /// The answer to a kind of command, if one comes in time.
 fn reply(line: &mut Line, to: FrameKind, within: Duration) -> Result<Option<Reply>> {
-    line.listen(Instant::now() + within, |heard| match heard {
-        Heard::Reply(reply) => (reply.to == to.code()).then_some(reply),
+    line.listen(Instant::now() + within, |message| match message {
+        Message::Reply(reply) => (reply.to == to.code()).then_some(reply),
         _ => None,
     })
 }

@@ -2,17 +2,18 @@
 
 use model_core::link::faults::{Fault, Faults};
 use model_core::link::hello::Hello;
+use model_core::link::message::Message;
 use model_core::link::record::{MOTORS, OperatingState, TelemetryRecord};
 use schemars::JsonSchema;
-use serde::Serialize;
-
-use super::line::Heard;
+use serde::{Serialize, Serializer};
 
 /// How a robot is.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Status {
     /// What it does: `asleep` (without parameters), `calibrating`, `open`, `driving` or `faulted`.
-    pub state: &'static str,
+    #[schemars(with = "String")]
+    #[serde(serialize_with = "as_word")]
+    pub state: OperatingState,
     /// Motors whose bridges are driven, counted from 0.
     pub driven: Vec<usize>,
     /// Its faults, in words.
@@ -38,6 +39,23 @@ pub struct Identity {
     pub wheels: u8,
 }
 
+/// What a robot does, in a word.
+pub const fn word(state: OperatingState) -> &'static str {
+    match state {
+        OperatingState::Asleep => "asleep",
+        OperatingState::Calibrating => "calibrating",
+        OperatingState::Open => "open",
+        OperatingState::Driving => "driving",
+        OperatingState::Faulted => "faulted",
+    }
+}
+
+// serde hands over a reference
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn as_word<S: Serializer>(state: &OperatingState, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(word(*state))
+}
+
 impl Status {
     /// Whether its bridges are driven.
     pub fn is_driving(&self) -> bool {
@@ -53,17 +71,22 @@ pub(super) struct StatusSeen {
 }
 
 impl StatusSeen {
-    pub fn take(&mut self, heard: Heard) {
-        match heard {
-            Heard::Record(record) => self.record = Some(record),
-            Heard::Hello(hello) => self.hello = Some(hello),
-            Heard::Reply(_) => {}
+    pub fn take(&mut self, message: Message) {
+        match message {
+            Message::Record(record) => self.record = Some(record),
+            Message::Hello(hello) => self.hello = Some(hello),
+            Message::Reply(_) => {}
         }
     }
 
     /// Whether all that a robot says was heard; without parameters it does not say who it is.
     pub fn is_whole(&self) -> bool {
         self.record.is_some() && self.hello.is_some()
+    }
+
+    /// Whether the robot said that it drives with the parameters of this checksum.
+    pub fn drives_with(&self, checksum: u32) -> bool {
+        self.is_whole() && self.hello.is_some_and(|hello| hello.block_check == checksum)
     }
 
     pub fn faults(&self) -> Faults {
@@ -73,17 +96,10 @@ impl StatusSeen {
     /// How it is; none where it said nothing of what it does.
     pub fn status(&self) -> Option<Status> {
         let record = self.record?;
-        let state = match record.state {
-            OperatingState::Asleep => "asleep",
-            OperatingState::Calibrating => "calibrating",
-            OperatingState::Open => "open",
-            OperatingState::Driving => "driving",
-            OperatingState::Faulted => "faulted",
-        };
         let identity =
             |hello: Hello| Identity { firmware: hello.firmware, checksum: hello.block_check, wheels: hello.wheels };
         Some(Status {
-            state,
+            state: record.state,
             driven: (0..MOTORS).filter(|motor| record.enabled >> motor & 1 == 1).collect(),
             faults: record.faults.iter().map(Fault::text).collect(),
             bus_v: self.hello.map(|hello| f64::from(hello.calibration.bus_volts_per_count) * f64::from(record.bus.0)),

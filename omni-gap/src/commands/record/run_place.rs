@@ -11,47 +11,55 @@ use omni_gap::log::{RobotFile, write_whole};
 use super::vision::RECORDS;
 use crate::commands::output_path;
 
-/// Where a run goes.
+/// Where a run goes, and what the session has beside it.
 #[derive(Debug)]
 pub struct RunPlace {
-    session: PathBuf,
-    /// The folder that its files go to.
-    pub folder: PathBuf,
+    folder: PathBuf,
     /// The file of its records.
     pub records: PathBuf,
+    /// Files of the session, and what they say.
+    beside: Vec<(PathBuf, String)>,
 }
 
 impl RunPlace {
     /// Of a run in a session, a new one or one that has runs; a folder of its own where it has more files than its records.
+    /// `beside` are files of the session, by name, and what they say.
     ///
     /// # Errors
-    /// Where a run of this name is there.
-    pub fn new(session: &Path, name: &str, is_folder: bool) -> Result<Self> {
+    /// Where a run of this name is there, or a file of the session says something else.
+    pub fn new(session: &Path, name: &str, is_folder: bool, beside: Vec<(&str, String)>) -> Result<Self> {
         output_path::folder(session, &["robot.toml"])?;
         let runs = session.join("runs");
         let (folder, file) = (runs.join(name), runs.join(format!("{name}.rec")));
         if let Some(taken) = [&file, &folder].into_iter().find(|path| path.exists()) {
             return Err(Error::output(taken, "a run of this name is there", "Name another with --name"));
         }
+        let beside: Vec<(PathBuf, String)> =
+            beside.into_iter().map(|(name, text)| (session.join(name), text)).collect();
+        let says_other = |(path, text): &&(PathBuf, String)| {
+            path.exists() && std::fs::read_to_string(path).ok().as_ref() != Some(text)
+        };
+        if let Some((path, _)) = beside.iter().find(says_other) {
+            let reason = "the session holds another file of this name";
+            return Err(Error::output(path, reason, "Record into a new session with --out"));
+        }
         let records = folder.join(RECORDS);
         let (folder, records) = if is_folder { (folder, records) } else { (runs, file) };
-        Ok(Self { session: session.to_owned(), folder, records })
+        Ok(Self { folder, records, beside })
     }
 
-    /// Refuses a session in which a file of this name says something else.
-    pub fn fits(&self, name: &str, text: &str) -> Result<()> {
-        let path = self.session.join(name);
-        if path.exists() && std::fs::read_to_string(&path).ok().as_deref() != Some(text) {
-            let reason = "the session holds another file of this name";
-            return Err(Error::output(&path, reason, "Record into a new session with --out"));
+    /// Writes the run, and what of the session is not there yet; `more` writes what else the run's folder gets. What was recorded,
+    /// in words.
+    pub fn write(&self, recorded: &Recorded, more: impl FnOnce(&Path) -> Result<()>) -> Result<String> {
+        let made = output_path::NewFolder::make(&self.folder)?;
+        for (path, text) in self.beside.iter().filter(|(path, _)| !path.exists()) {
+            write_whole(path, text.as_bytes())?;
         }
-        Ok(())
-    }
-
-    /// Writes a file of the session that is not there yet.
-    pub fn begin(&self, name: &str, text: &str) -> Result<()> {
-        let path = self.session.join(name);
-        if path.exists() { Ok(()) } else { write_whole(&path, text.as_bytes()) }
+        write_whole(&self.records, &recorded.frames)?;
+        more(&self.folder)?;
+        made.keep();
+        let (rows, seconds) = (recorded.run.rows(), recorded.run.duration_s());
+        Ok(format!("{rows} rows, {seconds:.3} s, written to {}", self.records.display()))
     }
 }
 

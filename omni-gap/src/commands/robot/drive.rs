@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 use std::str::FromStr;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use model_core::geometry::frames::BodyTwist;
@@ -11,15 +10,14 @@ use model_core::link::command::{FASTEST, FASTEST_TURN};
 use model_core::link::faults::Faults;
 use omni_gap::Error;
 use omni_gap::api::{RobotFile, known_effects, record_kept};
-use omni_gap::log::write_whole;
 use omni_gap::wire::line::Line;
-use omni_gap::wire::robot::{Ended, Leg, drive, status};
+use omni_gap::wire::robot::{Driven, Ended, Leg, MEND, drive};
 
 use super::ask::Ask;
 use crate::commands::cli_error::CliError;
 use crate::commands::console::Console;
-use crate::commands::output_path::NewFolder;
 use crate::commands::record::run_place::{RunPlace, name, remarks, text_of};
+use crate::commands::told_to_end::{Also, told_to_end};
 
 /// What to drive, and where to record it.
 #[derive(Debug, clap::Args)]
@@ -52,7 +50,7 @@ impl Drive {
     /// Does it.
     pub fn run(&self, console: &Console) -> Result<(), CliError> {
         let recording = self.recording()?;
-        let told_to_end = interrupted().map_err(|why| {
+        let told_to_end = told_to_end(Also::CtrlC).map_err(|why| {
             Error::output(std::path::Path::new("Ctrl-C"), why.to_string(), "Start it from an ordinary shell")
         })?;
         let legs: Vec<Leg> = self.legs.iter().map(|asked| asked.0).collect();
@@ -61,23 +59,20 @@ impl Drive {
             line.keep();
         }
         console.phase("driving");
-        let ended = drive(&mut line, &legs, |_| !told_to_end.load(Ordering::Relaxed))?;
+        let Driven { ended, status } = drive(&mut line, &legs, |_| !told_to_end.load(Ordering::Relaxed))?;
         // what was recorded before a fault tells of it
         let notices = recording.map(|recording| recording.write(&line, &self.name)).transpose()?.unwrap_or_default();
         if let Ended::Faulted(faults) = ended {
             return Err(faulted(&line, faults).into());
         }
-        let status = status(&mut line)?;
         self.ask.say(console, &status, &notices)
     }
 
     fn recording(&self) -> Result<Option<DriveRecording>, CliError> {
         let (Some(session), Some(path)) = (&self.out, &self.robot) else { return Ok(None) };
         let robot = RobotFile::load(path, &known_effects())?;
-        let text = text_of(path)?;
-        let place = RunPlace::new(session, &self.name, false)?;
-        place.fits("robot.toml", &text)?;
-        Ok(Some(DriveRecording { place, robot, path: path.clone(), text }))
+        let place = RunPlace::new(session, &self.name, false, vec![("robot.toml", text_of(path)?)])?;
+        Ok(Some(DriveRecording { place, robot, path: path.clone() }))
     }
 }
 
@@ -86,37 +81,21 @@ struct DriveRecording {
     place: RunPlace,
     robot: RobotFile,
     path: PathBuf,
-    text: String,
 }
 
 impl DriveRecording {
     /// Writes the run; what a person should know of it.
     fn write(&self, line: &Line, name: &str) -> Result<Vec<String>, CliError> {
         let recorded = record_kept(line.kept(), &line.place(), name, self.robot.wheel.len())?;
-        let made = NewFolder::make(&self.place.folder)?;
-        self.place.begin("robot.toml", &self.text)?;
-        write_whole(&self.place.records, &recorded.frames)?;
-        made.keep();
-        let (rows, seconds) = (recorded.run.rows(), recorded.run.duration_s());
-        let mut notices = vec![format!("{rows} rows, {seconds:.3} s, written to {}", self.place.records.display())];
+        let mut notices = vec![self.place.write(&recorded, |_| Ok(()))?];
         notices.extend(remarks(&recorded, &self.robot, &self.path));
         Ok(notices)
     }
 }
 
-/// Becomes true at Ctrl-C, which then no longer ends the program: the robot is brought to rest first.
-fn interrupted() -> std::io::Result<Arc<AtomicBool>> {
-    let told = Arc::new(AtomicBool::new(false));
-    #[cfg(unix)]
-    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-        signal_hook::flag::register(signal, told.clone())?;
-    }
-    Ok(told)
-}
-
 fn faulted(line: &Line, faults: Faults) -> Error {
     let told: Vec<&str> = faults.iter().map(|fault| fault.text()).collect();
-    line.error(format!("the robot stopped: {}", told.join("; ")), "Mend the cause, then `omni-gap robot clear`")
+    line.error(format!("the robot stopped: {}", told.join("; ")), MEND)
 }
 
 impl FromStr for AskedLeg {

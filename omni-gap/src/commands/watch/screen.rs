@@ -1,8 +1,7 @@
 //! The terminal: taken, drawn on, and given back whatever happens.
 
 use std::io::{self, Write};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender};
 use std::time::Duration;
 
@@ -14,6 +13,7 @@ use ratatui::DefaultTerminal;
 use super::picture::draw;
 use super::view::View;
 use crate::commands::cli_error::CliError;
+use crate::commands::told_to_end::{Also, told_to_end};
 
 /// How long a look at the keys and at the news waits.
 const LOOK: Duration = Duration::from_millis(50);
@@ -71,7 +71,7 @@ fn refused(why: io::Error) -> CliError {
 /// Draws what is new until the news end, a person has seen enough, or the program is told to end.
 fn drawn(terminal: &mut DefaultTerminal, mut view: View, news: Receiver<News>) -> io::Result<()> {
     let mut still: Option<View> = None;
-    let told = told_to_end()?;
+    let told = told_to_end(Also::Nothing)?;
     while !told.load(Ordering::Relaxed) {
         terminal.draw(|frame| draw(frame, still.as_ref().unwrap_or(&view)))?;
         match news.recv_timeout(LOOK) {
@@ -96,16 +96,6 @@ fn drawn(terminal: &mut DefaultTerminal, mut view: View, news: Receiver<News>) -
         }
     }
     Ok(())
-}
-
-/// Becomes true when the system tells the program to end, or takes its terminal away.
-fn told_to_end() -> io::Result<Arc<AtomicBool>> {
-    let told = Arc::new(AtomicBool::new(false));
-    #[cfg(unix)]
-    for signal in [signal_hook::consts::SIGTERM, signal_hook::consts::SIGHUP] {
-        signal_hook::flag::register(signal, told.clone())?;
-    }
-    Ok(told)
 }
 
 /// What a key asks for. A terminal in this state tells Ctrl-C as a key.

@@ -2,6 +2,7 @@
 
 use model_core::link::framing::{FrameDecoder, FrameKind};
 use model_core::link::hello::Hello;
+use model_core::link::message::Message;
 use model_core::link::record::TelemetryRecord;
 
 /// What a reader made of some bytes.
@@ -54,20 +55,13 @@ impl Capture {
                 continue;
             };
             progress = Progress::Frames;
-            let (kind, payload) = (FrameKind::from_code(frame.kind), frame.payload);
-            match kind {
-                Some(FrameKind::Record) => match TelemetryRecord::from_bytes(payload) {
-                    Some(record) => self.keep(record),
-                    None => self.strange += 1,
-                },
-                Some(FrameKind::Hello) => match Hello::from_bytes(payload) {
-                    // before the zeros of its sensors are known a robot tells them as 0
-                    Some(hello) if zeros_are_known(&hello) => self.hellos.push((self.records.len(), hello)),
-                    Some(_) => {}
-                    None => self.strange += 1,
-                },
-                Some(FrameKind::Reply) => {}
-                _ => self.strange += 1,
+            let is_reply = frame.kind == FrameKind::Reply.code();
+            match Message::decode(frame.kind, frame.payload) {
+                Some(Message::Record(record)) => self.keep(record),
+                // before the zeros of its sensors are known a robot tells them as 0
+                Some(Message::Hello(hello)) if zeros_are_known(&hello) => self.hellos.push((self.records.len(), hello)),
+                Some(Message::Hello(_) | Message::Reply(_)) => {}
+                None => self.strange += u32::from(!is_reply),
             }
             if self.is_enough() {
                 return Progress::Enough;
