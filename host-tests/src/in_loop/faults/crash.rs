@@ -5,15 +5,12 @@
 //! and that the start that follows tells of it.
 
 use firmware::exchange::Crash;
-use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::ControlMode;
 use model_core::link::command::Command;
 use model_core::link::faults::Fault;
 use model_core::link::record::OperatingState;
 
-use super::test_robot;
+use super::test_robot::{ALONG, closed_while_commanded, driving};
 use crate::emulator::{BoardProgram, RunError};
-use crate::in_loop::ClosedLoopRun;
 
 /// Periods that are looked at after the program was made to fail: 50 ms.
 const LOOKED_AT: u32 = 1_000;
@@ -49,12 +46,7 @@ pub const fn title(crash: Crash) -> &'static str {
 /// # Errors
 /// [`RunError`] says what became of the program.
 pub fn crash<B: BoardProgram>(by: Crash, program: B) -> Result<CrashOutcome, RunError> {
-    let test_robot::TestRobot { board, parameters } = test_robot::four(ControlMode::Current);
-    let along = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
-    let mut run = ClosedLoopRun::new(program, board);
-    run.send_block(&parameters);
-    run.wait(0.15)?;
-    run.follow(0.5, |_| along)?;
+    let (mut run, parameters) = driving(program)?;
     let mut came = CrashOutcome { open: None, restarted: None, closed_after: 0, named: false, speed: 0.0 };
     run.lockstep.crash = Some(by);
     for k in 0..LOOKED_AT {
@@ -67,9 +59,7 @@ pub fn crash<B: BoardProgram>(by: Crash, program: B) -> Result<CrashOutcome, Run
         }
         came.closed_after += u32::from(came.open.is_some() && up.enabled != 0);
     }
-    let before = run.log.truth.len();
-    run.follow(0.2, |_| along)?;
-    came.closed_after += run.log.truth[before..].iter().filter(|moment| moment.enabled != 0).count() as u32;
+    came.closed_after += closed_while_commanded(&mut run)?;
     let last = run.log.records.last();
     came.named =
         last.is_some_and(|last| last.faults.iter().eq([Fault::Watchdog]) && last.state == OperatingState::Faulted);
@@ -77,7 +67,7 @@ pub fn crash<B: BoardProgram>(by: Crash, program: B) -> Result<CrashOutcome, Run
     // a block that was not stored is forgotten
     run.send_block(&parameters);
     run.wait(0.1)?;
-    run.follow(1.0, |_| along)?;
+    run.follow(1.0, |_| ALONG)?;
     came.speed = run.lockstep.board.state().twist.v;
     Ok(came)
 }

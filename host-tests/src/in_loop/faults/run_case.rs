@@ -9,13 +9,10 @@ use model_core::link::framing::FrameKind;
 use model_core::link::record::{OperatingState, TelemetryRecord};
 
 use super::case::{CorruptBlock, FaultCase, FaultCause, is_timed};
-use super::test_robot::{self, TestRobot};
+use super::test_robot::{self, ALONG, TestRobot};
 use crate::emulator::{BoardProgram, RunError};
 use crate::in_loop::{ClosedLoopRun, ShadowedProgram};
 use crate::virtual_board::InjectedFault as Broken;
-
-/// What is commanded all the while.
-const ALONG: BodyTwist<f64> = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
 
 /// How near to it a robot is that follows [m/s]: the slip of wheels that push, and what feedback has left to do.
 const NEAR: f64 = 0.05;

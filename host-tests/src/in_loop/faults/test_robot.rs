@@ -2,11 +2,13 @@
 
 use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
+use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{Block, ControlMode, Limits, Parameters};
 use model_core::plant::paper::{four_wheels, three_wheels};
 use model_core::plant::robot::Robot;
 
-use crate::in_loop::robots;
+use crate::emulator::{BoardProgram, RunError};
+use crate::in_loop::{ClosedLoopRun, robots};
 use crate::virtual_board::{BoardSetup, VirtualBoard};
 
 /// Seed of the boards: zeros of the converters, rotor angles, noise.
@@ -57,4 +59,30 @@ pub fn three(mode: ControlMode) -> TestRobot<3> {
 /// The robot with four wheels.
 pub fn four(mode: ControlMode) -> TestRobot<4> {
     TestRobot { board: board(four_wheels()), parameters: Parameters::Four(block(four_wheels(), mode)) }
+}
+
+/// What is commanded all the while.
+pub const ALONG: BodyTwist<f64> = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
+
+/// The robot with four wheels, its current controlled, that drives along; and what its program was told.
+///
+/// # Errors
+/// [`RunError`] says what became of the program.
+pub fn driving<B: BoardProgram>(program: B) -> Result<(ClosedLoopRun<B, 4>, Parameters), RunError> {
+    let TestRobot { board, parameters } = four(ControlMode::Current);
+    let mut run = ClosedLoopRun::new(program, board);
+    run.send_block(&parameters);
+    run.wait(0.15)?;
+    run.follow(0.5, |_| ALONG)?;
+    Ok((run, parameters))
+}
+
+/// Commands for 0.2 s; in how many moments of them bridges were closed.
+///
+/// # Errors
+/// [`RunError`] says what became of the program.
+pub fn closed_while_commanded<B: BoardProgram>(run: &mut ClosedLoopRun<B, 4>) -> Result<u32, RunError> {
+    let before = run.log.truth.len();
+    run.follow(0.2, |_| ALONG)?;
+    Ok(run.log.truth[before..].iter().filter(|moment| moment.enabled != 0).count() as u32)
 }

@@ -3,13 +3,10 @@
 //! The watchdog of the emulator is the emulated board's own: it counts exchanges and restarts the machine. The chip's
 //! watchdog counts by its own oscillator and restarts the chip; that is for a board to show.
 
-use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::ControlMode;
 use model_core::link::command::Command;
 
-use super::test_robot;
+use super::test_robot::{closed_while_commanded, driving};
 use crate::emulator::{BoardProgram, RunError};
-use crate::in_loop::ClosedLoopRun;
 
 /// Periods for which the tasks are starved: 40 ms.
 const STARVED: u32 = 800;
@@ -30,12 +27,7 @@ pub struct WatchdogOutcome {
 /// # Errors
 /// [`RunError`] says what became of the program.
 pub fn starve_tasks<B: BoardProgram>(program: B) -> Result<WatchdogOutcome, RunError> {
-    let test_robot::TestRobot { board, parameters } = test_robot::four(ControlMode::Current);
-    let along = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
-    let mut run = ClosedLoopRun::new(program, board);
-    run.send_block(&parameters);
-    run.wait(0.15)?;
-    run.follow(0.5, |_| along)?;
+    let (mut run, _) = driving(program)?;
     let mut bitten = WatchdogOutcome { overrun: None, fired: None, closed_after: 0 };
     for k in 0..STARVED {
         run.lockstep.burn_motion = u16::MAX;
@@ -51,8 +43,6 @@ pub fn starve_tasks<B: BoardProgram>(program: B) -> Result<WatchdogOutcome, RunE
     run.wait(0.1)?;
     run.lockstep.link.command(&Command::Clear);
     run.wait(0.01)?;
-    let before = run.log.truth.len();
-    run.follow(0.2, |_| along)?;
-    bitten.closed_after = run.log.truth[before..].iter().filter(|moment| moment.enabled != 0).count() as u32;
+    bitten.closed_after = closed_while_commanded(&mut run)?;
     Ok(bitten)
 }
