@@ -30,10 +30,10 @@ fn main() -> ExitCode {
     let image = arguments.iter().find(|argument| Path::new(argument).is_file());
     let address = arguments.iter().find(|argument| Some(*argument) != image).map_or(ADDRESS, String::as_str);
     let served = match image {
-        Some(image) => {
-            listen(address, || Qemu::start(Path::new(image), PATIENCE).map_err(|why| format!("{image}: {why}")))
-        }
-        None => listen(address, || Ok(HostProgram::default())),
+        Some(image) => Qemu::start(Path::new(image), PATIENCE)
+            .map_err(|why| format!("{image}: {why}"))
+            .and_then(|program| listen(address, program)),
+        None => listen(address, HostProgram::default()),
     };
     match served {
         Ok(()) => ExitCode::SUCCESS,
@@ -45,8 +45,8 @@ fn main() -> ExitCode {
 }
 
 /// One robot for everybody who connects, one after another; in between its time stands still.
-fn listen<B: BoardProgram>(address: &str, program: impl Fn() -> Result<B, String>) -> Result<(), String> {
-    let mut robot = Lockstep::new(program()?, VirtualBoard::new(robots::board(&four_wheels(), SEED)));
+fn listen<B: BoardProgram>(address: &str, program: B) -> Result<(), String> {
+    let mut robot = Lockstep::new(program, VirtualBoard::new(robots::board(&four_wheels(), SEED)));
     if address == PTY {
         let (mut line, device) = TTYPort::pair().map_err(|why| format!("a serial device: {why}"))?;
         line.set_timeout(Duration::ZERO).map_err(|why| why.to_string())?;

@@ -50,10 +50,8 @@ impl Container for Parts {
         let mut all: BTreeMap<String, Seen> = BTreeMap::new();
         for part in &self.0 {
             for seen in part.topics()? {
-                match all.get_mut(&seen.topic) {
-                    Some(known) => known.messages += seen.messages,
-                    None => drop(all.insert(seen.topic.clone(), seen)),
-                }
+                let messages = seen.messages;
+                all.entry(seen.topic.clone()).and_modify(|known| known.messages += messages).or_insert(seen);
             }
         }
         Ok(all.into_values().collect())
