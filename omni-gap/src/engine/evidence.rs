@@ -7,7 +7,7 @@ use crate::engine::excerpt::{excerpt, telling_first};
 use crate::engine::knobs::LayoutKnobs;
 use crate::identify::Prior;
 use crate::log::{RobotFile, Run, Session};
-use crate::simulate::{AlignedRun, Chain, find_losses};
+use crate::simulate::{AlignedRun, Chain, cut, find_losses};
 
 /// What an engine has to go by.
 #[derive(Clone, Debug)]
@@ -114,7 +114,7 @@ impl<const N: usize> Runs<N> {
     /// Runs of which none was said to be held out; where there are too few of them, each in parts.
     pub(super) fn with_some_held_out(mut runs: Vec<AlignedRun<N>>, knobs: &LayoutKnobs) -> Self {
         if runs.len() < knobs.hold_out_every {
-            runs = runs.iter().flat_map(|run| run.cut(knobs.parts_of_a_lone_run)).collect();
+            runs = runs.iter().flat_map(|run| cut(run, knobs.parts_of_a_lone_run)).collect();
         }
         let (mut fit, mut held) = (Vec::new(), Vec::new());
         for (k, run) in runs.into_iter().enumerate() {

@@ -219,28 +219,22 @@ impl<const N: usize> AlignedRun<N> {
         })
     }
 
-    /// The run cut into `parts` of equal length, each beginning on a row of the driving signal.
-    pub fn cut(&self, parts: usize) -> Vec<Self> {
-        let rows = self.rows();
-        let driven_from = |row: usize| (row..rows).find(|row| self.driven[*row]).unwrap_or(rows);
-        (0..parts)
-            .map(|k| (driven_from(k * rows / parts), driven_from((k + 1) * rows / parts)))
-            .filter(|(first, end)| end > first)
-            .map(|(first, end)| Self {
-                name: format!("{} (rows {first} to {})", self.name, end - 1),
-                t: self.t[first..end].iter().map(|t| t - self.t[first]).collect(),
-                dt: self.dt[first..end].to_vec(),
-                steps: self.steps[first..end].to_vec(),
-                input: self.input[first..end].to_vec(),
-                open: self.open[first..end].to_vec(),
-                driven: self.driven[first..end].to_vec(),
-                measured: self.measured[first..end].to_vec(),
-                has: self.has[first..end].to_vec(),
-                turned: self.turned.get(first..end).unwrap_or_default().to_vec(),
-                losses: self.losses.part(first..end),
-                ..self.without_rows()
-            })
-            .collect()
+    /// Some of its rows as a run of its own, with its time from their first.
+    pub(super) fn part(&self, rows: Range<usize>) -> Self {
+        Self {
+            name: format!("{} (rows {} to {})", self.name, rows.start, rows.end - 1),
+            t: self.t[rows.clone()].iter().map(|t| t - self.t[rows.start]).collect(),
+            dt: self.dt[rows.clone()].to_vec(),
+            steps: self.steps[rows.clone()].to_vec(),
+            input: self.input[rows.clone()].to_vec(),
+            open: self.open[rows.clone()].to_vec(),
+            driven: self.driven[rows.clone()].to_vec(),
+            measured: self.measured[rows.clone()].to_vec(),
+            has: self.has[rows.clone()].to_vec(),
+            turned: self.turned.get(rows.clone()).unwrap_or_default().to_vec(),
+            losses: self.losses.part(rows),
+            ..self.without_rows()
+        }
     }
 
     fn without_rows(&self) -> Self {

@@ -243,7 +243,7 @@ mod tests {
         let gap = |a: [f64; 4], b: [f64; 4]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(gap(begun_at(&run, row), turned) < 1e-9 && turned[0].abs() > 1.0);
         // a part of a run keeps the phase of the whole
-        assert!(gap(begun_at(&run.cut(2)[1], row - 100), turned) < 1e-9);
+        assert!(gap(begun_at(&run.part(100..run.rows()), row - 100), turned) < 1e-9);
     }
 
     #[test]

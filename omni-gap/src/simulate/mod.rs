@@ -10,6 +10,7 @@
 mod aligned_run;
 mod channels;
 mod commanded;
+mod cut;
 mod drivable;
 mod effect_shown;
 mod effort;
@@ -46,6 +47,7 @@ pub use crate::log::Chain;
 pub use aligned_run::{AlignedRun, supply_seen, within_half_turn};
 pub use channels::{Channels, MAX_CHANNELS, PerGroup, Row, SignalGroup};
 pub use commanded::commanded;
+pub use cut::cut;
 pub use drivable::drivable;
 pub use effect_shown::{EffectShown, ShownSignal, effect_shown};
 pub use effort::steps_taken;

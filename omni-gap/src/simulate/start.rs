@@ -83,6 +83,19 @@ fn smooth(t: &[f64], row: usize, half: f64, sample: impl Fn(usize) -> Option<f64
     })
 }
 
+/// Whether a run that begins at a row, without what is before, begins with the speeds that the robot has: those of all wheels
+/// are measured from there on, or none is for a while, as of a robot at rest, or a pose tells them.
+pub(super) fn begins_known<const N: usize>(run: &AlignedRun<N>, row: usize) -> bool {
+    let channels = AlignedRun::<N>::channels();
+    let after = |c: usize, half: f64| {
+        smooth(&run.t, row, half, move |k| (k >= row && run.saw(k, c)).then(|| run.measured[k][c]))
+    };
+    let speeds: [Option<Line>; N] = std::array::from_fn(|j| after(channels.wheel_speed(j), SPEED_HALF_S));
+    speeds.iter().all(|line| line.is_some_and(|line| !line.prolonged))
+        || speeds.iter().all(Option::is_none)
+        || channels.pose().into_iter().all(|axis| after(axis, POSE_HALF_S).is_some())
+}
+
 /// The smoothed measurement at a row.
 pub fn start_at<const N: usize>(run: &AlignedRun<N>, row: usize) -> Start<N> {
     let (t, channels) = (&run.t, AlignedRun::<N>::channels());
