@@ -66,4 +66,4 @@ pub use predict::predict;
 pub use record::{Recorded, Recording, record, record_kept};
 pub use selftest::{Driven, PlannedRuns, confusion, selftest, verify};
 pub use simulate::simulate;
-pub use watch::{News, Watched, Watching, watch};
+pub use watch::{News, WatchFeed, Watched, Watching, watch};

@@ -7,9 +7,7 @@ use crate::log::Run;
 use crate::log::records::capture::Capture;
 use crate::log::records::run::run;
 use crate::wire::source::Source;
-
-/// Turns of the currents in a second [1/s]; a robot tells its own, this one only says when there is enough.
-const TURNS_A_SECOND: f64 = 20_000.0;
+use crate::wire::status::TURNS_A_SECOND;
 
 /// Seconds of a robot that are recorded where none are asked for [s]
 const USUAL_SECONDS: f64 = 10.0;

@@ -1,5 +1,6 @@
 //! Watch: what a robot sends, judged as it comes.
 
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::error::{Error, InputKind, Result};
@@ -54,85 +55,103 @@ pub struct Watched {
 ///
 /// # Errors
 /// Where the source cannot be read, it is another robot's, or less than a window came.
-pub fn watch(watching: &Watching, each: impl FnMut(News) -> bool) -> Result<Watched> {
-    let mut at = OnTheWay {
-        watching,
-        tail: Tail::default(),
-        watch: Watch::new(watching.robot, watching.rule),
-        each,
-        windows: 0,
-        alarms: 0,
-        refused: None,
-    };
-    let end = watching.source.follow(watching.baud, watching.patience, |bytes| at.take(bytes))?;
-    if let Some(why) = at.refused {
-        return Err(why);
+pub fn watch(watching: &Watching, mut each: impl FnMut(News) -> bool) -> Result<Watched> {
+    let mut feed = WatchFeed::new(watching.robot, &watching.source.place(), watching.rule);
+    let mut refused = None;
+    let end = watching.source.follow(watching.baud, watching.patience, |bytes| {
+        feed.take(bytes, &mut each).unwrap_or_else(|why| {
+            refused = Some(why);
+            Progress::Enough
+        })
+    })?;
+    match refused {
+        Some(why) => Err(why),
+        None => feed.finish(end, &mut each),
     }
-    if end != End::Enough {
-        // the last whole window, without what would have come after it
-        while at.tail.reaches_s().is_some_and(|reaches| reaches >= at.watch.to_s()) && at.read()? {}
-        if at.windows == 0 {
-            return Err(at.too_little());
-        }
-    }
-    let OnTheWay { tail, windows, alarms, .. } = at;
-    Ok(Watched { end, heard: tail.heard(), reaches_s: tail.reaches_s().unwrap_or_default(), windows, alarms })
 }
 
-/// A watch on its way.
-struct OnTheWay<'a, F> {
-    watching: &'a Watching<'a>,
+/// A watch of bytes that come some other way.
+#[derive(Debug)]
+pub struct WatchFeed<'a> {
+    robot: &'a RobotFile,
+    place: PathBuf,
+    rule: Rule,
     tail: Tail,
     watch: Watch,
-    each: F,
     windows: u64,
     alarms: u64,
-    refused: Option<Error>,
 }
 
-impl<F: FnMut(News) -> bool> OnTheWay<'_, F> {
-    fn take(&mut self, bytes: &[u8]) -> Progress {
+impl<'a> WatchFeed<'a> {
+    /// Nothing has come; `place` is where it comes from, for messages.
+    pub fn new(robot: &'a RobotFile, place: &Path, rule: Rule) -> Self {
+        let (tail, watch) = (Tail::default(), Watch::new(robot, rule));
+        Self { robot, place: place.to_owned(), rule, tail, watch, windows: 0, alarms: 0 }
+    }
+
+    /// Takes bytes, and tells `each` what is new; enough where it says false.
+    ///
+    /// # Errors
+    /// Where the bytes are another robot's.
+    pub fn take(&mut self, bytes: &[u8], mut each: impl FnMut(News) -> bool) -> Result<Progress> {
         let frames = self.tail.take(bytes);
         let mut goes_on = true;
         while goes_on && self.tail.reaches_s().is_some_and(|reaches| reaches >= self.watch.needs_to_s()) {
-            goes_on = self.read().unwrap_or_else(|why| {
-                self.refused = Some(why);
-                false
-            });
+            goes_on = self.read(&mut each)?;
         }
-        match (goes_on && self.tell(None), frames) {
+        Ok(match (goes_on && each(self.news(None)), frames) {
             (false, _) => Progress::Enough,
             (true, true) => Progress::Frames,
             (true, false) => Progress::Nothing,
+        })
+    }
+
+    /// No more comes: reads the last whole window, without what would have come after it.
+    ///
+    /// # Errors
+    /// Where less than a window came.
+    pub fn finish(mut self, end: End, mut each: impl FnMut(News) -> bool) -> Result<Watched> {
+        if end != End::Enough {
+            while self.tail.reaches_s().is_some_and(|reaches| reaches >= self.watch.to_s()) && self.read(&mut each)? {}
+            if self.windows == 0 {
+                return Err(self.too_little());
+            }
         }
+        Ok(self.watched(end))
+    }
+
+    /// What was watched up to now.
+    pub fn watched(&self, end: End) -> Watched {
+        let Self { windows, alarms, tail, .. } = self;
+        let reaches_s = tail.reaches_s().unwrap_or_default();
+        Watched { end, heard: tail.heard(), reaches_s, windows: *windows, alarms: *alarms }
     }
 
     /// Reads the next window; false if nobody wants more.
-    fn read(&mut self) -> Result<bool> {
-        let run = self.tail.run(&self.watching.source.place(), self.watching.robot.wheel.len())?;
+    fn read(&mut self, each: &mut impl FnMut(News) -> bool) -> Result<bool> {
+        let run = self.tail.run(&self.place, self.robot.wheel.len())?;
         let reading = self.watch.read(&run);
         self.tail.forget_before(self.watch.needs_from_s());
         if let Some(reading) = &reading {
             self.windows += 1;
             self.alarms += u64::from(reading.alarm_began);
         }
-        Ok(reading.is_none() || self.tell(reading))
+        Ok(reading.is_none() || each(self.news(reading)))
     }
 
-    fn tell(&mut self, reading: Option<Reading>) -> bool {
+    fn news(&self, reading: Option<Reading>) -> News {
         let reaches_s = self.tail.reaches_s().unwrap_or_default();
-        (self.each)(News { reading, heard: self.tail.heard(), reaches_s })
+        News { reading, heard: self.tail.heard(), reaches_s }
     }
 
     /// Why nothing could be told.
     fn too_little(&self) -> Error {
-        let (place, rule) = (self.watching.source.place(), &self.watching.rule);
-        let came = match self.tail.run(&place, self.watching.robot.wheel.len()) {
+        let came = match self.tail.run(&self.place, self.robot.wheel.len()) {
             Ok(run) => run.duration_s(),
             Err(why) => return why,
         };
-        let problem = format!("{came:.3} s of records came, expected more than a window of {} s", rule.window_s);
-        Error::input(&place, problem, "Watch for longer, or shorter windows with --window")
+        let problem = format!("{came:.3} s of records came, expected more than a window of {} s", self.rule.window_s);
+        Error::input(&self.place, problem, "Watch for longer, or shorter windows with --window")
             .of_kind(InputKind::TooLittle)
     }
 }

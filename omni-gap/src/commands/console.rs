@@ -80,6 +80,13 @@ impl Console {
         self.exchange_phase(Some((phrase.to_owned(), Instant::now())));
     }
 
+    /// Says where the phase is, where a person is looking.
+    pub fn phase_is_at(&self, place: String) {
+        if let Some(spinner) = &self.spinner {
+            spinner.set_message(place);
+        }
+    }
+
     /// Ends the phase, if there is one.
     pub fn end_phase(&self) {
         let Some((phrase, since)) = self.exchange_phase(None) else { return };

@@ -1,6 +1,6 @@
 //! `export`: a robot file in another form: the parameter block of the firmware, a model of MuJoCo.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use omni_gap::api::{Exported, RobotFile, export, known_effects};
 use omni_gap::log::write_whole;
@@ -11,6 +11,7 @@ use super::console::Console;
 use super::console::wrapped;
 use super::done::{DONE, Done};
 use super::output_path;
+use super::robot::{Ask, Send};
 
 /// Write a robot file in another form: the parameter block that a robot accepts, or a model of MuJoCo (MJCF)
 #[derive(Debug, clap::Args)]
@@ -19,29 +20,57 @@ pub struct Export {
     #[arg(value_name = "ROBOT.toml")]
     robot: PathBuf,
 
-    /// The file to write: a model of MuJoCo where it ends in .xml, else a parameter block
-    #[arg(long, value_name = "BLOCK.bin | MODEL.xml")]
-    out: PathBuf,
+    #[command(flatten)]
+    to: Destination,
+
+    /// Speed of a serial line
+    #[arg(long, value_name = "BAUD", default_value_t = 2_000_000)]
+    baud: u32,
 
     #[command(flatten)]
     form: AnswerForm,
 }
 
+/// Where it goes.
+#[derive(Debug, clap::Args)]
+#[group(required = true, multiple = false)]
+struct Destination {
+    /// The file to write: a model of MuJoCo where it ends in .xml, else a parameter block
+    #[arg(long, value_name = "BLOCK.bin | MODEL.xml")]
+    out: Option<PathBuf>,
+
+    /// The robot that the parameter block is sent to: the same as `omni-gap robot send`
+    #[arg(long, value_name = "tcp:HOST:PORT | DEVICE")]
+    port: Option<String>,
+}
+
 impl Export {
     /// Does it.
     pub fn run(&self, console: &Console) -> Done {
-        output_path::file(&self.out, &[&self.robot])?;
+        match (&self.to.out, &self.to.port) {
+            (Some(out), _) => self.written(out, console),
+            (None, Some(port)) => {
+                let ask = Ask { to: port.clone(), baud: self.baud, form: self.form };
+                Send { robot: self.robot.clone(), ask }.run(console)?;
+                Ok(DONE)
+            }
+            (None, None) => Ok(DONE),
+        }
+    }
+
+    fn written(&self, out: &Path, console: &Console) -> Done {
+        output_path::file(out, &[&self.robot])?;
         let robot = RobotFile::load(&self.robot, &known_effects())?;
-        if self.out.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("xml")) {
-            return self.model_of_mujoco(&robot, console);
+        if out.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("xml")) {
+            return self.model_of_mujoco(&robot, out, console);
         }
         let exported = export(&robot, &self.robot)?;
-        write_whole(&self.out, &exported.bytes)?;
+        write_whole(out, &exported.bytes)?;
         let (bytes, check) = (exported.bytes.len(), exported.checksum);
-        let written = format!("{}: {bytes} bytes, checksum {check:08x}, written to {}", robot.name, self.out.display());
+        let written = format!("{}: {bytes} bytes, checksum {check:08x}, written to {}", robot.name, out.display());
         let answer = BlockWritten {
             schema: SCHEMA,
-            file: self.out.clone(),
+            file: out.to_owned(),
             bytes,
             checksum: check,
             undone: exported.undone.iter().map(|effect| effect.to_string()).collect(),
@@ -51,14 +80,14 @@ impl Export {
         Ok(DONE)
     }
 
-    fn model_of_mujoco(&self, robot: &RobotFile, console: &Console) -> Done {
+    fn model_of_mujoco(&self, robot: &RobotFile, out: &Path, console: &Console) -> Done {
         let model = mjcf(robot);
-        write_whole(&self.out, model.text.as_bytes())?;
+        write_whole(out, model.text.as_bytes())?;
         let left = model.left.iter().map(|(effect, why)| format!("not in it: {effect}: {why}"));
         let notices: Vec<String> = model.nearly.iter().map(|note| format!("nearly: {note}")).chain(left).collect();
-        let mut said = format!("{}: a model of MuJoCo, written to {}\n", robot.name, self.out.display());
+        let mut said = format!("{}: a model of MuJoCo, written to {}\n", robot.name, out.display());
         said += &notices.iter().map(|notice| wrapped(2, notice)).collect::<String>();
-        let answer = FilesWritten { notices, ..FilesWritten::of(vec![self.out.clone()]) };
+        let answer = FilesWritten { notices, ..FilesWritten::of(vec![out.to_owned()]) };
         self.form.say(console, &said, &answer)?;
         Ok(DONE)
     }

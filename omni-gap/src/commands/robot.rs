@@ -2,6 +2,7 @@
 
 mod ask;
 mod drive;
+mod live;
 
 use std::path::PathBuf;
 
@@ -12,8 +13,7 @@ use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
 use super::record::Record;
-use ask::Ask;
-pub use ask::RobotAnswered;
+pub use ask::{Ask, RobotAnswered};
 use drive::Drive;
 
 /// Send parameters to a robot, drive it, stop it, have it forget its faults, ask how it is
@@ -39,14 +39,16 @@ enum Verb {
     Record(Box<Record>),
 }
 
+/// Parameters for a robot.
 #[derive(Debug, clap::Args)]
-struct Send {
+pub struct Send {
     /// The robot file, with the effects that the robot should undo
     #[arg(value_name = "ROBOT.toml")]
-    robot: PathBuf,
+    pub robot: PathBuf,
 
+    /// Which robot.
     #[command(flatten)]
-    ask: Ask,
+    pub ask: Ask,
 }
 
 impl Robot {
@@ -65,7 +67,8 @@ impl Robot {
 }
 
 impl Send {
-    fn run(&self, console: &Console) -> Result<(), CliError> {
+    /// Sends them.
+    pub fn run(&self, console: &Console) -> Result<(), CliError> {
         let robot = RobotFile::load(&self.robot, &known_effects())?;
         let block = export(&robot, &self.robot)?;
         for (effect, why) in &block.left {

@@ -1,16 +1,17 @@
 //! `watch`: by how much a robot and its model are apart, while it drives.
 
-mod lines;
+pub mod lines;
 mod picture;
-mod screen;
+pub mod screen;
 mod trend;
-mod view;
+pub mod view;
 
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
+use std::sync::mpsc::SyncSender;
 use std::time::Duration;
 
-use omni_gap::api::{Watching, known_effects, watch};
+use omni_gap::api::{News, Watching, known_effects, watch};
 use omni_gap::log::RobotFile;
 use omni_gap::watch::Rule;
 use omni_gap::wire::source::Source;
@@ -68,7 +69,9 @@ impl WatchRobot {
         if self.json || self.plain || console.is_quiet() || !io::stdout().is_terminal() {
             return by_line(&watching, Lines::new(form, rule, console));
         }
-        let watched = screen::shown(&watching, View::new(&robot.name, &self.from, rule))?;
+        // hands on all news until nobody takes them
+        let work = |news: SyncSender<News>| watch(&watching, |new| news.send(new).is_ok());
+        let watched = screen::shown(View::new(&robot.name, &self.from, rule), work)??;
         console.say(&lines::end(&watched, rule.window_s))?;
         Ok(DONE)
     }

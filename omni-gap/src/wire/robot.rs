@@ -18,8 +18,12 @@ use super::line::Line;
 use super::status::{Status, StatusSeen};
 use crate::error::Result;
 
-/// A robot says who it is once a second; what it does, a thousand times.
-const HELLO: Duration = Duration::from_millis(2500);
+/// A robot says who it is once a second, and what it does a thousand times.
+const HELLO_S: f64 = 2.5;
+/// A robot of which nothing is heard for so long is silent.
+const SILENCE: Duration = Duration::from_millis(2500);
+/// A robot without a board may be slower than its own time, by as much as this.
+const SLOW: u32 = 8;
 /// An answer comes within milliseconds.
 const ANSWER: Duration = Duration::from_millis(1000);
 /// Erasing a sector of its flash can stop a robot for four seconds.
@@ -63,17 +67,27 @@ pub enum Ended {
     Faulted(Faults),
 }
 
+/// What is seen of a robot that drives.
+#[derive(Clone, Copy, Debug)]
+pub struct Look<'a> {
+    /// How it is.
+    pub status: &'a Status,
+    /// The bytes that came since the last look, where the line keeps them.
+    pub bytes: &'a [u8],
+}
+
 /// How a robot is.
 ///
 /// # Errors
 /// Where nothing of it is heard.
 pub fn status(line: &mut Line) -> Result<Status> {
     let mut seen = StatusSeen::default();
-    let until = Instant::now() + HELLO;
-    line.listen(until, |message| {
+    let heard = line.listen(Instant::now() + SILENCE, |message| {
         seen.take(message);
-        seen.is_whole().then_some(())
+        seen.says_what_it_does().then_some(())
     })?;
+    heard.ok_or_else(|| silent(line))?;
+    hear(line, &mut seen, StatusSeen::is_whole)?;
     seen.status().ok_or_else(|| silent(line))
 }
 
@@ -103,12 +117,19 @@ pub fn send(line: &mut Line, block: &[u8], checksum: u32) -> Result<Status> {
         return Err(line.error(format!("the robot refuses the block: {}", refused(answered)), fix));
     }
     let mut seen = StatusSeen::default();
-    let took = line.listen(Instant::now() + KEPT, |message| {
-        seen.take(message);
-        seen.drives_with(checksum).then(|| seen.status())
-    })?;
-    took.flatten()
+    hear(line, &mut seen, |seen| seen.drives_with(checksum))?;
+    seen.status()
+        .filter(|_| seen.drives_with(checksum))
         .ok_or_else(|| line.error("the robot took the block and does not say that it drives with it", CHECK_LINE))
+}
+
+/// Listens until what was seen is enough, or the robot has said by now who it is.
+fn hear(line: &mut Line, seen: &mut StatusSeen, enough: impl Fn(&StatusSeen) -> bool) -> Result<()> {
+    let heard = line.listen(Instant::now() + SLOW * SILENCE, |message| {
+        seen.take(message);
+        (enough(seen) || seen.lasted_s() > HELLO_S).then_some(())
+    });
+    heard.map(|_| ())
 }
 
 /// Has the robot forget its faults; how it is then.
@@ -143,14 +164,15 @@ pub fn stop(line: &mut Line) -> Result<Status> {
     Err(line.error("the bridges did not open", "Cut the motors\' supply"))
 }
 
-/// Drives a robot leg by leg, brings it to rest and opens its bridges. `goes_on` is told how it is, fifty times a second, and false
-/// ends the drive.
+/// Drives a robot leg by leg, brings it to rest and opens its bridges. `goes_on` is shown it fifty times a second, and
+/// false ends the drive; it is shown the way to rest too.
 ///
 /// # Errors
 /// Where the robot would not drive, or the line breaks; the robot then opens its bridges by itself.
-pub fn drive(line: &mut Line, legs: &[Leg], mut goes_on: impl FnMut(&Status) -> bool) -> Result<Driven> {
+pub fn drive(line: &mut Line, legs: &[Leg], mut goes_on: impl FnMut(Look) -> bool) -> Result<Driven> {
+    let looked_to = line.kept().len();
     ready(line)?;
-    let mut drive = Drive { line, seen: StatusSeen::default(), sequence: 0, began: Instant::now() };
+    let mut drive = Drive { line, seen: StatusSeen::default(), sequence: 0, began: Instant::now(), looked_to };
     let mut ended = Ended::Done;
     for leg in legs {
         ended = drive.leg(leg, &mut goes_on)?;
@@ -160,7 +182,11 @@ pub fn drive(line: &mut Line, legs: &[Leg], mut goes_on: impl FnMut(&Status) -> 
     }
     if !matches!(ended, Ended::Faulted(_)) {
         let rest = Leg { twist: BodyTwist::default(), lasts: STANDS };
-        if let Ended::Faulted(faults) = drive.leg(&rest, &mut |_| true)? {
+        let mut shown = |look: Look| {
+            goes_on(look);
+            true
+        };
+        if let Ended::Faulted(faults) = drive.leg(&rest, &mut shown)? {
             ended = Ended::Faulted(faults);
         }
     }
@@ -173,11 +199,13 @@ struct Drive<'a> {
     seen: StatusSeen,
     sequence: u16,
     began: Instant,
+    /// Kept bytes that were looked at
+    looked_to: usize,
 }
 
 impl Drive<'_> {
     /// Asks for one twist for as long as the leg lasts.
-    fn leg(&mut self, leg: &Leg, goes_on: &mut impl FnMut(&Status) -> bool) -> Result<Ended> {
+    fn leg(&mut self, leg: &Leg, goes_on: &mut impl FnMut(Look) -> bool) -> Result<Ended> {
         let until = Instant::now() + leg.lasts;
         while Instant::now() < until {
             self.sequence = self.sequence.wrapping_add(1);
@@ -191,8 +219,10 @@ impl Drive<'_> {
             if let Some(faults) = fault {
                 return Ok(Ended::Faulted(faults));
             }
+            let bytes = self.line.kept().get(self.looked_to..).unwrap_or_default();
+            self.looked_to += bytes.len();
             match self.seen.status() {
-                Some(status) if !goes_on(&status) => return Ok(Ended::Interrupted),
+                Some(status) if !goes_on(Look { status: &status, bytes }) => return Ok(Ended::Interrupted),
                 None if self.began.elapsed() > ANSWER => return Err(silent(self.line)),
                 _ => {}
             }

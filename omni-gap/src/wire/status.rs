@@ -7,6 +7,9 @@ use model_core::link::record::{MOTORS, OperatingState, TelemetryRecord};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
+/// Turns of the currents in a second [1/s]; a robot tells its own, this one only says when there is enough.
+pub const TURNS_A_SECOND: f64 = 20_000.0;
+
 /// How a robot is.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Status {
@@ -67,21 +70,37 @@ impl Status {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct StatusSeen {
     record: Option<TelemetryRecord>,
+    /// When the first record was made [current turns]
+    began: Option<u32>,
     hello: Option<Hello>,
 }
 
 impl StatusSeen {
     pub fn take(&mut self, message: Message) {
         match message {
-            Message::Record(record) => self.record = Some(record),
+            Message::Record(record) => {
+                self.record = Some(record);
+                self.began.get_or_insert(record.time);
+            }
             Message::Hello(hello) => self.hello = Some(hello),
             Message::Reply(_) => {}
         }
     }
 
+    /// Whether it was heard what the robot does.
+    pub fn says_what_it_does(&self) -> bool {
+        self.record.is_some()
+    }
+
     /// Whether all that a robot says was heard; without parameters it does not say who it is.
     pub fn is_whole(&self) -> bool {
-        self.record.is_some() && self.hello.is_some()
+        self.record.is_some_and(|record| self.hello.is_some() || record.state == OperatingState::Asleep)
+    }
+
+    /// How long it was listened to, by the robot's own clock [s]
+    pub fn lasted_s(&self) -> f64 {
+        let turns = |record: TelemetryRecord| record.time.wrapping_sub(self.began.unwrap_or(record.time));
+        f64::from(self.record.map_or(0, turns)) / TURNS_A_SECOND
     }
 
     /// Whether the robot said that it drives with the parameters of this checksum.

@@ -1,5 +1,6 @@
 //! Which robot is asked, and how it is answered.
 
+use model_core::link::record::OperatingState;
 use omni_gap::error::Result;
 use omni_gap::wire::line::Line;
 use omni_gap::wire::source::Source;
@@ -16,14 +17,15 @@ use crate::commands::console::{Console, wrapped};
 pub struct Ask {
     /// Where the robot is
     #[arg(long, value_name = "tcp:HOST:PORT | DEVICE")]
-    to: String,
+    pub to: String,
 
     /// Speed of a serial line
     #[arg(long, value_name = "BAUD", default_value_t = 2_000_000)]
-    baud: u32,
+    pub baud: u32,
 
+    /// In which form.
     #[command(flatten)]
-    form: AnswerForm,
+    pub form: AnswerForm,
 }
 
 /// How a robot is, after what it was asked to do.
@@ -77,7 +79,10 @@ fn told(status: &Status) -> String {
     }
     text += &match status.identity {
         Some(who) => format!("  parameters {:08x}, firmware {}, {} wheels\n", who.checksum, who.firmware, who.wheels),
-        None => "  without parameters: `omni-gap robot send ROBOT.toml`\n".into(),
+        None if status.state == OperatingState::Asleep => {
+            "  without parameters: `omni-gap robot send ROBOT.toml`\n".into()
+        }
+        None => "  it did not say with which parameters\n".into(),
     };
     text
 }

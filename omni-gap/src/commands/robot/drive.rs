@@ -1,6 +1,6 @@
 //! `robot drive`: leg by leg, recorded if that is asked for.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -12,8 +12,10 @@ use omni_gap::Error;
 use omni_gap::api::{RobotFile, known_effects, record_kept};
 use omni_gap::wire::line::Line;
 use omni_gap::wire::robot::{Driven, Ended, Leg, MEND, drive};
+use omni_gap::wire::status::{Status, word};
 
 use super::ask::Ask;
+use super::live;
 use crate::commands::cli_error::CliError;
 use crate::commands::console::Console;
 use crate::commands::record::run_place::{RunPlace, name, remarks, text_of};
@@ -30,9 +32,13 @@ pub struct Drive {
     #[arg(long, value_name = "SESSION", requires = "robot")]
     out: Option<PathBuf>,
 
-    /// The robot's file, for the session
-    #[arg(long, value_name = "ROBOT.toml", requires = "out")]
+    /// The robot's file, for the session and for --live
+    #[arg(long, value_name = "ROBOT.toml")]
     robot: Option<PathBuf>,
+
+    /// Show by how much robot and model are apart while it drives, as `omni-gap watch` does; needs --robot
+    #[arg(long, requires = "robot", conflicts_with = "json")]
+    live: bool,
 
     /// The run's name
     #[arg(long, value_name = "NAME", default_value = "run", value_parser = name, requires = "out")]
@@ -49,48 +55,57 @@ struct AskedLeg(Leg);
 impl Drive {
     /// Does it.
     pub fn run(&self, console: &Console) -> Result<(), CliError> {
-        let recording = self.recording()?;
-        let told_to_end = told_to_end(Also::CtrlC).map_err(|why| {
-            Error::output(std::path::Path::new("Ctrl-C"), why.to_string(), "Start it from an ordinary shell")
-        })?;
+        let robot = self.robot.as_deref().map(|path| RobotFile::load(path, &known_effects())).transpose()?;
+        let place = self.place()?;
+        let told_to_end = told_to_end(Also::CtrlC)
+            .map_err(|why| Error::output(Path::new("Ctrl-C"), why.to_string(), "Start it from an ordinary shell"))?;
         let legs: Vec<Leg> = self.legs.iter().map(|asked| asked.0).collect();
         let mut line = self.ask.line()?;
-        if recording.is_some() {
+        if robot.is_some() {
             line.keep();
         }
-        console.phase("driving");
-        let Driven { ended, status } = drive(&mut line, &legs, |_| !told_to_end.load(Ordering::Relaxed))?;
+        let Driven { ended, status } = match &robot {
+            Some(robot) if self.live => live::driven(&mut line, &legs, robot, &told_to_end, console)?,
+            _ => {
+                console.phase("driving");
+                drive(&mut line, &legs, |look| {
+                    console.phase_is_at(driving(look.status));
+                    !told_to_end.load(Ordering::Relaxed)
+                })?
+            }
+        };
         // what was recorded before a fault tells of it
-        let notices = recording.map(|recording| recording.write(&line, &self.name)).transpose()?.unwrap_or_default();
+        let notices = match (&robot, place) {
+            (Some(robot), Some(place)) => self.write(&line, robot, &place)?,
+            _ => Vec::new(),
+        };
         if let Ended::Faulted(faults) = ended {
             return Err(faulted(&line, faults).into());
         }
         self.ask.say(console, &status, &notices)
     }
 
-    fn recording(&self) -> Result<Option<DriveRecording>, CliError> {
+    /// Where the drive is to be recorded.
+    fn place(&self) -> Result<Option<RunPlace>, CliError> {
         let (Some(session), Some(path)) = (&self.out, &self.robot) else { return Ok(None) };
-        let robot = RobotFile::load(path, &known_effects())?;
-        let place = RunPlace::new(session, &self.name, false, vec![("robot.toml", text_of(path)?)])?;
-        Ok(Some(DriveRecording { place, robot, path: path.clone() }))
+        Ok(Some(RunPlace::new(session, &self.name, false, vec![("robot.toml", text_of(path)?)])?))
     }
-}
 
-/// A drive that is recorded.
-struct DriveRecording {
-    place: RunPlace,
-    robot: RobotFile,
-    path: PathBuf,
-}
-
-impl DriveRecording {
     /// Writes the run; what a person should know of it.
-    fn write(&self, line: &Line, name: &str) -> Result<Vec<String>, CliError> {
-        let recorded = record_kept(line.kept(), &line.place(), name, self.robot.wheel.len())?;
-        let mut notices = vec![self.place.write(&recorded, |_| Ok(()))?];
-        notices.extend(remarks(&recorded, &self.robot, &self.path));
+    fn write(&self, line: &Line, robot: &RobotFile, place: &RunPlace) -> Result<Vec<String>, CliError> {
+        let recorded = record_kept(line.kept(), &line.place(), &self.name, robot.wheel.len())?;
+        let mut notices = vec![place.write(&recorded, |_| Ok(()))?];
+        notices.extend(remarks(&recorded, robot, self.robot.as_deref().unwrap_or(Path::new(""))));
         Ok(notices)
     }
+}
+
+/// How a robot that drives is, on one line.
+fn driving(status: &Status) -> String {
+    let [v, vn, w] = status.wanted;
+    let bus = status.bus_v.map_or(String::new(), |volts| format!(", bus {volts:.1} V"));
+    let load = 100.0 * status.load;
+    format!("{}: wants {v:.2} {vn:.2} m/s {w:.2} rad/s{bus}, load {load:.0} %", word(status.state))
 }
 
 fn faulted(line: &Line, faults: Faults) -> Error {

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use omni_gap::Error;
-use omni_gap::api::{News, Watched, Watching, watch};
+use omni_gap::api::News;
 use ratatui::DefaultTerminal;
 
 use super::picture::draw;
@@ -28,24 +28,19 @@ enum Key {
     Pause,
 }
 
-/// Shows a watch until it ends or a person ends it.
-pub fn shown(watching: &Watching, view: View) -> Result<Watched, CliError> {
+/// Shows the news of a work until it ends, or a person has seen enough: nobody then takes news any more.
+pub fn shown<T: Send>(view: View, work: impl FnOnce(SyncSender<News>) -> T + Send) -> Result<T, CliError> {
     let (sender, news) = mpsc::sync_channel(WAITING);
     std::thread::scope(|scope| {
-        let reader = scope.spawn(|| watched(watching, sender));
+        let worker = scope.spawn(|| work(sender));
         let drawn = {
             let mut terminal = Terminal::taken()?;
             drawn(&mut terminal.0, view, news)
         };
-        let watched = reader.join().unwrap_or_else(|why| std::panic::resume_unwind(why));
+        let done = worker.join().unwrap_or_else(|why| std::panic::resume_unwind(why));
         drawn.map_err(refused)?;
-        Ok(watched?)
+        Ok(done)
     })
-}
-
-/// Watches, and hands on all news until nobody takes them.
-fn watched(watching: &Watching, sender: SyncSender<News>) -> Result<Watched, Error> {
-    watch(watching, |news| sender.send(news).is_ok())
 }
 
 /// The terminal in a state of its own, which ends with this value: on return, on an error, and where a panic unwinds. A panic
