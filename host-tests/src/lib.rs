@@ -53,6 +53,7 @@ pub mod image;
 pub mod in_loop;
 pub mod laboratory;
 pub mod matrices;
+pub mod morning;
 pub mod mujoco;
 pub mod pairs;
 pub mod paper;

@@ -36,7 +36,7 @@ fn robot() -> (Line, JoinHandle<Pose<f64>>) {
         let board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), 3));
         let mut lockstep = Lockstep::new(HostProgram::default(), board);
         let mut connection = unwaiting(listener.accept().unwrap().0).unwrap();
-        serve(&mut lockstep, &mut connection).unwrap();
+        serve(&mut lockstep, &mut connection, |_| {}).unwrap();
         lockstep.board.state().pose
     });
     (Line::open(&source, 0).unwrap(), robot)
@@ -63,12 +63,15 @@ fn a_robot_gets_parameters_drives_as_far_as_it_is_told_and_stands() {
 
     line.keep();
     let mut driving = 0;
-    let ended = drive(&mut line, &ahead(1), |status| {
-        driving += u32::from(status.is_driving() && status.wanted[0] > 0.4);
+    let mut looked_at = Vec::new();
+    let ended = drive(&mut line, &ahead(1), |look| {
+        driving += u32::from(look.status.is_driving() && look.status.wanted[0] > 0.4);
+        looked_at.extend(look.bytes);
         true
     });
     assert_eq!(ended.unwrap().ended, Ended::Done);
     assert!(driving > 20, "{driving} of 50 looks saw it drive");
+    assert!(line.kept().starts_with(&looked_at) && looked_at.len() > 50_000, "{} bytes", looked_at.len());
     let stands = status(&mut line).unwrap();
     assert_eq!((stands.state, stands.driven.len(), stands.faults.len()), (OperatingState::Open, 0, 0));
     // what came meanwhile is a run: voltages, currents and speeds of all wheels
@@ -136,7 +139,7 @@ fn a_serial_device_is_a_line_like_any_other() {
     let source = Source::named(&device.name().unwrap());
     std::thread::spawn(move || {
         let board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), 3));
-        serve(&mut Lockstep::new(HostProgram::default(), board), &mut far_end)
+        serve(&mut Lockstep::new(HostProgram::default(), board), &mut far_end, |_| {})
     });
     assert!(matches!(source, Source::Serial(_)), "{source:?}");
     let block = block();

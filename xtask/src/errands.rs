@@ -106,6 +106,12 @@ pub const ERRANDS: &[Errand] = &[
         run: robot,
     },
     Errand {
+        name: "morning",
+        takes: "",
+        does: "type what HARDWARE.md has for the first morning, at the image in QEMU",
+        run: morning,
+    },
+    Errand {
         name: "emulate",
         takes: "",
         does: "build the images and compare their bits and instructions (BLESS=1: rewrite)",
@@ -275,6 +281,12 @@ fn robot(address: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
     Line::of(steps::EMULATED_IMAGES).announced()?;
     address.iter().fold(Line::of(steps::ROBOT), Line::word).announced()
+}
+
+fn morning(_: &[OsString]) -> Result<(), String> {
+    tool::ensure(tool::TOOLS)?;
+    Line::of(steps::EMULATED_IMAGES).announced()?;
+    steps::MORNING.iter().try_for_each(|command| Line::of(command).announced())
 }
 
 fn emulate(_: &[OsString]) -> Result<(), String> {

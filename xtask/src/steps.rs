@@ -33,6 +33,12 @@ pub const CHECK_IMAGE: &str =
 /// Bits and instructions, told by two images.
 pub const EMULATE: &str = "cargo run -p host-tests --bin emulated -- target/thumbv7em-none-eabihf/firmware";
 
+/// What a person types on the first morning, and the robot without a board that it is typed at.
+pub const MORNING: [&str; 2] = [
+    "cargo build -p omni-gap -p host-tests --bin omni-gap --bin robot",
+    "cargo run -p host-tests --bin morning -- target/thumbv7em-none-eabihf/firmware/firmware",
+];
+
 /// The image in the loop: how it drives, what it does about faults, and the loop closed on the gap.
 pub const IN_LOOP: [&str; 3] = [
     "cargo run -p host-tests --bin pil -- target/thumbv7em-none-eabihf/firmware/firmware",
@@ -75,6 +81,8 @@ pub const STEPS: &[Step] = &[
     Step { name: "in the loop", command: IN_LOOP[0], env: &[] },
     Step { name: "faults", command: IN_LOOP[1], env: &[] },
     Step { name: "gap", command: IN_LOOP[2], env: &[] },
+    Step { name: "robot and tool", command: MORNING[0], env: &[] },
+    Step { name: "morning", command: MORNING[1], env: &[] },
 ];
 
 impl Step {

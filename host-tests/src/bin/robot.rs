@@ -2,17 +2,21 @@
 //! `record` and `watch`.
 //!
 //! `robot [path/to/firmware.elf] [HOST:PORT | pty]`: the image in QEMU, or the same program on the host where none is named. The robot is
-//! the paper's, its wheels, motors and friction a little off from `examples/feup-4w/robot.toml`, its battery sags.
+//! the paper's, its wheels, motors and friction a little off from `examples/feup-4w/robot.toml`; its battery sags, and its gears lose a
+//! fifth of the torque, of which that file knows nothing. Enter pulls the plug of the motors' supply for half a second.
 
 use std::net::TcpListener;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use host_tests::emulator::{BoardProgram, Lockstep, Qemu};
 use host_tests::in_loop::served::{serve, unwaiting};
+use host_tests::in_loop::supply_plug::SupplyPlug;
 use host_tests::in_loop::{HostProgram, robots};
-use host_tests::virtual_board::VirtualBoard;
+use host_tests::virtual_board::{BoardSetup, VirtualBoard};
+use model_core::effects::EffectKind;
 use model_core::plant::paper::four_wheels;
 use serialport::{SerialPort, TTYPort};
 
@@ -22,6 +26,8 @@ const ADDRESS: &str = "127.0.0.1:7000";
 const PTY: &str = "pty";
 /// The draw of what is off.
 const SEED: u64 = 1;
+/// What the gears leave of the torque [1].
+const GEAR_EFFICIENCY: f64 = 0.8;
 /// How long the emulator may think about one period.
 const PATIENCE: Duration = Duration::from_secs(20);
 
@@ -46,18 +52,41 @@ fn main() -> ExitCode {
 
 /// One robot for everybody who connects, one after another; in between its time stands still.
 fn listen<B: BoardProgram>(address: &str, program: B) -> Result<(), String> {
-    let mut robot = Lockstep::new(program, VirtualBoard::new(robots::board(&four_wheels(), SEED)));
+    let mut robot = Lockstep::new(program, VirtualBoard::new(board()));
+    let mut plug = pulled_by_enter();
     if address == PTY {
         let (mut line, device) = TTYPort::pair().map_err(|why| format!("a serial device: {why}"))?;
         line.set_timeout(Duration::ZERO).map_err(|why| why.to_string())?;
-        println!("a robot listens at {}; Ctrl-C switches it off", device.name().unwrap_or_default());
-        return serve(&mut robot, &mut line).map_err(|why| why.to_string());
+        println!("a robot listens at {}{HINT}", device.name().unwrap_or_default());
+        return serve(&mut robot, &mut line, |board| plug.turn(board)).map_err(|why| why.to_string());
     }
     let listener = TcpListener::bind(address).map_err(|why| format!("{address}: {why}"))?;
-    println!("a robot listens at tcp:{address}; Ctrl-C switches it off");
+    println!("a robot listens at tcp:{address}{HINT}");
     for connection in listener.incoming() {
         let mut connection = connection.and_then(unwaiting).map_err(|why| why.to_string())?;
-        serve(&mut robot, &mut connection).map_err(|why| why.to_string())?;
+        serve(&mut robot, &mut connection, |board| plug.turn(board)).map_err(|why| why.to_string())?;
     }
     Ok(())
+}
+
+/// What a person can do to it.
+const HINT: &str = "; Enter pulls the plug of its motors for half a second, Ctrl-C switches it off";
+
+/// The robot as it is.
+fn board() -> BoardSetup<4> {
+    let mut board = robots::board(&four_wheels(), SEED);
+    board.effects.add(EffectKind::GearEfficiency, None, &[GEAR_EFFICIENCY]).expect("room for it");
+    board
+}
+
+/// A plug that every line of the standard input pulls.
+fn pulled_by_enter() -> SupplyPlug {
+    let plug = SupplyPlug::default();
+    let handle = plug.handle();
+    std::thread::spawn(move || {
+        for _ in std::io::stdin().lines().map_while(Result::ok) {
+            handle.store(true, Ordering::Relaxed);
+        }
+    });
+    plug
 }

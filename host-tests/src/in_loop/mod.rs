@@ -13,6 +13,7 @@
 //! - [`page`]: what came of it, and what is promised;
 //! - [`faults`]: every fault, injected while the robot drives;
 //! - [`served`]: one that listens at a network address;
+//! - [`supply_plug`]: what a person may pull at it;
 //! - [`gap`] and [`gap_page`]: drive, record, diagnose, correct, drive again.
 
 mod closed_loop_run;
@@ -29,6 +30,7 @@ pub mod saturation;
 pub mod served;
 mod shadow;
 pub mod study;
+pub mod supply_plug;
 
 pub use closed_loop_run::{ClosedLoopRun, RunLog, TruthSample};
 pub use host_program::HostProgram;

@@ -8,10 +8,14 @@ use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
 use crate::emulator::{BoardProgram, Lockstep, RunError};
+use crate::virtual_board::VirtualBoard;
 use crate::virtual_board::board::PERIOD;
 
 /// Periods from one look at the connection to the next: a motion turn.
 const PERIODS: u32 = 20;
+
+/// Bytes that may wait for somebody who reads; as on a serial line, more than that are lost.
+const MOST_WAITING: usize = 1 << 13;
 
 /// Why a robot is served no longer.
 #[derive(Debug, thiserror::Error)]
@@ -34,15 +38,17 @@ pub fn unwaiting(connection: TcpStream) -> io::Result<TcpStream> {
     Ok(connection)
 }
 
-/// Serves a robot until the other side goes away. The connection is not waited for: where nothing has come it says so at once.
+/// Serves a robot until the other side goes away, and shows its board to `turn` before every motion turn. The connection is not
+/// waited for: where nothing has come it says so at once.
 ///
 /// # Errors
 /// [`ServeError`] where the program fails or the connection breaks.
 pub fn serve<B: BoardProgram, const N: usize>(
     robot: &mut Lockstep<B, N>,
     connection: &mut (impl Read + Write),
+    mut turn: impl FnMut(&mut VirtualBoard<N>),
 ) -> Result<(), ServeError> {
-    let turn = Duration::from_secs_f64(f64::from(PERIODS) * PERIOD);
+    let length = Duration::from_secs_f64(f64::from(PERIODS) * PERIOD);
     let mut due = Instant::now();
     let mut bytes = [0; 1 << 12];
     let mut waiting: Vec<u8> = Vec::new();
@@ -54,8 +60,12 @@ pub fn serve<B: BoardProgram, const N: usize>(
             Err(why) if why.kind() == ErrorKind::ConnectionReset => return Ok(()),
             Err(why) => return Err(why.into()),
         }
+        turn(&mut robot.board);
         robot.run(PERIODS, |_, _| {})?;
         waiting.extend(robot.link.take_received());
+        if waiting.len() > MOST_WAITING {
+            waiting.clear();
+        }
         match connection.write(&waiting) {
             Ok(count) => drop(waiting.drain(..count)),
             Err(why) if matches!(why.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {}
@@ -63,7 +73,7 @@ pub fn serve<B: BoardProgram, const N: usize>(
             Err(why) => return Err(why.into()),
         }
         // where the machine is slower than the robot, the robot's time is slower too
-        due = (due + turn).max(Instant::now());
+        due = (due + length).max(Instant::now());
         std::thread::sleep(due - Instant::now());
     }
 }
