@@ -106,6 +106,12 @@ pub const ERRANDS: &[Errand] = &[
         run: robot,
     },
     Errand {
+        name: "margin",
+        takes: "",
+        does: "play every ride and fault in QEMU with instructions 8 and 16 times as slow (BLESS=1: rewrite)",
+        run: margin,
+    },
+    Errand {
         name: "morning",
         takes: "",
         does: "type what HARDWARE.md has for the first morning, at the image in QEMU",
@@ -281,6 +287,12 @@ fn robot(address: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
     Line::of(steps::EMULATED_IMAGES).announced()?;
     address.iter().fold(Line::of(steps::ROBOT), Line::word).announced()
+}
+
+fn margin(_: &[OsString]) -> Result<(), String> {
+    tool::ensure(tool::TOOLS)?;
+    Line::of(steps::EMULATED_IMAGES).announced()?;
+    Line::of(steps::MARGIN).announced()
 }
 
 fn morning(_: &[OsString]) -> Result<(), String> {

@@ -46,6 +46,10 @@ pub const IN_LOOP: [&str; 3] = [
     "cargo run -p host-tests --bin gap -- target/thumbv7em-none-eabihf/firmware/firmware",
 ];
 
+/// The image on a slow processor.
+pub const MARGIN: &str =
+    "cargo run --release -p host-tests --bin margin -- target/thumbv7em-none-eabihf/firmware/firmware";
+
 /// A robot without a board: the image on a network address.
 pub const ROBOT: &str =
     "cargo run --release -p host-tests --bin robot -- target/thumbv7em-none-eabihf/firmware/firmware";

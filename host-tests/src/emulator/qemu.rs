@@ -20,8 +20,8 @@ use super::program::{BoardProgram, RunError};
 /// The emulator.
 pub const PROGRAM: &str = "qemu-system-arm";
 
-/// What it is called with, before the image. `-icount shift=0` makes an instruction a nanosecond, on every machine.
-pub const OPTIONS: [&str; 11] = [
+/// What it is called with, before its clock and the image.
+pub const OPTIONS: [&str; 9] = [
     "-M",
     "netduinoplus2",
     "-nographic",
@@ -31,8 +31,6 @@ pub const OPTIONS: [&str; 11] = [
     "none",
     "-semihosting-config",
     "enable=on,target=native",
-    "-icount",
-    "shift=0,sleep=off",
 ];
 
 /// How often a waiting host looks whether the emulator still lives [ms].
@@ -53,14 +51,23 @@ pub struct Qemu {
 }
 
 impl Qemu {
-    /// Starts an image. `timeout` is how long it may think about one period.
+    /// Starts an image. `timeout` is how long it may think about one period. An instruction takes a nanosecond, on every
+    /// machine.
     ///
     /// # Errors
     /// [`RunError::NotStarted`] if pipes or process cannot be made.
     pub fn start(image: &Path, timeout: Duration) -> Result<Self, RunError> {
+        Self::start_slowed(image, timeout, 0)
+    }
+
+    /// The same with instructions that take 2^`shift` nanoseconds.
+    ///
+    /// # Errors
+    /// As those of [`Qemu::start`].
+    pub fn start_slowed(image: &Path, timeout: Duration, shift: u8) -> Result<Self, RunError> {
         let image = image.canonicalize().map_err(not_started(format!("the image {}", image.display())))?;
         let mut command = Command::new(PROGRAM);
-        command.args(OPTIONS).arg("-kernel").arg(&image);
+        command.args(OPTIONS).args(["-icount", &format!("shift={shift},sleep=off")]).arg("-kernel").arg(&image);
         Self::launch(command, timeout)
     }
 

@@ -9,6 +9,7 @@
 //! - [`figure_eight`]: a path with curves to both sides;
 //! - [`saturation`]: a diagonal acceleration for which the bus has not enough;
 //! - [`command_timeout`]: commands that end;
+//! - [`margin`]: all of it on a processor that is slow;
 //! - [`study`]: all of these, on many seeds, and one of them in the emulator too;
 //! - [`page`]: what came of it, and what is promised;
 //! - [`faults`]: every fault, injected while the robot drives;
@@ -23,6 +24,7 @@ pub mod figure_eight;
 pub mod gap;
 pub mod gap_page;
 mod host_program;
+pub mod margin;
 pub mod page;
 pub mod ramps;
 pub mod robots;
