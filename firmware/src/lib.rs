@@ -29,6 +29,8 @@ pub mod motor_controller;
 pub mod windings;
 
 // The motion, 1 kHz
+pub mod silence;
+
 pub mod stall;
 
 pub mod motion;

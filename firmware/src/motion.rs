@@ -7,11 +7,12 @@
 //! ```
 //!
 //! A turn takes what the windings tell, has `model-core`'s controller decide, and asks the windings for currents and
-//! voltages. It also watches what only shows over many periods: a silent command, a wheel that stands where it should
-//! turn ([`crate::stall`]).
+//! voltages. It also watches what only shows over many periods: commands that end, for which the robot brakes
+//! ([`crate::silence`]), and a wheel that stands where it should turn ([`crate::stall`]).
 //!
-//! Nothing but a fresh command closes the bridges. They open, and wait for one, when a fault is cleared, when a wheel that
-//! was lost comes back, and when other parameters are of another machine; parameters that only retune the same one are
+//! Nothing but a fresh command closes the bridges. They open, and wait for one, when the robot has come to rest because
+//! none came, when a fault is cleared, when a wheel that was lost comes back, and when other parameters are of another
+//! machine; parameters that only retune the same one are
 //! taken on the way.
 
 use model_core::control::calibration::Calibration;
@@ -19,6 +20,7 @@ use model_core::control::drive::RobotDrive;
 use model_core::control::observer;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::command::Reply;
+use model_core::link::events::{Event, Events};
 use model_core::link::faults::{Fault, Faults};
 use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
 use model_core::link::record::OperatingState;
@@ -26,12 +28,10 @@ use model_core::link::record::OperatingState;
 use crate::codes::TICK_SECONDS;
 use crate::command_receiver::AcceptedParameters;
 use crate::inbox::Inbox;
+use crate::silence::Silence;
 use crate::stall::StallDetector;
 use crate::winding_config::{MAX_DUTY, WindingConfig};
 use crate::winding_signals::{MotorSetpoints, WindingFeedback};
-
-/// Turns without a command after which the robot stops: 200 ms.
-pub const COMMAND_TIMEOUT_TICKS: u16 = 200;
 
 /// What a turn decided.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,20 +56,8 @@ pub struct MotionOutput {
     pub reply: Option<Reply>,
     /// How to read the records; none without parameters
     pub hello: Option<Hello>,
-    /// What happened: [`events`]
-    pub events: u8,
-}
-
-/// Bits of [`MotionOutput::events`].
-pub mod events {
-    /// Other parameters were taken: records read differently from here on
-    pub const PARAMETERS: u8 = 1;
-    /// The voltage or the current had no room for all that was wanted
-    pub const SATURATED: u8 = 2;
-    /// A wheel is out of use
-    pub const WHEEL_LOST: u8 = 4;
-    /// Latched faults were forgotten
-    pub const CLEARED: u8 = 8;
+    /// What happened
+    pub events: Events,
 }
 
 /// The motion turn and its memory.
@@ -79,7 +67,7 @@ pub struct Motion {
     hello: Option<Hello>,
     state: OperatingState,
     commands: u32,
-    ticks_without_command: u16,
+    silence: Silence,
     stall_detector: StallDetector,
     disabled: u8,
 }
@@ -100,7 +88,7 @@ impl Motion {
         let same = self.hello.is_some_and(|before| machine(&before) == machine(&hello));
         self.hello = Some(hello);
         output.config = Some(config);
-        output.events |= events::PARAMETERS;
+        output.events.add(Event::Parameters);
         !same
     }
 
@@ -119,20 +107,21 @@ impl Motion {
         }
         if core::mem::take(&mut inbox.clear) {
             output.clear = true;
-            output.events |= events::CLEARED;
+            output.events.add(Event::Cleared);
             opens |= self.disabled != 0;
         }
         let fresh = inbox.commands != self.commands;
         self.commands = inbox.commands;
-        self.ticks_without_command = if fresh { 0 } else { self.ticks_without_command.saturating_add(1) };
-        if self.state == OperatingState::Driving && self.ticks_without_command >= COMMAND_TIMEOUT_TICKS {
-            output.faults.add(Fault::CommandSilent);
-        }
         self.hello = self.hello.map(|hello| with_offsets(hello, feedback));
         output.hello = self.hello;
 
         let before = self.state;
         let faulty = !feedback.faults.is_empty() || !output.faults.is_empty();
+        self.silence.tick(fresh, before == OperatingState::Driving);
+        if faulty || opens {
+            self.silence = Silence::default();
+        }
+        opens |= self.silence.is_over();
         self.state = match before {
             _ if faulty => OperatingState::Faulted,
             _ if self.drive.is_none() => OperatingState::Asleep,
@@ -143,13 +132,16 @@ impl Motion {
             stage => stage,
         };
         output.state = self.state;
+        if self.silence.lasts() {
+            output.events.add(Event::Silent);
+        }
         let Some(drive) = &mut self.drive else { return output };
         if feedback.disabled != self.disabled {
             self.disabled = feedback.disabled;
             drive.exclude_motors(self.disabled);
         }
         if self.disabled != 0 {
-            output.events |= events::WHEEL_LOST;
+            output.events.add(Event::WheelLost);
         }
         if self.state != OperatingState::Driving {
             drive.reset();
@@ -161,11 +153,14 @@ impl Motion {
             since_edge: feedback.since_edge[j],
             speed: feedback.wheel_speed[j],
         });
-        let drive_output = drive.tick(&wheels, feedback.bus, inbox.twist);
+        drive.stop_hard(self.silence.lasts());
+        let want = if self.silence.lasts() { BodyTwist::default() } else { inbox.twist };
+        let drive_output = drive.tick(&wheels, feedback.bus, want);
+        self.silence.followed(drive_output.reference);
         output.reference = drive_output.reference;
         output.headroom = drive_output.headroom;
         if drive_output.headroom < 1.0 {
-            output.events |= events::SATURATED;
+            output.events.add(Event::Saturated);
         }
         output.setpoints = MotorSetpoints {
             current: drive_output.current,

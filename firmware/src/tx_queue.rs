@@ -6,12 +6,13 @@
 
 use heapless::spsc::{Consumer, Producer, Queue};
 use model_core::link::command::Reply;
+use model_core::link::events::Event;
 use model_core::link::faults::Faults;
 use model_core::link::framing::{self, FrameKind, MAX_FRAME};
 use model_core::link::hello::Hello;
 use model_core::link::record::TelemetryRecord;
 
-use crate::motion::{MotionOutput, events};
+use crate::motion::MotionOutput;
 use crate::winding_signals::WindingFeedback;
 
 /// Something to send.
@@ -90,7 +91,7 @@ impl TxProducer {
         }
         if let Some(hello) = output
             .hello
-            .filter(|_| output.events & events::PARAMETERS != 0 || self.sequence.is_multiple_of(HELLO_TICKS))
+            .filter(|_| output.events.has(Event::Parameters) || self.sequence.is_multiple_of(HELLO_TICKS))
         {
             let _full = self.queue.enqueue(TxMessage::Hello(hello));
         }

@@ -11,8 +11,8 @@ use crate::offsets::{MIDDLE, REACH};
 use crate::protection::TripLimits;
 use crate::registers::timing;
 
-/// Version of this firmware, as a hello tells it.
-pub const FIRMWARE: u16 = 1;
+/// Version of this firmware, as a hello tells it. From 2 on a robot that hears nothing brakes, where 1 latched a fault.
+pub const FIRMWARE: u16 = 2;
 
 /// Largest share of the bus that the three duties may span: the rest of the period is the converters', which sample while
 /// all low sides conduct [1].

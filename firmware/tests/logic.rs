@@ -4,7 +4,6 @@ mod program;
 
 use firmware::codes::{Codes, PERIODS_PER_TICK};
 use firmware::command_receiver::{CommandReceiver, ReceivedCommand};
-use firmware::motion::events;
 use firmware::motor_controller::NO_VOLTAGE;
 use firmware::tx_queue::{self, TxStorage};
 use firmware::winding_config::{MAX_TRIP_COUNTS, WindingConfig};
@@ -14,6 +13,7 @@ use model_core::control::halls::HallCode;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{BlockErrorKind, ControlMode, Parameters};
 use model_core::link::command::{Command, Reply};
+use model_core::link::events::Event;
 use model_core::link::faults::{Fault, Faults};
 use model_core::link::framing::{FrameKind, MAX_FRAME};
 use model_core::link::record::OperatingState;
@@ -118,7 +118,7 @@ fn a_lost_wheel_opens_in_the_turn_that_sees_it_and_is_named_while_the_others_dri
     program.drive();
     program.ticks(2, &still());
     let last = program.records.last().expect("records");
-    assert!(last.faults.iter().eq([Fault::HallCode]) && last.events & events::WHEEL_LOST != 0);
+    assert!(last.faults.iter().eq([Fault::HallCode]) && last.events.has(Event::WheelLost));
     assert_eq!((last.state, last.enabled), (OperatingState::Driving, 0b1011));
 }
 
@@ -233,12 +233,34 @@ fn a_command_that_cannot_be_meant_is_a_fault_in_the_turn_that_hears_it() {
 #[test]
 fn a_command_that_is_only_repeated_is_silence() {
     let mut program = Program::driving(&four());
-    for _ in 0..30 {
-        program.command(&Command::Drive { sequence: 1, twist: AHEAD });
-        program.ticks(10, &still());
-    }
-    let last = program.records.last().expect("records");
-    assert!(last.faults.has(Fault::CommandSilent) && last.state == OperatingState::Faulted);
+    let mut repeat = |turns: u32| {
+        for _ in 0..turns / 10 {
+            program.command(&Command::Drive { sequence: 7, twist: BodyTwist { v: 0.02, ..AHEAD } });
+            program.ticks(10, &still());
+        }
+        *program.records.last().expect("records")
+    };
+    let (driving, braking) = (repeat(150), repeat(80));
+    assert!(!driving.events.has(Event::Silent) && braking.events.has(Event::Silent));
+    assert!(braking.state == OperatingState::Driving && braking.wanted[0] < driving.wanted[0]);
+    let stands = repeat(200);
+    assert_eq!((stands.state, stands.enabled, stands.faults), (OperatingState::Open, 0, Faults::NONE));
+    assert!(stands.events.has(Event::Silent), "who looks later sees why");
+    program.drive();
+    assert_eq!(program.ticks(2, &still()).enabled, 0b1111, "nothing was to be cleared");
+    assert!(!program.records.last().is_some_and(|last| last.events.has(Event::Silent)));
+}
+
+#[test]
+fn a_silent_robot_that_is_told_to_open_or_has_a_fault_does_not_wait_for_its_rest() {
+    let mut program = Program::driving(&four());
+    program.ticks(210, &still());
+    program.command(&Command::Open);
+    assert_eq!(program.ticks(2, &still()).enabled, 0);
+    assert!(!program.records.last().is_some_and(|last| last.events.has(Event::Silent)), "it was told to");
+    let mut program = Program::driving(&four());
+    program.ticks(210, &still());
+    assert_eq!(program.period(&Codes { driver_fault: true, ..still() }).enabled, 0);
 }
 
 #[test]

@@ -12,12 +12,14 @@ use host_tests::virtual_board::{BoardSetup, VirtualBoard};
 use model_core::effects::active::Effects;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::link::command::Command;
+use model_core::link::events::Event;
+use model_core::link::faults::Faults;
 use model_core::link::message::Message;
 use model_core::link::record::OperatingState;
 use model_core::plant::paper::four_wheels;
 use omni_gap::api::{Exported, RobotFile, export, known_effects, record_kept};
 use omni_gap::wire::line::Line;
-use omni_gap::wire::robot::{Ended, Leg, clear, drive, send, status, stop};
+use omni_gap::wire::robot::{Ended, Leg, drive, send, status, stop};
 use omni_gap::wire::source::Source;
 use serialport::{SerialPort, TTYPort};
 
@@ -89,22 +91,27 @@ fn a_robot_gets_parameters_drives_as_far_as_it_is_told_and_stands() {
 }
 
 #[test]
-fn a_robot_that_hears_nothing_more_says_so_until_it_is_cleared() {
+fn a_robot_that_hears_nothing_more_brakes_says_so_and_drives_again() {
     let (mut line, _robot) = robot();
     let block = block();
     send(&mut line, &block.bytes, block.checksum).unwrap();
     line.send(&Command::Drive { sequence: 7, twist: AHEAD }).unwrap();
-    let silent = line.listen(Instant::now() + Duration::from_secs(10), |message| match message {
-        Message::Record(record) => (!record.faults.is_empty()).then_some(record.faults),
+    let braking = line.listen(Instant::now() + Duration::from_secs(10), |message| match message {
+        Message::Record(record) => record.events.has(Event::Silent).then_some(record),
         _ => None,
     });
-    assert_eq!(
-        silent.unwrap().unwrap().iter().map(|fault| fault.text()).collect::<Vec<_>>(),
-        ["no command came in time"]
-    );
-    let told = drive(&mut line, &ahead(1), |_| true).unwrap_err().to_string();
-    assert!(told.contains("no command came in time") && told.contains("robot clear"), "{told}");
-    assert_eq!(clear(&mut line).unwrap().state, OperatingState::Open);
+    let braking = braking.unwrap().unwrap();
+    assert_eq!((braking.state, braking.faults), (OperatingState::Driving, Faults::NONE));
+    let opened = line.listen(Instant::now() + Duration::from_secs(10), |message| match message {
+        Message::Record(record) => (record.state == OperatingState::Open).then_some(()),
+        _ => None,
+    });
+    assert!(opened.unwrap().is_some());
+    // who comes later sees why the bridges are open
+    let stands = status(&mut line).unwrap();
+    assert_eq!((stands.state, stands.events), (OperatingState::Open, vec![Event::Silent.text()]));
+    assert_eq!(drive(&mut line, &ahead(1), |_| true).unwrap().ended, Ended::Done);
+    assert_eq!(status(&mut line).unwrap().events, [""; 0]);
 }
 
 #[test]

@@ -50,11 +50,17 @@ pub struct WheeledDrive<const N: usize> {
     memory: Memory<f32>,
     controls_current: bool,
     most_speed: f32,
+    /// Largest accelerations of the block, and those that it stops with [m/s², m/s², rad/s²]
+    accelerations: [[f32; 3]; 2],
     observer: SpeedObserver,
     wheels: [WheelEstimate; N],
     /// Wanted speeds of the wheels in the turn before [rad/s]
     wanted: [f32; N],
 }
+
+/// Acceleration that a robot stops with where nobody commands it, if its block allows less [m/s²]: at rest from 1 m/s after
+/// 0.4 s. A quarter of the weight, which every floor for robots holds.
+pub const STOP_ACCELERATION: f32 = 2.5;
 
 /// Share of the integral that is left after a turn at rest [1]: half of it fades in 35 ms.
 const INTEGRAL_DECAY: f32 = 0.98;
@@ -85,6 +91,15 @@ impl RobotDrive {
         match self {
             RobotDrive::Three(drive) => drive.exclude_motors(lost),
             RobotDrive::Four(drive) => drive.exclude_motors(lost),
+        }
+    }
+
+    /// From now on changes its motion as hard as it may to stop ([`STOP_ACCELERATION`]), or as its block allows.
+    #[inline(never)]
+    pub fn stop_hard(&mut self, stops: bool) {
+        match self {
+            RobotDrive::Three(drive) => drive.stop_hard(stops),
+            RobotDrive::Four(drive) => drive.stop_hard(stops),
         }
     }
 
@@ -180,6 +195,7 @@ impl<const N: usize> WheeledDrive<N> {
             memory: Memory::default(),
             controls_current: block.mode == ControlMode::Current,
             most_speed: block.limits.speed,
+            accelerations: [block.limits.acceleration, stop_acceleration(block)],
             observer: SpeedObserver::new(calibration.edge_angle(block.robot.motor.gear_ratio), dt, calibration.period),
             wheels: [WheelEstimate::default(); N],
             wanted: [0.0; N],
@@ -198,6 +214,14 @@ impl<const N: usize> WheeledDrive<N> {
         let working = core::array::from_fn(|j| lost >> j & 1 == 0);
         if working != self.settings.working {
             self.settings.working = working;
+            self.controller = Controller::new(&self.settings);
+        }
+    }
+
+    fn stop_hard(&mut self, stops: bool) {
+        let acceleration = self.accelerations[usize::from(stops)];
+        if acceleration != self.settings.acceleration {
+            self.settings.acceleration = acceleration;
             self.controller = Controller::new(&self.settings);
         }
     }
@@ -244,4 +268,12 @@ impl<const N: usize> WheeledDrive<N> {
         }
         Some(output)
     }
+}
+
+/// The largest accelerations of a robot that stops [m/s², m/s², rad/s²]: about the vertical, that of the outermost wheel.
+fn stop_acceleration<const N: usize>(block: &Block<N>) -> [f32; 3] {
+    let outermost = block.robot.wheels.wheels().iter().fold(0.0_f32, |most, wheel| most.max(wheel.distance));
+    // α = a/d
+    let stop = [STOP_ACCELERATION, STOP_ACCELERATION, STOP_ACCELERATION / outermost];
+    core::array::from_fn(|k| stop[k].max(block.limits.acceleration[k]))
 }

@@ -21,7 +21,8 @@ pub enum Fault {
     DriverLine,
     /// A current sensor's zero is too far from the middle.
     OffsetCalibration,
-    /// No command came in time.
+    /// No command came in time. Firmware 1 opened its bridges for it, and its recordings name it; later firmware brakes
+    /// ([`Event::Silent`](crate::link::events::Event::Silent)) and does not raise it.
     CommandSilent,
     /// A command that cannot be meant.
     BadCommand,

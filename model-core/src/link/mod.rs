@@ -1,8 +1,8 @@
 //! # Link: what robot and host tell each other
 //!
 //! Frames on a serial line ([`framing`]); in them commands and their replies ([`command`]), a record of every turn
-//! ([`record`]), who the robot is ([`hello`]), which of these a frame holds ([`message`]), which faults it has ([`faults`]), and the parameters that it drives with
-//! ([`block`]). All numbers are little-endian.
+//! ([`record`]), who the robot is ([`hello`]), which of these a frame holds ([`message`]), which faults it has ([`faults`])
+//! and what it does about itself ([`events`]), and the parameters that it drives with ([`block`]). All numbers are little-endian.
 
 mod bytes;
 
@@ -17,5 +17,7 @@ pub mod hello;
 pub mod message;
 
 pub mod faults;
+
+pub mod events;
 
 pub mod block;

@@ -28,6 +28,7 @@
 
 use crate::control::calibration::AdcCode;
 use crate::link::bytes::{Reader, Writer};
+use crate::link::events::Events;
 use crate::link::faults::Faults;
 
 /// The most motors that a record holds; a robot of three wheels leaves the last at zero.
@@ -82,8 +83,8 @@ pub struct TelemetryRecord {
     pub state: OperatingState,
     /// Motors whose bridges are driven from now on: bit j is motor j; four bits.
     pub enabled: u8,
-    /// What happened since the record before; the firmware says which bit is what.
-    pub events: u8,
+    /// What happened since the record before.
+    pub events: Events,
     /// Faults that are kept.
     pub faults: Faults,
     /// Bus voltage.
@@ -123,7 +124,7 @@ impl TelemetryRecord {
         writer.u32(self.sequence);
         writer.u32(self.time);
         writer.u8(self.state.code() | self.enabled << 4);
-        writer.u8(self.events);
+        writer.u8(self.events.bits());
         writer.u16(self.faults.bits());
         writer.u16(self.bus.0);
         self.phases.iter().flatten().for_each(|code| writer.u16(code.0));
@@ -151,7 +152,7 @@ impl TelemetryRecord {
             time,
             state: OperatingState::from_code(doing & 0x0f)?,
             enabled: doing >> 4,
-            events: reader.u8()?,
+            events: Events::from_bits(reader.u8()?),
             faults: Faults::from_bits(reader.u16()?),
             bus: code(&mut reader)?,
             phases: reader.each(|reader| reader.each(code))?,

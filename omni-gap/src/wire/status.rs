@@ -1,5 +1,6 @@
 //! How a robot is, by what it says.
 
+use model_core::link::events::Event;
 use model_core::link::faults::{Fault, Faults};
 use model_core::link::hello::Hello;
 use model_core::link::message::Message;
@@ -21,6 +22,8 @@ pub struct Status {
     pub driven: Vec<usize>,
     /// Its faults, in words.
     pub faults: Vec<&'static str>,
+    /// What it does about itself without stopping, in words.
+    pub events: Vec<&'static str>,
     /// Voltage of the bus [V]; none before it has parameters.
     pub bus_v: Option<f64>,
     /// The twist that it tries to follow: v and vn [m/s], ω [rad/s].
@@ -121,6 +124,7 @@ impl StatusSeen {
             state: record.state,
             driven: (0..MOTORS).filter(|motor| record.enabled >> motor & 1 == 1).collect(),
             faults: record.faults.iter().map(Fault::text).collect(),
+            events: record.events.iter().map(Event::text).collect(),
             bus_v: self.hello.map(|hello| f64::from(hello.calibration.bus_volts_per_count) * f64::from(record.bus.0)),
             wanted: record.wanted,
             load: f64::from(record.load) / 1000.0,

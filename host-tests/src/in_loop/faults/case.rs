@@ -12,10 +12,6 @@ pub enum FaultCause {
     Board(Broken),
     /// On the board, before the program starts
     FromTheStart(Broken),
-    /// No command any more
-    Silence,
-    /// The same command over and over
-    Repeated,
     /// One command to move along v so [m/s]
     Command(f64),
     /// One parameter block
@@ -91,9 +87,6 @@ const HEARD: u32 = 40;
 /// 300 ms, and as long again for a wheel to come to rest and to strain.
 const STALLED: u32 = 12_000;
 
-/// 200 ms and the way of a command.
-const SILENT: u32 = 4_000 + HEARD;
-
 /// Idle turns that last longer than a period, and longer than a motion turn.
 const LONG: u16 = 1_000;
 const LONGER: u16 = 20_000;
@@ -115,7 +108,7 @@ pub const fn is_timed(cause: &FaultCause) -> bool {
 }
 
 /// All cases, by the codes of their faults.
-pub const CASES: [FaultCase; 26] = [
+pub const CASES: [FaultCase; 24] = [
     case("short in motor 0, phase a", Fault::OverCurrent, FaultCause::Board(Broken::Short { motor: 0, phase: 0 }), 0),
     on_three(case(
         "short in motor 2, phase c",
@@ -151,8 +144,6 @@ pub const CASES: [FaultCase; 26] = [
     case("fault line of the gate drivers pulled", Fault::DriverLine, FaultCause::Board(Broken::DriverLine), 0),
     costs(2, OFFSET),
     on_three(OFFSET),
-    case("no command any more", Fault::CommandSilent, FaultCause::Silence, SILENT),
-    case("the same command over and over", Fault::CommandSilent, FaultCause::Repeated, SILENT),
     case("command of NaN m/s", Fault::BadCommand, FaultCause::Command(f64::NAN), HEARD),
     case("command of ∞ m/s", Fault::BadCommand, FaultCause::Command(f64::INFINITY), HEARD),
     case("command of 20.1 m/s", Fault::BadCommand, FaultCause::Command(20.1), HEARD),

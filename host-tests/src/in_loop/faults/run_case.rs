@@ -87,7 +87,6 @@ pub fn run_case<B: BoardProgram>(case: &FaultCase, program: B) -> Result<FaultOu
 #[derive(Clone, Copy, PartialEq)]
 enum Host {
     Commands,
-    Repeats,
     Silent,
 }
 
@@ -118,7 +117,6 @@ impl<B: BoardProgram, const N: usize> CaseRunner<B, N> {
             if self.run.periods().is_multiple_of(COMMANDS) {
                 match host {
                     Host::Commands => self.run.drive(ALONG),
-                    Host::Repeats => self.run.repeat_command(ALONG),
                     Host::Silent => {}
                 }
             }
@@ -157,10 +155,6 @@ impl<B: BoardProgram, const N: usize> CaseRunner<B, N> {
             }
             // the last code of those that a zero is the mean of
             FaultCause::FromTheStart(_) => (offsets::PERIODS - 1, Host::Commands),
-            FaultCause::Silence | FaultCause::Repeated => {
-                self.run.drive(ALONG);
-                (self.sent()?, if cause == FaultCause::Silence { Host::Silent } else { Host::Repeats })
-            }
             FaultCause::Command(v) => {
                 self.run.drive(BodyTwist { v, ..ALONG });
                 (self.sent()?, Host::Commands)

@@ -77,6 +77,9 @@ fn told(status: &Status) -> String {
     for fault in &status.faults {
         text += &wrapped(2, &format!("fault: {fault}"));
     }
+    for event in &status.events {
+        text += &wrapped(2, event);
+    }
     text += &match status.identity {
         Some(who) => format!("  parameters {:08x}, firmware {}, {} wheels\n", who.checksum, who.firmware, who.wheels),
         None if status.state == OperatingState::Asleep => {
