@@ -29,7 +29,7 @@ use crate::codes::TICK_SECONDS;
 use crate::command_receiver::AcceptedParameters;
 use crate::inbox::Inbox;
 use crate::silence::Silence;
-use crate::stall::StallDetector;
+use crate::stall::{StallDetector, StallLimits};
 use crate::winding_config::{MAX_DUTY, WindingConfig};
 use crate::winding_signals::{MotorSetpoints, WindingFeedback};
 
@@ -70,6 +70,8 @@ pub struct Motion {
     silence: Silence,
     stall_detector: StallDetector,
     disabled: u8,
+    /// Bus voltage when the robot was ready for the first time [V]
+    bus_at_rest: Option<f32>,
 }
 
 impl Motion {
@@ -83,6 +85,9 @@ impl Motion {
             drive.take_over(old);
         }
         drive.exclude_motors(self.disabled);
+        if let Some(bus) = self.bus_at_rest {
+            drive.set_bus_at_rest(bus);
+        }
         self.drive = Some(drive);
         let hello = config.hello(parameters, accepted.check);
         let same = self.hello.is_some_and(|before| machine(&before) == machine(&hello));
@@ -143,6 +148,13 @@ impl Motion {
         if self.disabled != 0 {
             output.events.add(Event::WheelLost);
         }
+        if drive.heat(&feedback.current) {
+            output.events.add(Event::FoldBack);
+        }
+        if self.state == OperatingState::Open && self.bus_at_rest.is_none() {
+            self.bus_at_rest = Some(feedback.bus);
+            drive.set_bus_at_rest(feedback.bus);
+        }
         if self.state != OperatingState::Driving {
             drive.reset();
             self.stall_detector = StallDetector::default();
@@ -169,7 +181,9 @@ impl Motion {
             enabled: drive.motors() & !self.disabled,
         };
         let edge = self.hello.map_or(0.0, |hello| hello.calibration.edge_angle(hello.gear_ratio));
-        output.stalled = self.stall_detector.tick(feedback, &drive_output, drive.current_limit(), edge);
+        let others = drive.told_by_others(&feedback.wheel_speed);
+        let limits = StallLimits { others, current: drive.current_limit(), edge };
+        output.stalled = self.stall_detector.tick(feedback, &drive_output, &limits);
         output
     }
 }

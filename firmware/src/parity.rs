@@ -3,6 +3,7 @@
 //! The same functions, in single precision, on the host and on the chip: 20,000 results are folded into one number
 //! (FNV-1a over their bits). A test on the host, the image in the emulator and a test on the board compare it.
 
+use model_core::control::braking::BrakingBand;
 use model_core::control::calibration::AdcCode;
 use model_core::control::compensation::Compensation;
 use model_core::control::current_loop::{CurrentLoop, CurrentMeasurement, CurrentMemory, CurrentSetpoint};
@@ -69,6 +70,7 @@ pub fn hash() -> u64 {
         compensation: Compensation::none(),
         acceleration: [3.0, 3.0, 20.0],
         current_limit: 2.5,
+        braking: BrakingBand::unlimited(),
         max_duty: 0.9,
         feedback: 0.05,
         feedback_integral: 0.2,

@@ -89,9 +89,8 @@ impl TxProducer {
         if let Some(reply) = output.reply {
             let _full = self.queue.enqueue(TxMessage::Reply(reply));
         }
-        if let Some(hello) = output
-            .hello
-            .filter(|_| output.events.has(Event::Parameters) || self.sequence.is_multiple_of(HELLO_TICKS))
+        if let Some(hello) =
+            output.hello.filter(|_| output.events.has(Event::Parameters) || self.sequence.is_multiple_of(HELLO_TICKS))
         {
             let _full = self.queue.enqueue(TxMessage::Hello(hello));
         }

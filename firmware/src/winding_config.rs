@@ -1,8 +1,8 @@
 //! # Winding configuration: what the windings' turn needs of the parameters
 
-use model_core::control::calibration::{Calibration, FULL_SCALE};
+use model_core::control::calibration::Calibration;
 use model_core::control::current_loop::CurrentLoop;
-use model_core::link::block::{Block, Parameters, VERSION};
+use model_core::link::block::{Block, MAX_TRIP_COUNTS, Parameters, VERSION, trip_current};
 use model_core::link::hello::{Commutation, Hello};
 use model_core::link::record::MOTORS;
 
@@ -18,14 +18,7 @@ pub const FIRMWARE: u16 = 2;
 /// all low sides conduct [1].
 pub const MAX_DUTY: f32 = timing::MAX_SHARE;
 
-/// Phase current over the current limit at which the bridges open [1]: regulation overshoots less.
-const TRIP_OVER_LIMIT: f32 = 1.6;
-
-/// The largest phase current that every converter can tell from its end, whatever its zero [counts].
-pub const MAX_TRIP_COUNTS: f32 = FULL_SCALE as f32 - MIDDLE - REACH - NOISE;
-
-/// What a converter at its end may read below it [counts].
-const NOISE: f32 = 10.0;
+const _: () = assert!(MAX_TRIP_COUNTS + REACH < MIDDLE - 1.0, "a trip is seen whatever the converter's zero");
 
 /// What the windings' turn needs to know of the robot.
 #[derive(Clone, Copy, Debug)]
@@ -95,7 +88,9 @@ impl WindingConfig {
             ),
             six_step: block.commutation == Commutation::SixStep,
             limits: TripLimits {
-                trip_counts: (TRIP_OVER_LIMIT * block.limits.current / calibration.amps_per_count).min(MAX_TRIP_COUNTS),
+                // the trip current lies on either side of zero, and so may the scale
+                trip_counts: trip_current(block.limits.current, calibration.amps_per_count)
+                    / calibration.amps_per_count.abs(),
                 least_supply: block.limits.under_voltage,
                 most_supply: block.limits.over_voltage,
             },

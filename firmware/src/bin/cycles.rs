@@ -15,6 +15,7 @@ use firmware::offsets;
 use firmware::winding_config::{MAX_DUTY, WindingConfig};
 use firmware::winding_signals::MotorSetpoints;
 use firmware::windings::{BridgeCommand, Windings};
+use model_core::control::braking::BrakingBand;
 use model_core::control::calibration::AdcCode;
 use model_core::control::compensation::Compensation;
 use model_core::control::current_loop::{
@@ -72,6 +73,7 @@ fn settings<const N: usize>(robot: Robot<N>, compensation: Compensation<N>) -> S
         compensation,
         acceleration: [3.0, 3.0, 20.0],
         current_limit: 4.0,
+        braking: BrakingBand::new(24.0, 12.0),
         max_duty: MAX_DUTY,
         feedback: 0.05,
         feedback_integral: 0.2,
@@ -201,6 +203,9 @@ fn current_interrupt(watch: &mut Stopwatch) {
         bandwidth: 2000.0,
         amps_per_count: 0.0049,
         bus_volts_per_count: 0.00886,
+        linear_range: 9.4,
+        continuous_current: 2.0,
+        heating_time: 10.0,
         ..Block::default()
     };
     let ask = MotorSetpoints { current: [0.3; 4], voltage: [3.0; 4], closed: true, enabled: 0b1111 };

@@ -38,6 +38,9 @@ pub fn block<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
         bandwidth: 2000.0,
         amps_per_count: 0.0049,
         bus_volts_per_count: 0.00886,
+        linear_range: 9.4,
+        continuous_current: 2.0,
+        heating_time: 10.0,
         effects: BlockEffects::default(),
     }
 }

@@ -10,6 +10,7 @@
 //! - [`saturation`]: a diagonal acceleration for which the bus has not enough;
 //! - [`command_timeout`]: commands that end;
 //! - [`margin`]: all of it on a processor that is slow;
+//! - `push`: a robot that is held, `regeneration`: a hard stop on a supply that takes nothing back;
 //! - [`study`]: all of these, on many seeds, and one of them in the emulator too;
 //! - [`page`]: what came of it, and what is promised;
 //! - [`faults`]: every fault, injected while the robot drives;
@@ -26,7 +27,11 @@ pub mod gap_page;
 mod host_program;
 pub mod margin;
 pub mod page;
+#[cfg(test)]
+mod push;
 pub mod ramps;
+#[cfg(test)]
+mod regeneration;
 pub mod robots;
 pub mod saturation;
 pub mod served;

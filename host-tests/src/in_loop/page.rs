@@ -157,7 +157,8 @@ impl Robot {
         }
         line("\nCommands end at 1 m/s; 350 ms later one came again, and then none any more.\n".into());
         line(
-            "| seed | slowed down to [m/s] | speed [m/s] | at rest after 200 ms and [ms] | bridges open after [ms] |".into(),
+            "| seed | slowed down to [m/s] | speed [m/s] | at rest after 200 ms and [ms] | bridges open after [ms] |"
+                .into(),
         );
         line("|---|---|---|---|---|".into());
         for (k, s) in self.silences.iter().enumerate() {

@@ -82,6 +82,9 @@ pub fn block<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
         bandwidth: BANDWIDTH,
         amps_per_count: 0.0049,
         bus_volts_per_count: 0.00886,
+        linear_range: 9.4,
+        continuous_current: 2.0,
+        heating_time: 10.0,
         effects: BlockEffects::default(),
     }
 }

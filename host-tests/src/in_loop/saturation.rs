@@ -7,6 +7,7 @@
 //! [`clipped`] is what would have been without headroom: the same controller with a bus without end, each wheel's voltage
 //! then clipped by itself, on the plant of the core under voltages, with wheel speeds that it need not measure.
 
+use model_core::control::braking::BrakingBand;
 use model_core::control::compensation::Compensation;
 use model_core::control::motion_controller::{Controller, Measurement, Memory, Settings};
 use model_core::effects::active::Effects;
@@ -91,6 +92,7 @@ pub fn clipped<const N: usize>(believed: &Robot<N, f64>, truth: &Robot<N, f64>, 
         compensation: Compensation::none(),
         acceleration: ACCELERATION.map(f64::from),
         current_limit: f64::from(block.limits.current),
+        braking: BrakingBand::unlimited(),
         max_duty: MAX_DUTY,
         feedback: f64::from(block.feedback),
         feedback_integral: f64::from(block.feedback_integral),

@@ -31,15 +31,15 @@ use model_core::effects::{Effect, EffectSet, EffectState};
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant, State};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::adc::{AdcChannel, FULL_SCALE};
-use super::battery::Battery;
+use super::battery::{Battery, BusCapacitor};
 use super::faults::{InjectedFault, OnBoard};
-use super::halls::HallSwitches;
 use super::instants::Instants;
-use super::machine::{BridgeLegs, LegLoss, Machine, PeriodResult, RotorFlux, Vector, phases};
+use super::machine::{BridgeLegs, RotorFlux};
+use super::motor::BoardMotor;
 
 /// One PWM period [s].
 pub const PERIOD: f64 = 50e-6;
@@ -63,6 +63,8 @@ pub struct BoardSetup<const N: usize> {
     pub robot: Robot<N, f64>,
     /// What it has besides
     pub effects: Effects<N, f64>,
+    /// Capacitor on the bus, of a supply that takes no current back [F]; none: the battery takes it
+    pub bus_capacitor: Option<f64>,
     /// DC-equivalent inductance of a motor [H]
     pub inductance: f64,
     /// Pole pairs of a motor
@@ -89,6 +91,7 @@ impl<const N: usize> BoardSetup<N> {
         Self {
             robot,
             effects,
+            bus_capacitor: None,
             inductance: 0.6e-3,
             pole_pairs: 8,
             amps_per_count: 0.0049,
@@ -107,23 +110,6 @@ impl<const N: usize> BoardSetup<N> {
     }
 }
 
-/// A motor with its converters and switches.
-#[derive(Clone, Copy, Debug)]
-struct BoardMotor {
-    machine: Machine,
-    channels: [AdcChannel; 3],
-    halls: HallSwitches,
-    /// o of `current_sensor_offset` [A, DC-equivalent]
-    sensor_offset: f64,
-    /// Space vector of the phase currents [A]
-    current: Vector,
-    /// Phase currents when they were sampled last [A]
-    sampled: [f64; 3],
-    /// Electrical angle [rad]
-    angle: f64,
-    outcome: PeriodResult,
-}
-
 /// The board with its robot.
 #[derive(Debug)]
 pub struct VirtualBoard<const N: usize> {
@@ -135,6 +121,7 @@ pub struct VirtualBoard<const N: usize> {
     memory: Vec<EffectState<f64>>,
     motors: [BoardMotor; N],
     battery: Battery,
+    capacitor: Option<BusCapacitor>,
     bus: f64,
     /// Current drawn from the battery in the last period [A]
     drawn: f64,
@@ -181,6 +168,7 @@ impl<const N: usize> VirtualBoard<N> {
             memory,
             motors,
             battery,
+            capacitor: setup.bus_capacitor.map(|capacitance| BusCapacitor::charged(capacitance, &battery)),
             bus: battery.bus(0.0),
             drawn: 0.0,
             bus_channel: AdcChannel { step: setup.bus_volts_per_count, offset: 0.0, noise: setup.noise },
@@ -192,6 +180,9 @@ impl<const N: usize> VirtualBoard<N> {
 
     /// One period under these outputs; the codes are those of its instants.
     pub fn period(&mut self, outputs: &Outputs) -> Codes {
+        if let Some(capacitor) = &mut self.capacitor {
+            capacitor.period(&self.battery, self.drawn, PERIOD);
+        }
         self.bus = self.bus_now();
         let speeds = self.wheel_speeds();
         let mut codes = self.resting();
@@ -240,10 +231,13 @@ impl<const N: usize> VirtualBoard<N> {
                 }
                 InjectedFault::Halls { motor, code } => codes.halls[motor] = HallCode(code),
                 InjectedFault::DriverLine => codes.driver_fault = true,
-                InjectedFault::Short { .. }
-                | InjectedFault::Bus(_)
-                | InjectedFault::Blocked { .. }
-                | InjectedFault::Offset { .. } => {}
+                InjectedFault::StuckAmplifier { motor, phase, code } => codes.phases[motor][phase] = AdcCode(code),
+                InjectedFault::TurnedAmplifier { motor, phase } => {
+                    let turned =
+                        2.0 * self.motors[motor].channels[phase].offset - f64::from(codes.phases[motor][phase].0);
+                    codes.phases[motor][phase] = AdcCode((turned.round() as u16).min(FULL_SCALE));
+                }
+                _ => {}
             }
         }
     }
@@ -267,9 +261,18 @@ impl<const N: usize> VirtualBoard<N> {
     fn rebuild(&mut self) {
         let mut effects = self.plant_effects;
         for fault in &self.faults {
-            if let InjectedFault::Blocked { motor } = *fault {
-                effects.put(OnBoard::BlockedWheel, Some(motor)).expect("room for a blocked wheel");
+            match *fault {
+                InjectedFault::Blocked { motor } => effects.put(OnBoard::BlockedWheel, Some(motor)),
+                InjectedFault::Held => effects.put(OnBoard::HeldBody, None),
+                _ => continue,
             }
+            .expect("room for what is held");
+        }
+        for (j, motor) in self.motors.iter_mut().enumerate() {
+            motor.machine.open_phase = self.faults.iter().find_map(|fault| match *fault {
+                InjectedFault::OpenPhase { motor, phase } if motor == j => Some(phase),
+                _ => None,
+            });
         }
         self.plant = Plant::new(self.setup.robot, effects);
     }
@@ -277,7 +280,8 @@ impl<const N: usize> VirtualBoard<N> {
     fn bus_now(&self) -> f64 {
         let held =
             self.faults.iter().rev().find_map(|fault| if let InjectedFault::Bus(u) = fault { Some(*u) } else { None });
-        held.unwrap_or_else(|| self.battery.bus(self.drawn))
+        let battery = || self.battery.bus(self.drawn);
+        held.unwrap_or_else(|| self.capacitor.map_or_else(battery, |capacitor| capacitor.voltage))
     }
 
     /// Where the robot is.
@@ -318,68 +322,6 @@ impl<const N: usize> VirtualBoard<N> {
     /// Codes of zero current, phase by phase [counts].
     pub fn offsets(&self) -> [[f64; 3]; N] {
         std::array::from_fn(|j| self.motors[j].channels.map(|channel| channel.offset))
-    }
-}
-
-impl BoardMotor {
-    /// Motor `j` with its mismatch, dead time and whatever is drawn.
-    fn new<const N: usize>(setup: &BoardSetup<N>, j: usize, rng: &mut ChaCha8Rng) -> Self {
-        let motor = setup.robot.motor;
-        let (mut k, mut rho, mut loss, mut sensor_offset) = (1.0, 1.0, None, 0.0);
-        for active in setup.effects.iter().filter(|active| active.on(j)) {
-            match active.effect {
-                Effect::MotorMismatch(odd) => (k, rho) = (odd.torque_constant_ratio, odd.resistance_ratio),
-                Effect::DeadTime(d) => loss = Some(LegLoss::dc_equivalent(d.voltage_loss, d.smoothing_current)),
-                Effect::CurrentSensorOffset(sensor) => sensor_offset = sensor.offset,
-                _ => {}
-            }
-        }
-        let mut machine =
-            Machine::dc_equivalent(rho * motor.resistance, setup.inductance, k * motor.emf_constant, setup.pole_pairs);
-        machine.loss = loss;
-        let mut within = |most: f64| most * rng.random_range(-1.0..=1.0);
-        let channels = [(); 3].map(|()| AdcChannel {
-            step: setup.amps_per_count,
-            offset: 2048.0 + within(setup.offset_spread),
-            noise: setup.noise,
-        });
-        let halls = HallSwitches { errors: [(); 3].map(|()| within(setup.hall_spread)) };
-        let angle = within(std::f64::consts::PI).rem_euclid(std::f64::consts::TAU);
-        let (current, outcome) = (Vector::default(), PeriodResult::default());
-        Self { machine, channels, halls, sensor_offset, current, sampled: [0.0; 3], angle, outcome }
-    }
-
-    /// A period whose currents are sampled when a `sample` of it is over [1].
-    fn period(&mut self, legs: &BridgeLegs, magnet: RotorFlux, sample: f64) {
-        if !legs.enabled {
-            self.current = Vector::default();
-        }
-        let before = self.part(sample, legs, magnet);
-        self.sampled = phases(self.current);
-        let after = self.part(1.0 - sample, legs, magnet.after(sample * PERIOD));
-        let mean = |before: f64, after: f64| sample * before + (1.0 - sample) * after;
-        self.outcome = PeriodResult {
-            current: mean(before.current, after.current),
-            bus_current: mean(before.bus_current, after.bus_current),
-        };
-    }
-
-    /// A share of a period [1]; one of no length leaves all as it is.
-    fn part(&mut self, share: f64, legs: &BridgeLegs, magnet: RotorFlux) -> PeriodResult {
-        if share > 0.0 {
-            self.machine.period(&mut self.current, legs, magnet, share * PERIOD)
-        } else {
-            PeriodResult::default()
-        }
-    }
-
-    /// Codes of the phase currents, sampled while the rotor is at an electrical angle [rad].
-    fn codes(&self, angle: f64, rng: &mut ChaCha8Rng) -> [AdcCode; 3] {
-        // the effect speaks of the DC-equivalent current: what reads o too much there turns with the rotor, i_q =
-        // 2/√3·o
-        let turning = Vector::new(0.0, 2.0 / 3.0_f64.sqrt() * self.sensor_offset) * Vector::from_polar(1.0, angle);
-        let wrong = phases(turning);
-        std::array::from_fn(|x| AdcCode(self.channels[x].code(self.sampled[x] + wrong[x], rng)))
     }
 }
 

@@ -1,5 +1,6 @@
 //! The board against the plant of the core under the same voltages, and what its faults do to the codes.
 
+use super::super::machine::{Vector, phases};
 use super::*;
 use model_core::effects::EffectKind;
 use model_core::plant::paper::{four_wheels, three_wheels};

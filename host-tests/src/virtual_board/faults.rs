@@ -36,6 +36,31 @@ pub enum InjectedFault {
         /// Which wheel
         motor: usize,
     },
+    /// Nothing moves the body: it stands against a wall, or is held by a hand.
+    Held,
+    /// A current amplifier tells the same code whatever flows.
+    StuckAmplifier {
+        /// Which motor
+        motor: usize,
+        /// Which of its phases
+        phase: usize,
+        /// What its converter reads
+        code: u16,
+    },
+    /// A current amplifier is connected the other way round.
+    TurnedAmplifier {
+        /// Which motor
+        motor: usize,
+        /// Which of its phases
+        phase: usize,
+    },
+    /// A phase of a motor is not connected.
+    OpenPhase {
+        /// Which motor
+        motor: usize,
+        /// Which of its phases
+        phase: usize,
+    },
     /// The zero of a converter is elsewhere.
     Offset {
         /// Which motor
@@ -51,7 +76,7 @@ pub enum InjectedFault {
 /// 10⁻⁸ rad/s. A dry friction would do for wheels that roll, but the plant spends it as if no wheel could slip.
 const HELD: f64 = 1.0e9;
 
-static CARD: Card = Card {
+const BLOCKED: Card = Card {
     id: "blocked_wheel",
     title: "Blocked wheel",
     summary: "Something has got between a wheel and the robot.",
@@ -69,6 +94,24 @@ static CARD: Card = Card {
     physics: Physics::PASSIVE,
 };
 
+/// Force and torque against a body that is held [N·s/m, N·m·s/rad].
+const HELD_BODY: f64 = 1.0e7;
+
+const HELD_STILL: Card = Card {
+    id: "held_body",
+    title: "Held body",
+    summary: "The robot stands against a wall.",
+    equation: "force → force − 10⁷ N·s/m·twist",
+    source: "a fault of the virtual board",
+    seams: &[Seam::Body],
+    scope: Scope::Robot,
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Driven, parity: Parity::Odd, order: None },
+    signature: "no wheel turns, whatever its current",
+    ..BLOCKED
+};
+
+static CARDS: [Card; 2] = [BLOCKED, HELD_STILL];
+
 /// What the plant of a board carries.
 #[derive(Clone, Copy, Debug)]
 pub enum OnBoard {
@@ -76,6 +119,8 @@ pub enum OnBoard {
     Effect(Effect<f64>),
     /// A wheel that does not turn: it may still be dragged over the floor.
     BlockedWheel,
+    /// A body that does not move: its wheels may still slip.
+    HeldBody,
 }
 
 macro_rules! passed_on {
@@ -94,14 +139,15 @@ impl EffectSet<f64> for OnBoard {
     fn card(&self) -> &'static Card {
         match self {
             OnBoard::Effect(effect) => effect.card(),
-            OnBoard::BlockedWheel => &CARD,
+            OnBoard::BlockedWheel => &CARDS[0],
+            OnBoard::HeldBody => &CARDS[1],
         }
     }
 
     fn start(&self) -> Option<Self::State> {
         match self {
             OnBoard::Effect(effect) => effect.start(),
-            OnBoard::BlockedWheel => None,
+            OnBoard::BlockedWheel | OnBoard::HeldBody => None,
         }
     }
 
@@ -109,13 +155,14 @@ impl EffectSet<f64> for OnBoard {
         match self {
             OnBoard::Effect(effect) => effect.settles_contact(),
             OnBoard::BlockedWheel => true,
+            OnBoard::HeldBody => false,
         }
     }
 
     fn needs(&self) -> Needs {
         match self {
             OnBoard::Effect(effect) => effect.needs(),
-            OnBoard::BlockedWheel => Needs::NOTHING,
+            OnBoard::BlockedWheel | OnBoard::HeldBody => Needs::NOTHING,
         }
     }
 
@@ -132,7 +179,6 @@ impl EffectSet<f64> for OnBoard {
         winding, Winding;
         shaft, Shaft;
         contact, Contact;
-        body, Body;
         sense, Sense;
     }
 
@@ -140,6 +186,20 @@ impl EffectSet<f64> for OnBoard {
         match self {
             OnBoard::Effect(effect) => effect.gear(s, at, x),
             OnBoard::BlockedWheel => x.damping += HELD,
+            OnBoard::HeldBody => {}
+        }
+    }
+
+    fn body(&self, s: &[Self::State], at: &EffectContext<f64>, x: &mut Body<f64>) {
+        match self {
+            OnBoard::Effect(effect) => effect.body(s, at, x),
+            OnBoard::BlockedWheel => {}
+            OnBoard::HeldBody => {
+                for (k, speed) in at.twist.to_array().into_iter().enumerate() {
+                    x.force[k] -= HELD_BODY * speed;
+                    x.rate[k][k] += HELD_BODY;
+                }
+            }
         }
     }
 

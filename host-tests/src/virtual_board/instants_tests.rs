@@ -1,6 +1,7 @@
 //! The firmware's turn of one motor that is held at 5,000 rad/s electrical, on a board with the instants of the chip and on
 //! boards that are half a period wrong.
 
+use super::super::machine::{Vector, phases};
 use super::*;
 use firmware::codes::PERIODS_PER_TICK;
 use firmware::motor_controller::{MotorController, MotorMeasurement};

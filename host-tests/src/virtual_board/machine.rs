@@ -4,6 +4,7 @@
 //! L·di/dt = v − R·i − j·ω·λ·e^{jθ}         i, v: space vectors in stator axes, their length that of a phase
 //! v = ⅔·(v_a + v_b·e^{j120°} + v_c·e^{j240°}),  v_x = d_x·U − V_l·sat(i_x/i₀)
 //! i(t) = v/R − E·e^{jωt} + (i(0) − v/R + E)·e^{−t·R/L},   E = j·ω·λ·e^{jθ(0)}/(R + j·ω·L)
+//! i ← ½·(i − i*·e^{j240°·x})     phase x is open: no current along its axis, and the rest as before
 //! ī_q = Im mean(i·e^{−jθ}),  DC-equivalent ī = √3/2·ī_q,  I_bus = Σ d_x·mean(i_x)
 //! ```
 //!
@@ -73,6 +74,8 @@ pub struct Machine {
     pub pole_pairs: f64,
     /// What the bridge takes.
     pub loss: Option<LegLoss>,
+    /// A phase (0 a, 1 b, 2 c) that is not connected.
+    pub open_phase: Option<usize>,
 }
 
 /// What the bridge does over a period.
@@ -129,6 +132,7 @@ impl Machine {
             flux: emf_constant / (3.0_f64.sqrt() * p),
             pole_pairs: p,
             loss: None,
+            open_phase: None,
         }
     }
 
@@ -185,9 +189,21 @@ impl Machine {
         let (turn, fade) = (Vector::new(0.0, w * dt), Vector::new(-dt * r / l, 0.0));
         // i(t) = v/R − E·e^{jωt} + (i(0) − v/R + E)·e^{−t·R/L}
         *current = settled - induced * turn.exp() + fading * fade.exp();
-        ConstantPiece {
+        let free = ConstantPiece {
             current: settled - induced * mean_exp(turn) + fading * mean_exp(fade),
             turning: (settled * mean_exp(-turn) - induced + fading * mean_exp(fade - turn)) * rotor.conj(),
+        };
+        let Some(open) = self.open_phase else { return free };
+        // the open terminal's voltage lies along the phase's axis: across it nothing changes
+        let mirror = Vector::from_polar(-1.0, 2.0 * TAU / 3.0 * open as f64);
+        // i ← ½·(i − i*·e^{j240°·x})
+        *current = (*current + mirror * current.conj()) * 0.5;
+        // mean(i*·e^{−jθ})
+        let mirrored = settled.conj() * mean_exp(-turn) - induced.conj() * mean_exp(-2.0 * turn)
+            + fading.conj() * mean_exp(fade - turn);
+        ConstantPiece {
+            current: (free.current + mirror * free.current.conj()) * 0.5,
+            turning: (free.turning + mirror * mirrored * rotor.conj()) * 0.5,
         }
     }
 }

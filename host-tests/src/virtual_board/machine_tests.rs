@@ -156,3 +156,38 @@ fn the_mean_of_an_exponential_is_the_same_on_both_sides_of_its_series() {
         assert!((at(1e-12) - 1.0).norm() < 1e-12 && at(0.0) == Vector::new(1.0, 0.0));
     }
 }
+
+#[test]
+fn a_machine_with_an_open_phase_is_the_circuit_of_the_other_two() {
+    // 2·L·di/dt = v_y − v_z − 2·R·i − (e_y − e_z), by small steps of the circuit itself
+    let (duties, magnet, dt) = ([0.7, 0.2, 0.5], RotorFlux { angle: 0.4, speed: 900.0 }, 50e-6);
+    for open in 0..3 {
+        let m = Machine { open_phase: Some(open), ..machine() };
+        let (y, z) = ((open + 1) % 3, (open + 2) % 3);
+        let legs = BridgeLegs { duties, bus: BUS, enabled: true };
+        let (mut current, mut outcome) = (Vector::default(), PeriodResult::default());
+        let (mut i, mut torque, mut drawn) = (0.0, 0.0, 0.0);
+        for k in 0..20 {
+            outcome = m.period(&mut current, &legs, magnet.after(f64::from(k) * dt), dt);
+            (torque, drawn) = (0.0, 0.0);
+            let steps = 2000;
+            for n in 0..steps {
+                let angle = magnet.after((f64::from(k) + (f64::from(n) + 0.5) / f64::from(steps)) * dt).angle;
+                // e_x = −ω·λ·sin(θ − 120°·x)
+                let of = |x: usize| -(angle - std::f64::consts::TAU / 3.0 * x as f64).sin();
+                let emf = 900.0 * m.flux * (of(y) - of(z));
+                let rate = ((duties[y] - duties[z]) * BUS - 2.0 * m.resistance * i - emf) / (2.0 * m.inductance);
+                let middle = i + 0.5 * rate * dt / f64::from(steps);
+                i += rate * dt / f64::from(steps);
+                // ī = √3/2·i_q, and the power of the back-EMF is 3/2·ω·λ·i_q
+                torque += 0.5 * 3.0_f64.sqrt() * middle * (of(y) - of(z)) * (2.0 / 3.0) / f64::from(steps);
+                drawn += (duties[y] - duties[z]) * middle / f64::from(steps);
+            }
+        }
+        let flows = phases(current);
+        assert!(flows[open].abs() < 1e-12 && (flows[y] + flows[z]).abs() < 1e-12, "{flows:?}");
+        // first-order steps of 25 ns
+        assert!((flows[y] - i).abs() < 1e-4 * i.abs().max(1.0), "{open}: {} {i}", flows[y]);
+        assert!((outcome.current - torque).abs() < 1e-3 && (outcome.bus_current - drawn).abs() < 1e-3, "{outcome:?}");
+    }
+}

@@ -20,6 +20,7 @@ pub mod faults;
 pub mod halls;
 pub mod instants;
 pub mod machine;
+mod motor;
 
 pub use board::{BoardSetup, Outputs, VirtualBoard};
 pub use faults::InjectedFault;

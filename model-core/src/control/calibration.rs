@@ -11,7 +11,7 @@
 //! |---|---|---|---|
 //! | n_i, n_U | [`AdcCode`] | 1 | what the converter reads, 0 ..= 4095 |
 //! | n₀ | `offset` | 1 | code of no current, with the fraction that its mean over many readings has |
-//! | A | [`Calibration::amps_per_count`] | A | phase current a count |
+//! | A | [`Calibration::amps_per_count`] | A | phase current a count; below zero where the code falls with the current |
 //! | V | [`Calibration::bus_volts_per_count`] | V | bus voltage a count |
 //! | p | [`Calibration::pole_pairs`] | 1 | electrical turns in a turn of the motor |
 //! | Δt | [`Calibration::period`] | s | from one turn of the current loop to the next |

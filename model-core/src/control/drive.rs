@@ -7,10 +7,12 @@
 //! edges and reference. While the reference rests, what the integral holds fades: it was friction, and that turns
 //! round.
 
+use crate::control::braking::BrakingBand;
 use crate::control::calibration::Calibration;
 use crate::control::compensation::Compensation;
 use crate::control::motion_controller::{Controller, Measurement, Memory, Output, Settings};
 use crate::control::observer::{HallReading, SpeedObserver, WheelEstimate};
+use crate::control::thermal::{Heat, ThermalLimit};
 use crate::geometry::frames::BodyTwist;
 use crate::link::block::{Block, ControlMode, Parameters};
 use crate::link::record::MOTORS;
@@ -56,11 +58,19 @@ pub struct WheeledDrive<const N: usize> {
     wheels: [WheelEstimate; N],
     /// Wanted speeds of the wheels in the turn before [rad/s]
     wanted: [f32; N],
+    thermal: ThermalLimit,
+    heat: [Heat; N],
+    over_voltage: f32,
+    /// n of four wheels; zeros of three
+    parity: [f32; N],
 }
 
 /// Acceleration that a robot stops with where nobody commands it, if its block allows less [m/s²]: at rest from 1 m/s after
 /// 0.4 s. A quarter of the weight, which every floor for robots holds.
 pub const STOP_ACCELERATION: f32 = 2.5;
+
+/// Share of a wheel in the parity of four below which the other three hardly tell its speed [1].
+const LEAST_PARITY: f32 = 0.1;
 
 /// Share of the integral that is left after a turn at rest [1]: half of it fades in 35 ms.
 const INTEGRAL_DECAY: f32 = 0.98;
@@ -72,15 +82,19 @@ impl RobotDrive {
     pub fn new(parameters: &Parameters, max_duty: f32, dt: f32) -> Self {
         match parameters {
             Parameters::Three(block) => RobotDrive::Three(WheeledDrive::new(block, max_duty, dt)),
-            Parameters::Four(block) => RobotDrive::Four(WheeledDrive::new(block, max_duty, dt)),
+            Parameters::Four(block) => {
+                let parity = block.robot.wheels.parity_vector();
+                RobotDrive::Four(WheeledDrive { parity, ..WheeledDrive::new(block, max_duty, dt) })
+            }
         }
     }
 
-    /// Goes on with the motion that another one was following, where it has as many wheels; their speeds begin anew.
+    /// Goes on with the motion that another one was following, and with the heat in its motors, where it has as many wheels;
+    /// their speeds begin anew.
     pub fn take_over(&mut self, old: &RobotDrive) {
         match (self, old) {
-            (RobotDrive::Three(new), RobotDrive::Three(old)) => new.memory = old.memory,
-            (RobotDrive::Four(new), RobotDrive::Four(old)) => new.memory = old.memory,
+            (RobotDrive::Three(new), RobotDrive::Three(old)) => (new.memory, new.heat) = (old.memory, old.heat),
+            (RobotDrive::Four(new), RobotDrive::Four(old)) => (new.memory, new.heat) = (old.memory, old.heat),
             _ => {}
         }
     }
@@ -160,6 +174,34 @@ impl RobotDrive {
         }
     }
 
+    /// A turn in which the motors' currents were these [A]: each one's largest current follows from how warm it is. True if
+    /// one of them is folded back.
+    #[inline(never)]
+    pub fn heat(&mut self, current: &[f32; MOTORS]) -> bool {
+        match self {
+            RobotDrive::Three(drive) => drive.heat(current),
+            RobotDrive::Four(drive) => drive.heat(current),
+        }
+    }
+
+    /// How fast each wheel turns by what the others do [rad/s], all as measured: of four wheels what a rigid motion of the
+    /// body makes of the other three, with sign; of three, or of those that are left, the fastest of the others.
+    #[inline(never)]
+    pub fn told_by_others(&self, measured: &[f32; MOTORS]) -> [f32; MOTORS] {
+        match self {
+            RobotDrive::Three(drive) => drive.told_by_others(measured),
+            RobotDrive::Four(drive) => drive.told_by_others(measured),
+        }
+    }
+
+    /// The bus voltage at rest, before anything was driven [V].
+    pub fn set_bus_at_rest(&mut self, bus: f32) {
+        match self {
+            RobotDrive::Three(drive) => drive.set_bus_at_rest(bus),
+            RobotDrive::Four(drive) => drive.set_bus_at_rest(bus),
+        }
+    }
+
     /// One bit a motor that the robot has.
     pub fn motors(&self) -> u8 {
         match self {
@@ -181,6 +223,7 @@ impl<const N: usize> WheeledDrive<N> {
             compensation,
             acceleration: block.limits.acceleration,
             current_limit: block.limits.current,
+            braking: BrakingBand::new(block.limits.over_voltage, block.robot.supply),
             max_duty,
             feedback: block.feedback,
             feedback_integral: block.feedback_integral,
@@ -199,6 +242,10 @@ impl<const N: usize> WheeledDrive<N> {
             observer: SpeedObserver::new(calibration.edge_angle(block.robot.motor.gear_ratio), dt, calibration.period),
             wheels: [WheelEstimate::default(); N],
             wanted: [0.0; N],
+            thermal: ThermalLimit::new(block.limits.current, block.continuous_current, block.heating_time, dt),
+            heat: [Heat::default(); N],
+            over_voltage: block.limits.over_voltage,
+            parity: [0.0; N],
         }
     }
 
@@ -216,6 +263,35 @@ impl<const N: usize> WheeledDrive<N> {
             self.settings.working = working;
             self.controller = Controller::new(&self.settings);
         }
+    }
+
+    fn heat(&mut self, current: &[f32; MOTORS]) -> bool {
+        let limits: [f32; N] = core::array::from_fn(|j| self.thermal.turn(&mut self.heat[j], current[j]));
+        self.controller.limit_currents(limits);
+        limits.iter().any(|limit| self.thermal.folds_back(*limit))
+    }
+
+    fn told_by_others(&self, measured: &[f32; MOTORS]) -> [f32; MOTORS] {
+        let wheels = self.settings.robot.wheels.wheels();
+        let working = &self.settings.working;
+        // n·v
+        let parity = (0..N).fold(0.0, |sum, j| sum + self.parity[j] * wheels[j].radius * measured[j]);
+        let mut told = [0.0; MOTORS];
+        for j in 0..N {
+            told[j] = if working.iter().all(|works| *works) && self.parity[j].abs() > LEAST_PARITY {
+                // n·v = 0 for ω_j′ = ω_j − n·v/(n_j·r_j)
+                measured[j] - parity / (self.parity[j] * wheels[j].radius)
+            } else {
+                let others = (0..N).filter(|k| *k != j && working[*k]);
+                others.fold(0.0, |fastest: f32, k| fastest.max(measured[k].abs()))
+            };
+        }
+        told
+    }
+
+    fn set_bus_at_rest(&mut self, bus: f32) {
+        self.settings.braking = BrakingBand::new(self.over_voltage, bus);
+        self.controller.set_braking(self.settings.braking);
     }
 
     fn stop_hard(&mut self, stops: bool) {
@@ -277,3 +353,7 @@ fn stop_acceleration<const N: usize>(block: &Block<N>) -> [f32; 3] {
     let stop = [STOP_ACCELERATION, STOP_ACCELERATION, STOP_ACCELERATION / outermost];
     core::array::from_fn(|k| stop[k].max(block.limits.acceleration[k]))
 }
+
+#[cfg(test)]
+#[path = "drive_tests.rs"]
+mod tests;

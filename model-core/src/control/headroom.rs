@@ -3,9 +3,10 @@
 //! ```text
 //! i_j = p_j + s·q_j                                 p the steady part, q what accelerates
 //! u_j = R_j·i_j + e_j                               e the back-EMF
-//! |i_j| ≤ I,  |u_j| ≤ U   for all j
+//! |i_j| ≤ I_j,  |u_j| ≤ U   for all j
+//! |i_j| ≤ b·|p_j + q_j|     where it brakes, i_j·ω_j < 0
 //! s = min_j (L − sign(q_j)·p_j)/|q_j|               over currents and voltages, held within 0 … 1
-//! k_i = min(1, I/max_j|i_j|),  i_j ← k_i·i_j        only where s alone does not do it
+//! k_i = min(1, min_j I_j/|i_j|),  i_j ← k_i·i_j     only where s alone does not do it
 //! k_u = min(1, U/max_j|u_j|),  u_j ← k_u·u_j,  i_j = (u_j − e_j)/R_j
 //! ```
 //!
@@ -14,8 +15,10 @@
 //! | p | [`SplitDemand::steady`] | A | current of each wheel that holds the motion: friction, feedback, effects |
 //! | q | [`SplitDemand::accelerating`] | A | current of each wheel that changes the motion |
 //! | e | [`SplitDemand::emf`] | V | voltage of each wheel that its speed takes |
+//! | ω | [`SplitDemand::speed`] | rad/s | of each wheel as it is measured; its sign tells what brakes
 //! | R | [`SplitDemand::resistance`] | Ω | of each winding |
-//! | I | [`MotorLimits::current`] | A | most current in a motor |
+//! | I | [`MotorLimits::current`] | A | most current in each motor |
+//! | b | [`MotorLimits::braking`] | 1 | share of a braking current that the supply takes ([`braking`](crate::control::braking)) |
 //! | U | [`MotorLimits::voltage`] | V | most voltage across a motor: bus voltage times the largest duty |
 //! | s | [`Scaling::acceleration`] | 1 | how much of the acceleration fits |
 //! | k | [`Scaling::steady`] | 1 | k_i·k_u, how much of the steady part fits |
@@ -23,7 +26,8 @@
 //! Clipping each wheel by itself turns the robot aside: the wheel that is short pushes less than the others count on. One
 //! factor for all wheels keeps the direction of the body's acceleration, because currents and body force are in a linear
 //! relation. What accelerates gives way first: a robot at its top speed stops accelerating and holds its course. Only where
-//! even holding is too much (the bus sags, something blocks the wheels) is the whole wish scaled, motion and all.
+//! even holding is too much (the bus sags, something blocks the wheels) is the whole wish scaled, motion and all. A braking
+//! that the supply does not take is left out wheel by wheel instead: to shrink the motion would ask for more of it.
 //!
 //! Closed form, three looks at each wheel at most. Voltages always fit. Currents fit too, but where the bus has fallen so
 //! far below the back-EMF that the bridge cannot but let a braking current through.
@@ -35,9 +39,13 @@ use crate::number::scalar::Real;
 
 /// What a motor may be asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MotorLimits<T = f32> {
-    /// I, most current either way [A]
-    pub current: T,
+pub struct MotorLimits<'a, const N: usize, T = f32> {
+    /// I, most current of each motor either way [A]
+    pub current: &'a [T; N],
+    /// The least of them [A]
+    pub least_current: T,
+    /// b, share of a braking current that may flow, 0 … 1 [1]
+    pub braking: T,
     /// U, most voltage either way [V]
     pub voltage: T,
 }
@@ -51,6 +59,8 @@ pub struct SplitDemand<const N: usize, T = f32> {
     pub accelerating: [T; N],
     /// e, back-EMF [V]
     pub emf: [T; N],
+    /// ω̂, measured [rad/s]
+    pub speed: [T; N],
     /// R [Ω]
     pub resistance: [T; N],
 }
@@ -75,12 +85,12 @@ pub struct LimitedDemand<const N: usize, T = f32> {
     pub scaling: Scaling<T>,
 }
 
-impl<T: Real> MotorLimits<T> {
-    /// True if no current and no voltage is beyond its limit.
+impl<const N: usize, T: Real> MotorLimits<'_, N, T> {
+    /// True if no current is beyond the least of the limits and no voltage beyond its own; braking is not looked at.
     #[inline(always)]
-    pub fn admits<const N: usize>(&self, current: &[T; N], voltage: &[T; N]) -> bool {
+    pub fn admits(&self, current: &[T; N], voltage: &[T; N]) -> bool {
         for j in 0..N {
-            if current[j].exceeds(self.current) || voltage[j].exceeds(self.voltage) {
+            if current[j].exceeds(self.least_current) || voltage[j].exceeds(self.voltage) {
                 return false;
             }
         }
@@ -88,12 +98,15 @@ impl<T: Real> MotorLimits<T> {
     }
 
     /// As much of a wish as there is room for.
-    pub fn limit<const N: usize>(&self, demand: &SplitDemand<N, T>) -> LimitedDemand<N, T> {
+    pub fn limit(&self, demand: &SplitDemand<N, T>) -> LimitedDemand<N, T> {
         let (zero, one) = (T::zero(), T::one());
-        let SplitDemand { steady, accelerating, emf, resistance } = demand;
+        let SplitDemand { steady, accelerating, emf, speed, resistance } = demand;
         let mut s = one;
         for j in 0..N {
-            s = s.min(largest_factor(steady[j], accelerating[j], self.current));
+            let wanted = steady[j] + accelerating[j];
+            let brakes = wanted * speed[j] < zero && accelerating[j] * speed[j] < zero;
+            let most = if brakes { self.braking_of(wanted, j) } else { self.current[j] };
+            s = s.min(largest_factor(steady[j], accelerating[j], most));
             // u = R·(p + s·q) + e
             s = s.min(largest_factor(
                 resistance[j] * steady[j] + emf[j],
@@ -103,9 +116,14 @@ impl<T: Real> MotorLimits<T> {
         }
         let s = s.max(zero);
         let wanted: [T; N] = core::array::from_fn(|j| steady[j] + s * accelerating[j]);
-        // k_i = min(1, I/max|i|)
-        let by_current = factor_within(&wanted, self.current);
-        let wanted: [T; N] = core::array::from_fn(|j| resistance[j] * (by_current * wanted[j]) + emf[j]);
+        // k_i = min(1, min I/|i|)
+        let by_current = (0..N).fold(one, |most, j| most.min(factor_within(&[wanted[j]], self.current[j])));
+        let wanted: [T; N] = core::array::from_fn(|j| {
+            let held = by_current * wanted[j];
+            let braking = self.braking_of(steady[j].abs().max((steady[j] + accelerating[j]).abs()), j);
+            let held = if held * speed[j] < zero { held.clamp(-braking, braking) } else { held };
+            resistance[j] * held + emf[j]
+        });
         // k_u = min(1, U/max|u|)
         let by_voltage = factor_within(&wanted, self.voltage);
         // the limit itself, where rounding would go beyond it
@@ -113,6 +131,13 @@ impl<T: Real> MotorLimits<T> {
         // i = (u − e)/R
         let current = core::array::from_fn(|j| (voltage[j] - emf[j]) / resistance[j]);
         LimitedDemand { current, voltage, scaling: Scaling { acceleration: s, steady: by_current * by_voltage } }
+    }
+
+    /// The most that motor `j` may brake with [A], of the current that is wanted for it [A].
+    #[inline]
+    fn braking_of(&self, wanted: T, j: usize) -> T {
+        // |i| ≤ b·|p + q|
+        if self.braking < T::one() { self.braking * wanted.abs().min(self.current[j]) } else { self.current[j] }
     }
 }
 
@@ -136,10 +161,11 @@ fn factor_within<const N: usize, T: Real>(x: &[T; N], limit: T) -> T {
 mod tests {
     use super::*;
 
-    const LIMITS: MotorLimits<f64> = MotorLimits { current: 3.0, voltage: 10.0 };
+    const LIMITS: MotorLimits<'_, 2, f64> =
+        MotorLimits { current: &[3.0; 2], least_current: 3.0, braking: 1.0, voltage: 10.0 };
 
     fn demand(steady: [f64; 2], accelerating: [f64; 2], emf: [f64; 2]) -> SplitDemand<2, f64> {
-        SplitDemand { steady, accelerating, emf, resistance: [2.0, 2.0] }
+        SplitDemand { steady, accelerating, emf, speed: emf, resistance: [2.0, 2.0] }
     }
 
     #[test]
@@ -158,6 +184,36 @@ mod tests {
         // and the current may be the shorter one
         let limited = LIMITS.limit(&demand([1.0, 0.0], [4.0, -1.0], [0.0, 0.0]));
         assert_eq!(limited.scaling, Scaling { acceleration: 0.5, steady: 1.0 });
+    }
+
+    #[test]
+    fn a_motor_that_is_folded_back_scales_all_and_keeps_the_direction() {
+        let warm = MotorLimits { current: &[3.0, 0.5], ..LIMITS };
+        let limited = warm.limit(&demand([0.0, 0.0], [2.0, -1.0], [0.0, 0.0]));
+        assert_eq!((limited.current, limited.scaling.acceleration), ([1.0, -0.5], 0.5));
+        // holding alone is too much for it
+        let limited = warm.limit(&demand([2.0, -1.0], [0.0, 0.0], [0.0, 0.0]));
+        assert_eq!((limited.current, limited.scaling.steady), ([1.0, -0.5], 0.5));
+    }
+
+    #[test]
+    fn a_supply_that_takes_a_share_leaves_that_share_of_the_braking_and_all_of_the_rest() {
+        let full = |b: f64| MotorLimits { braking: b, ..LIMITS };
+        // friction asks for 0.2 A, to slow down takes −1.2 A: −1 A in all
+        let slowing = demand([0.2, 0.0], [-1.2, 0.0], [6.0, 0.0]);
+        let limited = full(0.25).limit(&slowing);
+        assert!((limited.current[0] + 0.25).abs() < 1e-12, "{limited:?}");
+        assert!((limited.scaling.acceleration - 0.45 / 1.2).abs() < 1e-12 && limited.scaling.steady == 1.0);
+        // nothing is taken: the robot rolls, and friction slows it down as it does
+        assert!(full(0.0).limit(&slowing).current[0].abs() < 1e-12);
+        // a motor that speeds up is free, in either direction
+        for emf in [6.0_f64, -6.0] {
+            let speeding = demand([0.0, 0.0], [emf.signum(), 0.0], [emf, 0.0]);
+            assert_eq!(full(0.0).limit(&speeding).scaling.acceleration, 1.0);
+        }
+        // feedback alone that brakes is left out, and shrinks nothing else
+        let limited = full(0.0).limit(&demand([-0.5, 0.5], [0.0, 0.0], [6.0, 6.0]));
+        assert_eq!((limited.current, limited.scaling.steady), ([0.0, 0.5], 1.0));
     }
 
     #[test]
@@ -188,7 +244,7 @@ mod tests {
     #[test]
     fn an_infinite_room_grants_everything_and_none_grants_nothing() {
         let much = demand([1e9, -1e9], [1e9, 1.0], [1e9, 0.0]);
-        let infinite = MotorLimits { current: f64::INFINITY, voltage: f64::INFINITY };
+        let infinite = MotorLimits { current: &[f64::INFINITY; 2], voltage: f64::INFINITY, ..LIMITS };
         assert_eq!(infinite.limit(&much).scaling, Scaling { acceleration: 1.0, steady: 1.0 });
         let none = MotorLimits { voltage: 0.0, ..LIMITS }.limit(&much);
         assert_eq!(none.voltage, [0.0, 0.0]);

@@ -21,6 +21,10 @@ pub mod observer;
 
 pub mod reference;
 
+pub mod thermal;
+
+pub mod braking;
+
 pub mod headroom;
 
 pub mod compensation;

@@ -47,6 +47,7 @@ mod terms;
 
 use core::array;
 
+use crate::control::braking::BrakingBand;
 use crate::control::compensation::Compensation;
 use crate::control::headroom::{MotorLimits, SplitDemand};
 use crate::control::reference::AccelerationLimiter;
@@ -70,6 +71,8 @@ pub struct Settings<const N: usize, T = f32> {
     pub acceleration: [T; 3],
     /// Most current in a motor [A]
     pub current_limit: T,
+    /// What the supply leaves of braking currents.
+    pub braking: BrakingBand<T>,
     /// Largest part of the bus voltage that a motor may get, 0 … 1 [1]
     pub max_duty: T,
     /// k_p, current per error of a wheel's speed [A/(rad/s)]
@@ -157,7 +160,10 @@ pub struct Controller<const N: usize, T = f32> {
     gain: T,
     /// l·K_t·k_i·Δt [N·m/(rad/s)]
     integral_gain: T,
-    current_limit: T,
+    /// I of each motor now, and the least of them [A]
+    current_limit: [T; N],
+    least_current: T,
+    braking: BrakingBand<T>,
     max_duty: T,
     /// R [Ω]
     resistance: T,
@@ -224,6 +230,9 @@ impl<const N: usize, T: Real> Controller<N, T> {
         measured: &Measurement<N, T>,
         want: BodyTwist<T>,
     ) -> Option<Output<N, T>> {
+        if !self.braking.is_free(measured.bus) {
+            return None;
+        }
         let x = memory.reference;
         let change = self.limiter.change(x, want);
         // x⁺ = x + δ
@@ -314,10 +323,12 @@ impl<const N: usize, T: Real> Controller<N, T> {
 
     /// What the motors may be asked for in this turn.
     #[inline(always)]
-    fn limits<const COMPENSATE: bool>(&self, measured: &Measurement<N, T>) -> MotorLimits<T> {
+    fn limits<const COMPENSATE: bool>(&self, measured: &Measurement<N, T>) -> MotorLimits<'_, N, T> {
         let most = measured.bus * self.max_duty;
         MotorLimits {
-            current: self.current_limit,
+            current: &self.current_limit,
+            least_current: self.least_current,
+            braking: self.braking.share(measured.bus),
             voltage: if COMPENSATE { most - self.compensation.kept } else { most },
         }
     }
@@ -343,6 +354,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
             steady: array::from_fn(|j| demand.current[j] - accelerating[j]),
             accelerating,
             emf: array::from_fn(|j| self.winding::<true>(j).1 * wheel_speed[j]),
+            speed: measured.wheel_speed,
             resistance: array::from_fn(|j| self.winding::<true>(j).0),
         });
         let (mut current, mut voltage) = (limited.current, limited.voltage);

@@ -10,7 +10,8 @@
 //! · l, R, K_v, K_t, L, M, J, B_v, B_vn, B_ω, C_v, C_vn, C_ω, supply f32
 //! · limits: current, speed, acceleration along v and vn, about the vertical axis, lowest and highest bus voltage f32
 //! · feedback of wheel speeds, of wheel angles, bandwidth of the currents f32
-//! · current of one count, bus voltage of one count f32
+//! · current of one count (below zero where the code falls with the current), bus voltage of one count f32
+//! · linear range of the current amplifiers, continuous current of a motor, its thermal time constant f32
 //! · effects u8 × (code u8 · wheel u8, 0xff where on all · its card's parameters f32)
 //! · CRC-32 of all before (ISO HDLC)
 //! ```
@@ -32,13 +33,13 @@ mod effects;
 mod error;
 mod limits;
 
-pub use bounds::{BoundedField, USABLE_COUNTS};
+pub use bounds::{BoundedField, MAX_TRIP_COUNTS, TRIP_OVER_LIMIT, USABLE_COUNTS, trip_current};
 pub use effects::{BlockEffect, BlockEffects, EFFECT_CODES, EffectCode};
 pub use error::{BlockError, BlockErrorKind};
 pub use limits::Limits;
 
 /// Version of the form that this program writes and the newest that it reads.
-pub const VERSION: u16 = 2;
+pub const VERSION: u16 = 3;
 
 /// Room that is enough for every block.
 pub const MAX_BYTES: usize = 1024;
@@ -85,10 +86,16 @@ pub struct Block<const N: usize> {
     pub feedback_integral: f32,
     /// Bandwidth of the currents' loop [rad/s]
     pub bandwidth: f32,
-    /// Phase current of one count [A]
+    /// Phase current of one count; below zero where the code falls while the current into the motor rises [A]
     pub amps_per_count: f32,
     /// Bus voltage of one count [V]
     pub bus_volts_per_count: f32,
+    /// Phase current either way up to which the amplifiers are straight [A]
+    pub linear_range: f32,
+    /// I_c, current that a motor bears for ever ([`crate::control::thermal`]) [A]
+    pub continuous_current: f32,
+    /// τ, thermal time constant of a motor's winding [s]
+    pub heating_time: f32,
     /// Effects that the robot should undo.
     pub effects: BlockEffects,
 }
@@ -116,6 +123,9 @@ impl<const N: usize> Default for Block<N> {
             bandwidth: 0.0,
             amps_per_count: 0.0,
             bus_volts_per_count: 0.0,
+            linear_range: 0.0,
+            continuous_current: 0.0,
+            heating_time: 0.0,
             effects: BlockEffects::default(),
         }
     }
@@ -167,6 +177,9 @@ impl<const N: usize> Block<N> {
             &mut self.bandwidth,
             &mut self.amps_per_count,
             &mut self.bus_volts_per_count,
+            &mut self.linear_range,
+            &mut self.continuous_current,
+            &mut self.heating_time,
         ]
     }
 
@@ -189,6 +202,7 @@ impl<const N: usize> Block<N> {
             return Err(BlockError::because(BlockErrorKind::Wheels, "drive_angle_deg"));
         }
         bounds::check_limits(self.robot.supply, &self.limits, self.amps_per_count, self.bus_volts_per_count)?;
+        bounds::check_currents(self.limits.current, self.amps_per_count, self.linear_range, self.continuous_current)?;
         self.effects.check(N)
     }
 

@@ -17,12 +17,14 @@ pub enum Event {
     Cleared,
     /// No command came in time: the robot brakes, or has come to rest and opened its bridges.
     Silent,
+    /// A motor is warm: its largest current is folded back towards its continuous one.
+    FoldBack,
 }
 
 impl Event {
     /// All of them, in the order of their bits.
-    pub const ALL: [Event; 5] =
-        [Event::Parameters, Event::Saturated, Event::WheelLost, Event::Cleared, Event::Silent];
+    pub const ALL: [Event; 6] =
+        [Event::Parameters, Event::Saturated, Event::WheelLost, Event::Cleared, Event::Silent, Event::FoldBack];
 
     /// Its bit in [`Events`].
     pub const fn bit(self) -> u8 {
@@ -36,6 +38,7 @@ impl Event {
             Event::Saturated => "the voltage or a current has no room for all that is wanted",
             Event::WheelLost => "a wheel is out of use",
             Event::Cleared => "faults were cleared",
+            Event::FoldBack => "a motor is warm: its current is held towards what it bears for ever",
             Event::Silent => "no command comes: the robot brakes to rest and opens its bridges",
         }
     }

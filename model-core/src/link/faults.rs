@@ -15,7 +15,7 @@ pub enum Fault {
     UnderVoltage,
     /// A hall code that does not exist, or one that skips a sector.
     HallCode,
-    /// A motor stands at full current.
+    /// A wheel does not turn where it must.
     Stall,
     /// A gate driver reports a fault.
     DriverLine,
@@ -73,7 +73,7 @@ impl Fault {
             Fault::OverVoltage => "the bus voltage was above its limit",
             Fault::UnderVoltage => "the bus voltage was below its limit",
             Fault::HallCode => "a hall sensor gave a code that does not exist or cannot follow",
-            Fault::Stall => "a motor stood still at full current",
+            Fault::Stall => "a wheel did not turn though the others did, or though it was to get current",
             Fault::DriverLine => "a gate driver reported a fault",
             Fault::OffsetCalibration => "the zero of a current sensor is too far from the middle",
             Fault::CommandSilent => "no command came in time",

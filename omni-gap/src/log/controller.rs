@@ -17,8 +17,11 @@
 //! acceleration_w_rad_s2 = 30.0
 //! under_voltage_V = 9.0            # the bridges open below; default 3/4 of [supply] voltage_V
 //! over_voltage_V = 15.0            # and above; default 5/4 of it
-//! amps_per_count = 0.0049          # phase current of one count of the converter
+//! amps_per_count = 0.0049          # phase current of one count of the converter; below zero where the code falls with it
 //! bus_volts_per_count = 0.00886    # supply voltage of one count
+//! linear_range_A = 9.4             # phase current up to which the amplifiers are straight; the trip has to lie within
+//! continuous_current_A = 2.0       # what a motor bears for ever; default half of [limits] current_A
+//! heating_time_s = 10.0            # thermal time constant of its winding
 //! ```
 
 use super::toml_walk::Section;
@@ -53,8 +56,15 @@ pub struct ControllerFile {
     /// None: five quarters of the supply.
     #[serde(rename = "over_voltage_V")]
     pub over_voltage_v: Option<f64>,
+    /// Below zero where the code falls while the current rises.
     pub amps_per_count: f64,
     pub bus_volts_per_count: f64,
+    #[serde(rename = "linear_range_A")]
+    pub linear_range_a: f64,
+    /// None: half of the largest current.
+    #[serde(rename = "continuous_current_A")]
+    pub continuous_current_a: Option<f64>,
+    pub heating_time_s: f64,
 }
 
 impl Default for ControllerFile {
@@ -75,11 +85,14 @@ impl Default for ControllerFile {
             over_voltage_v: None,
             amps_per_count: 0.0049,
             bus_volts_per_count: 0.00886,
+            linear_range_a: 9.4,
+            continuous_current_a: None,
+            heating_time_s: 10.0,
         }
     }
 }
 
-const KEYS: [&str; 15] = [
+const KEYS: [&str; 18] = [
     "mode",
     "feedforward",
     "commutation",
@@ -95,6 +108,9 @@ const KEYS: [&str; 15] = [
     "over_voltage_V",
     "amps_per_count",
     "bus_volts_per_count",
+    "linear_range_A",
+    "continuous_current_A",
+    "heating_time_s",
 ];
 
 pub(super) fn controller(s: &Section) -> Result<ControllerFile> {
@@ -124,9 +140,18 @@ pub(super) fn controller(s: &Section) -> Result<ControllerFile> {
         acceleration_w_rad_s2: positive("acceleration_w_rad_s2", default.acceleration_w_rad_s2)?,
         under_voltage_v: perhaps("under_voltage_V")?,
         over_voltage_v: perhaps("over_voltage_V")?,
-        amps_per_count: positive("amps_per_count", default.amps_per_count)?,
+        amps_per_count: amps_per_count(s, default.amps_per_count)?,
         bus_volts_per_count: positive("bus_volts_per_count", default.bus_volts_per_count)?,
+        linear_range_a: positive("linear_range_A", default.linear_range_a)?,
+        continuous_current_a: perhaps("continuous_current_A")?,
+        heating_time_s: positive("heating_time_s", default.heating_time_s)?,
     })
+}
+
+/// A number of either sign, but not zero.
+fn amps_per_count(s: &Section, default: f64) -> Result<f64> {
+    let amps = s.number("amps_per_count")?.unwrap_or(default);
+    s.checked("amps_per_count", amps, amps != 0.0, "a number above zero, or below where the code falls")
 }
 
 /// Whether the second of two words stands there.

@@ -7,7 +7,7 @@ use model_core::effects::EffectKind;
 use model_core::geometry::kinematics::{Wheel, Wheels};
 use model_core::link::block::{
     Block, BlockEffect, BlockEffects, BlockError, BoundedField, ControlMode, EffectCode, Limits, MAX_BYTES,
-    USABLE_COUNTS, checksum,
+    MAX_TRIP_COUNTS, TRIP_OVER_LIMIT, USABLE_COUNTS, checksum,
 };
 use model_core::link::hello::Commutation;
 
@@ -38,6 +38,9 @@ const SUPPLY_BAND: (f64, f64) = (0.75, 1.25);
 /// Share of the converter's usable range that a limit of current takes, where the file states none [1]
 const RANGE_SHARE: f64 = 0.95;
 
+/// Share of the largest current that a motor bears for ever, where the file states none [1]
+const CONTINUOUS: f32 = 0.5;
+
 /// The fastest limit of speed that is taken where the file states none [m/s]
 const USUAL_FASTEST: f64 = 5.0;
 
@@ -58,7 +61,14 @@ fn export_of<const N: usize>(file: &RobotFile, path: &Path) -> Result<Exported> 
         return Err(Error::input(path, problem, "Add [supply] with voltage_V").of_kind(InputKind::Missing));
     };
     let controller = file.controller.unwrap_or_default();
-    let (limits, taken) = limits(file, &controller, supply);
+    let (limits, mut taken) = limits(file, &controller, supply);
+    let continuous_current = controller.continuous_current_a.map_or_else(
+        || {
+            taken.push("continuous_current_A");
+            CONTINUOUS * limits.current
+        },
+        |stated| stated as f32,
+    );
     let mut robot = robot_of::<N, f32>(file, supply);
     robot.wheels = Wheels::new(std::array::from_fn(|j| {
         let wheel = &file.wheel[j];
@@ -78,6 +88,9 @@ fn export_of<const N: usize>(file: &RobotFile, path: &Path) -> Result<Exported> 
         bandwidth: controller.bandwidth_rad_s as f32,
         amps_per_count: controller.amps_per_count as f32,
         bus_volts_per_count: controller.bus_volts_per_count as f32,
+        linear_range: controller.linear_range_a as f32,
+        continuous_current,
+        heating_time: controller.heating_time_s as f32,
         effects: BlockEffects::default(),
     };
     let (undone, left) = effects_of(file, path, &mut block)?;
@@ -98,9 +111,14 @@ fn limits(file: &RobotFile, controller: &ControllerFile, supply: f64) -> (Limits
         }
         stated.unwrap_or(usual) as f32
     };
-    // a motor held still draws V/R; the converter must be able to tell
-    let held_still =
-        (supply / file.motor.resistance_ohm).min(RANGE_SHARE * f64::from(USABLE_COUNTS) * controller.amps_per_count);
+    // a motor held still draws V/R; the converter must be able to tell, and the amplifier to follow to the trip
+    let converter = f64::from(USABLE_COUNTS) * controller.amps_per_count.abs();
+    let amplifier = if f64::from(MAX_TRIP_COUNTS) * controller.amps_per_count.abs() > controller.linear_range_a {
+        controller.linear_range_a / f64::from(TRIP_OVER_LIMIT)
+    } else {
+        f64::INFINITY
+    };
+    let held_still = (supply / file.motor.resistance_ohm).min(RANGE_SHARE * converter.min(amplifier));
     // with nothing to drive, v = r·V/(l·K_v)
     let slowest = file.wheel.iter().map(|wheel| wheel.radius_m).fold(f64::INFINITY, f64::min);
     let idle = (slowest * supply / file.volts_per_wheel_speed()).min(USUAL_FASTEST);
@@ -219,5 +237,21 @@ mod tests {
         assert!(told.contains("does not state the supply") && told.contains("Add [supply]"), "{told}");
         let told = exported(&format!("{FOUR}\n[controller]\namps_per_count = 0.0001\n[limits]\ncurrent_A = 3\n"));
         assert!(told.unwrap_err().to_string().contains("column `current_A`"));
+    }
+
+    #[test]
+    fn amplifiers_that_fall_and_bend_are_taken_as_they_are() {
+        // those of a DRV8316 at 0.15 V/A: straight up to 9.3 A, the code falls with the current into the motor
+        let strong = FOUR.replace("resistance_ohm = 4.3111", "resistance_ohm = 0.2");
+        let board = format!("{strong}\n[controller]\namps_per_count = -0.00537\nlinear_range_A = 9.3\n");
+        let told = exported(&board).unwrap();
+        let Ok(Parameters::Four(block)) = Parameters::decode(&told.bytes) else { panic!("four") };
+        assert_eq!((block.amps_per_count, block.linear_range), (-0.00537, 9.3));
+        assert!(1.6 * told.limits.current < 9.3 && block.continuous_current == 0.5 * told.limits.current);
+        assert!(told.taken.contains(&"continuous_current_A"));
+        let told = exported(&format!("{board}[limits]\ncurrent_A = 6\n")).unwrap_err().to_string();
+        assert!(told.contains("`current_A`: found 6, expected 0 to 5.8"), "{told}");
+        let told = exported(&format!("{FOUR}\n[controller]\namps_per_count = 0\n")).unwrap_err().to_string();
+        assert!(told.contains("found 0, expected a number above zero, or below"), "{told}");
     }
 }

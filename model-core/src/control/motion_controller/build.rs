@@ -2,6 +2,7 @@
 
 use super::terms::{self, CompensationTerms};
 use super::{Controller, Settings, WheelMap};
+use crate::control::braking::BrakingBand;
 use crate::control::compensation::Compensation;
 use crate::control::reference::AccelerationLimiter;
 use crate::effects::EffectSet;
@@ -107,7 +108,9 @@ impl<const N: usize, T: Real> Controller<N, T> {
             coulomb: robot.friction.coulomb.map(|c| on * c),
             gain: kt * settings.feedback,
             integral_gain: kt * settings.feedback_integral * dt,
-            current_limit: settings.current_limit,
+            current_limit: [settings.current_limit; N],
+            least_current: settings.current_limit,
+            braking: settings.braking,
             max_duty: settings.max_duty,
             resistance: robot.motor.resistance,
             emf: robot.motor.wheel_emf_constant() * on,
@@ -127,6 +130,17 @@ impl<const N: usize, T: Real> Controller<N, T> {
                 spin,
             },
         }
+    }
+
+    /// From now on braking currents fade so.
+    pub fn set_braking(&mut self, braking: BrakingBand<T>) {
+        self.braking = braking;
+    }
+
+    /// From now on no motor is asked for more than this [A].
+    pub fn limit_currents(&mut self, most: [T; N]) {
+        self.current_limit = most;
+        self.least_current = most.iter().fold(most[0], |least, limit| least.min(*limit));
     }
 
     /// True if the robot can move with the wheels that work.

@@ -28,6 +28,7 @@ pub(super) fn settings<const N: usize, T: Real>(robot: Robot<N, T>) -> Settings<
         compensation: Compensation::none(),
         acceleration: [T::lit(3.0), T::lit(3.0), T::lit(20.0)],
         current_limit: T::lit(8.0),
+        braking: BrakingBand::unlimited(),
         max_duty: T::lit(0.95),
         feedback: T::zero(),
         feedback_integral: T::zero(),

@@ -13,10 +13,12 @@ pub struct BoundedField {
     pub key: &'static str,
     /// The least and the most that it may be.
     pub within: (f32, f32),
+    /// True if its sign is free, and its size is held to the bounds.
+    pub either_sign: bool,
 }
 
 const fn field(key: &'static str, low: f32, high: f32) -> BoundedField {
-    BoundedField { key, within: (low, high) }
+    BoundedField { key, within: (low, high), either_sign: false }
 }
 
 /// The bounds that a nominal parameter's card says.
@@ -30,7 +32,7 @@ pub const WHEEL: [BoundedField; 3] =
     [field("drive_angle_deg", -TAU, TAU), nominal(Nominal::CenterDistance), nominal(Nominal::WheelRadius)];
 
 /// Of the robot, in the order of the form.
-pub const SCALARS: [BoundedField; 26] = [
+pub const SCALARS: [BoundedField; 29] = [
     field("gear_ratio", 0.1, 1000.0),
     nominal(Nominal::Resistance),
     nominal(Nominal::TorqueConstant),
@@ -55,8 +57,11 @@ pub const SCALARS: [BoundedField; 26] = [
     field("feedback_A_s_per_rad", 0.0, 100.0),
     field("feedback_A_per_rad", 0.0, 1000.0),
     field("bandwidth_rad_s", 10.0, 20_000.0),
-    field("amps_per_count", 1e-5, 1.0),
+    BoundedField { either_sign: true, ..field("amps_per_count", 1e-5, 1.0) },
     field("bus_volts_per_count", 1e-4, 1.0),
+    field("linear_range_A", 0.05, 400.0),
+    field("continuous_current_A", 0.01, 200.0),
+    field("heating_time_s", 0.1, 3600.0),
 ];
 
 /// Of the motor.
@@ -66,17 +71,25 @@ pub const POLE_PAIRS: BoundedField = field("pole_pairs", 1.0, 50.0);
 /// the phases' crest, which so stays below 1733; from there to 1887 the bridges can be opened, and the rest is for zeros.
 pub const USABLE_COUNTS: f32 = 1500.0;
 
+/// Phase current over the current limit at which the bridges open [1]: regulation overshoots less.
+pub const TRIP_OVER_LIMIT: f32 = 1.6;
+
+/// The largest phase current that every converter can tell from its end, whatever its zero [counts]: half of the range less
+/// 150 that a zero may lie beside the middle, and 10 of noise at the end.
+pub const MAX_TRIP_COUNTS: f32 = 2047.0 - 150.0 - 10.0;
+
 /// The highest code of the converter.
 const HIGHEST_CODE: f32 = 4095.0;
 
 impl BoundedField {
     /// Refuses a number that is not within the bounds.
     pub fn check(&self, value: f32) -> Result<(), BlockError> {
-        let BoundedField { key: field, within } = *self;
+        let BoundedField { key: field, within, either_sign } = *self;
         let (low, high) = within;
+        let held = if either_sign { value.abs() } else { value };
         if !value.is_finite() {
             Err(BlockError { reason: BlockErrorKind::NotFinite, field, value, within })
-        } else if low <= value && value <= high {
+        } else if low <= held && held <= high {
             Ok(())
         } else {
             Err(BlockError { reason: BlockErrorKind::OutOfBounds, field, value, within })
@@ -91,7 +104,22 @@ pub fn check_limits(
     amps_per_count: f32,
     bus_volts_per_count: f32,
 ) -> Result<(), BlockError> {
-    field("current_A", 0.0, USABLE_COUNTS * amps_per_count).check(limits.current)?;
+    field("current_A", 0.0, USABLE_COUNTS * amps_per_count.abs()).check(limits.current)?;
     field("under_voltage_V", 0.0, supply).check(limits.under_voltage)?;
     field("over_voltage_V", supply, HIGHEST_CODE * bus_volts_per_count).check(limits.over_voltage)
+}
+
+/// The phase current at which the bridges open [A], of a limit of current [A] and the current of a count [A].
+pub fn trip_current(limit: f32, amps_per_count: f32) -> f32 {
+    // min(1.6·I, 1887·|A|)
+    (TRIP_OVER_LIMIT * limit).min(MAX_TRIP_COUNTS * amps_per_count.abs())
+}
+
+/// Refuses a limit of current [A] whose trip current lies beyond the linear range [A] of the amplifiers, where a larger
+/// current reads as a smaller one, and a continuous current [A] beyond the limit.
+pub fn check_currents(limit: f32, amps_per_count: f32, linear_range: f32, continuous: f32) -> Result<(), BlockError> {
+    if trip_current(limit, amps_per_count) > linear_range {
+        field("current_A", 0.0, linear_range / TRIP_OVER_LIMIT).check(limit)?;
+    }
+    field("continuous_current_A", 0.0, limit).check(continuous)
 }

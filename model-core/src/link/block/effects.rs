@@ -38,12 +38,12 @@ impl EffectCode {
     const fn of(kind: EffectKind) -> Self {
         let card = kind.card();
         assert!(card.params.len() <= MAX_PARAMS, "a block has no room for so many parameters");
-        let mut fields = [BoundedField { key: "", within: (0.0, 0.0) }; MAX_PARAMS];
+        let mut fields = [BoundedField { key: "", within: (0.0, 0.0), either_sign: false }; MAX_PARAMS];
         let mut typical = [0.0; MAX_PARAMS];
         let mut k = 0;
         while k < card.params.len() {
             let (low, high) = card.params[k].within;
-            fields[k] = BoundedField { key: card.params[k].key, within: (low as f32, high as f32) };
+            fields[k] = BoundedField { key: card.params[k].key, within: (low as f32, high as f32), either_sign: false };
             typical[k] = card.params[k].typical as f32;
             k += 1;
         }

@@ -30,6 +30,9 @@ fn with<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
         bandwidth: 4000.0,
         amps_per_count: 0.0049,
         bus_volts_per_count: 0.00886,
+        linear_range: 9.4,
+        continuous_current: 1.5,
+        heating_time: 10.0,
         effects,
     }
 }
@@ -55,7 +58,7 @@ fn refusal(bytes: &[u8]) -> BlockError {
 fn a_block_comes_back_as_it_was_written() {
     let (bytes, length) = encoded(&four());
     // header, four wheels, scalars, three effects with six parameters, checksum
-    assert_eq!(length, HEADER + 48 + 104 + 1 + 3 * 2 + 6 * 4 + 4);
+    assert_eq!(length, HEADER + 48 + 116 + 1 + 3 * 2 + 6 * 4 + 4);
     let Ok(Parameters::Four(block)) = Parameters::decode(&bytes[..length]) else { panic!("four wheels") };
     assert_eq!(encoded(&block), (bytes, length));
     assert_eq!(block.robot.wheels, paper::four_wheels().wheels);
@@ -180,7 +183,7 @@ fn every_number_is_held_to_its_bounds_on_both_sides() {
 fn the_host_cannot_write_what_the_robot_would_refuse() {
     let mut bytes = [0; MAX_BYTES];
     for k in 0..bounds::SCALARS.len() {
-        for x in [f32::NAN, f32::INFINITY, 1e9, -1.0] {
+        for x in [f32::NAN, f32::INFINITY, 1e9, -1e9] {
             let mut block = four();
             *block.scalars()[k] = x;
             assert_eq!(block.encode(&mut bytes).unwrap_err().field, bounds::SCALARS[k].key);
@@ -203,6 +206,10 @@ fn numbers_that_contradict_each_other_are_refused() {
     assert_eq!(change(|b| b.limits.over_voltage = 37.0).field, "over_voltage_V");
     // 1500 · 4.9 mA = 7.35 A likewise
     assert_eq!(change(|b| b.limits.current = 7.4).field, "current_A");
+    // 1.6 · 2.6 A opens the bridges, where an amplifier that is straight up to 4 A reads less than flows
+    let beyond = change(|b| (b.limits.current, b.linear_range) = (2.6, 4.0));
+    assert_eq!((beyond.field, beyond.within), ("current_A", (0.0, 2.5)));
+    assert_eq!(change(|b| b.continuous_current = 3.1).field, "continuous_current_A");
     let along_one_line = |b: &mut Block<4>| {
         b.robot.wheels = Wheels::new(b.robot.wheels.wheels().map(|wheel| Wheel { drive_angle: 0.0, ..wheel }));
     };
@@ -210,9 +217,25 @@ fn numbers_that_contradict_each_other_are_refused() {
 }
 
 #[test]
+fn an_amplifier_may_be_connected_either_way() {
+    let turned = Block { amps_per_count: -0.0049, ..four() };
+    let (bytes, length) = encoded(&turned);
+    let Ok(Parameters::Four(block)) = Parameters::decode(&bytes[..length]) else { panic!("four wheels") };
+    assert_eq!(block.amps_per_count, -0.0049);
+    for amps in [0.0, -0.9e-5, -1.01] {
+        assert_eq!(Block { amps_per_count: amps, ..four() }.check().unwrap_err().field, "amps_per_count");
+    }
+    // the same trip, and the same largest limit
+    assert_eq!(trip_current(3.0, -0.0049), trip_current(3.0, 0.0049));
+    let mut block = turned;
+    block.limits.current = 7.4;
+    assert_eq!(block.check().unwrap_err().field, "current_A");
+}
+
+#[test]
 fn effects_are_held_to_the_catalogue() {
     let (bytes, length) = encoded(&four());
-    let at = HEADER + 48 + 104;
+    let at = HEADER + 48 + 116;
     let changed = |changes: &[(usize, u8)]| {
         let mut changed = bytes;
         changes.iter().for_each(|(k, value)| changed[at + k] = *value);
