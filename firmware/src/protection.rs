@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | over-current | any phase beyond the trip current | 1 |
 //! | over-voltage, under-voltage | supply out of its range | 3 in a row |
+//! | current sum | the three currents of a driven motor do not add up ([`model_core::control::current_sum`]) | 3 in a row |
 //! | hall code | a code that no rotor makes, or a sector left out | 2 in a row |
 //! | driver line | a gate driver pulls the line, the supply in its range and the offsets known | 1 |
 //!
@@ -14,7 +15,7 @@
 //! the supply is there nothing is driven, and the line says nothing new. A supply that breaks down while the robot drives
 //! is found as such.
 
-use model_core::control::calibration::AdcCode;
+use model_core::control::current_sum;
 use model_core::link::faults::{Fault, Faults};
 
 use crate::codes::MOTORS;
@@ -41,6 +42,9 @@ impl TripLimits {
 /// Periods in a row that a supply out of range must last.
 const SUPPLY_PERIODS: u8 = 3;
 
+/// Periods in a row that currents must not add up.
+const SUM_PERIODS: u8 = 3;
+
 /// Periods in a row that a bad hall code must last.
 const HALL_PERIODS: u8 = 2;
 
@@ -53,6 +57,7 @@ pub struct Protection {
     over: u8,
     under: u8,
     halls: [u8; MOTORS],
+    sums: [u8; MOTORS],
 }
 
 impl Protection {
@@ -100,11 +105,26 @@ impl Protection {
         }
     }
 
-    /// True if any phase carries too much.
+    /// Looks for a phase of codes above their zeros [counts] that carries too much.
     #[inline]
-    pub fn over_current(&self, limits: &TripLimits, codes: &[AdcCode; 3], offsets: &[f32; 3]) -> bool {
-        let beyond = |k: usize| (f32::from(codes[k].0) - offsets[k]).abs() > limits.trip_counts;
-        beyond(0) | beyond(1) | beyond(2)
+    pub fn over_current(&mut self, limits: &TripLimits, above: &[f32; 3]) {
+        if above.iter().any(|counts| counts.abs() > limits.trip_counts) {
+            self.latch(Fault::OverCurrent);
+        }
+    }
+
+    /// Looks at the sum of codes above their zeros [counts] of a motor whose bridge is closed.
+    #[inline]
+    pub fn current_sum(&mut self, motor: usize, wheels: u8, above: [f32; 3]) {
+        let Some(count) = self.sums.get_mut(motor) else { return };
+        if current_sum::adds_up(above) {
+            *count = 0;
+            return;
+        }
+        *count = count.saturating_add(1);
+        if *count >= SUM_PERIODS {
+            self.disable_motor(Fault::CurrentSum, motor, wheels);
+        }
     }
 
     /// A bad hall code of a motor in this period.
@@ -165,15 +185,36 @@ mod tests {
 
     #[test]
     fn a_short_is_seen_in_any_phase_and_of_either_sign() {
-        let protection = Protection::default();
+        let seen = |above: [f32; 3]| {
+            let mut protection = Protection::default();
+            protection.over_current(&LIMITS, &above);
+            protection.faults().has(Fault::OverCurrent)
+        };
         for phase in 0..3 {
-            for code in [3049, 1047] {
-                let mut codes = [AdcCode(2048); 3];
-                codes[phase] = AdcCode(code);
-                assert!(protection.over_current(&LIMITS, &codes, &[2048.0; 3]), "{phase} {code}");
+            for counts in [1001.0, -1001.0] {
+                let mut above = [0.0; 3];
+                above[phase] = counts;
+                assert!(seen(above), "{phase} {counts}");
             }
         }
-        assert!(!protection.over_current(&LIMITS, &[AdcCode(3048), AdcCode(1048), AdcCode(2048)], &[2048.0; 3]));
+        assert!(!seen([1000.0, -1000.0, 0.0]));
+    }
+
+    #[test]
+    fn currents_that_do_not_add_up_for_three_periods_cost_their_motor() {
+        let mut protection = Protection::default();
+        let (wrong, sound) = ([100.0, -20.0, -20.0], [100.0, -50.0, -50.0]);
+        for above in [wrong, wrong, sound, wrong, wrong] {
+            protection.current_sum(2, 4, above);
+            assert!(protection.disabled() == 0 && protection.motor_faults().is_empty());
+        }
+        // what the others read does not matter
+        protection.current_sum(1, 4, sound);
+        protection.current_sum(2, 4, wrong);
+        assert!(protection.disabled() == 0b0100 && protection.motor_faults().iter().eq([Fault::CurrentSum]));
+        let mut three = Protection::default();
+        (0..3).for_each(|_| three.current_sum(2, 3, wrong));
+        assert!(three.faults().has(Fault::CurrentSum));
     }
 
     #[test]

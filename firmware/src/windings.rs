@@ -5,7 +5,7 @@
 //!                                 └─ what the motion turn is told
 //! ```
 //!
-//! First the offsets of the converters are learned with the bridges open. Then every period looks for what must not be,
+//! First the offsets of the converters are learned with the bridges open, and followed as long as they stay so. Then every period looks for what must not be,
 //! follows the halls, and has the current loop decide: six-step while a motor's speed is not known yet, field-oriented
 //! once its halls tell where the rotor is between two edges. A fault opens the bridges in the turn that sees it; it is
 //! latched until it is cleared. Without parameters nothing is driven.
@@ -45,7 +45,12 @@ pub struct Windings {
     setpoints: MotorSetpoints,
     feedback: WindingFeedback,
     period: u32,
+    /// Periods for which all bridges have been open
+    open: u8,
 }
+
+/// Periods after which nothing of a current is left in an open bridge: 1 ms.
+const CURRENT_FREE: u8 = 20;
 
 impl Windings {
     /// Takes what a motion turn decided, from the next period on.
@@ -113,6 +118,8 @@ impl Windings {
         }
         if !self.offsets.are_known() {
             self.offsets.learn(&codes.phases);
+        } else if self.open >= CURRENT_FREE && self.protection.faults().is_empty() {
+            self.offsets.follow(&codes.phases);
         }
         let ready = self.offsets.are_known();
         if codes.driver_fault && ready && self.config.limits.allow_supply(bus) {
@@ -155,6 +162,7 @@ impl Windings {
                 }
             }
         }
+        self.open = if command.enabled == 0 { self.open.saturating_add(1) } else { 0 };
         if self.motion_is_due() {
             self.feedback = self.measure(codes, bus);
         }
@@ -219,8 +227,12 @@ fn tick_motor(
     }
     // a lost motor's bridge is open, and its amplifiers may be what it was lost for
     let in_use = protection.disabled() >> place.motor & 1 == 0;
-    if in_use && protection.over_current(&config.limits, &measured.codes, &measured.offsets) {
-        protection.latch(Fault::OverCurrent);
+    if in_use {
+        let above = core::array::from_fn(|k| f32::from(measured.codes[k].0) - measured.offsets[k]);
+        protection.over_current(&config.limits, &above);
+        if place.closed {
+            protection.current_sum(place.motor, config.wheels, above);
+        }
     }
     motor.tick(config, measured, setpoint, place.closed)
 }

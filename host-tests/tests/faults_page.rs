@@ -5,6 +5,7 @@ use std::path::Path;
 
 use host_tests::in_loop::HostProgram;
 use host_tests::in_loop::faults::case::{CASES, is_timed};
+use host_tests::in_loop::faults::unfound::{UNFOUND, drive_on};
 use host_tests::in_loop::faults::watchdog::WatchdogOutcome;
 use host_tests::in_loop::faults::wheel_loss::{LOSSES, run_with_three_wheels};
 use host_tests::in_loop::faults::{Results, broken_promises, page, run_case::run_case};
@@ -27,9 +28,11 @@ fn the_library_keeps_the_promises_of_the_page_and_says_what_the_page_says() {
     let cases: Vec<_> = CASES.into_iter().filter(|case| !is_timed(&case.cause)).collect();
     let play = |case| (case, run_case(&case, HostProgram::default()).expect("software does not fail"));
     let go_on = |loss| (loss, run_with_three_wheels(&loss, HostProgram::default()).expect("software does not fail"));
+    let unfound = |unfound| (unfound, drive_on(&unfound, HostProgram::default()).expect("software does not fail"));
     let results = Results {
         cases: cases.into_par_iter().map(play).collect(),
         wheel_losses: LOSSES.into_par_iter().map(go_on).collect(),
+        unfound: UNFOUND.into_par_iter().map(unfound).collect(),
         crashes: Vec::new(),
         watchdog: NOT_STARVED,
     };

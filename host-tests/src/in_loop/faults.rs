@@ -8,6 +8,7 @@
 //! - [`test_robot`]: the robots that it is done to;
 //! - [`run_case`]: one case, from the start to the robot driving again;
 //! - [`wheel_loss`]: a robot of four wheels that goes on with three;
+//! - [`unfound`]: what is not found;
 //! - [`watchdog`]: the tasks starved;
 //! - [`mod@crash`]: a program that fails;
 //! - [`mod@page`]: the table that a person judges, and the promises that it must keep.
@@ -20,6 +21,7 @@ pub mod crash;
 pub mod page;
 pub mod run_case;
 pub mod test_robot;
+pub mod unfound;
 pub mod watchdog;
 pub mod wheel_loss;
 
@@ -37,6 +39,8 @@ pub struct Results {
     pub cases: Vec<(case::FaultCase, run_case::FaultOutcome)>,
     /// Four wheels that go on with three
     pub wheel_losses: Vec<(wheel_loss::WheelLoss, wheel_loss::WheelLossOutcome)>,
+    /// What is not found
+    pub unfound: Vec<(unfound::Unfound, unfound::UnfoundOutcome)>,
     /// A program that fails
     pub crashes: Vec<(Crash, crash::CrashOutcome)>,
     /// The tasks starved
@@ -59,6 +63,10 @@ pub fn results<B: BoardProgram>(
         .into_par_iter()
         .filter(|loss| loss.title.contains(word))
         .map(|loss| Ok((loss, wheel_loss::run_with_three_wheels(&loss, start()?)?)));
+    let unfound = unfound::UNFOUND
+        .into_par_iter()
+        .filter(|unfound| unfound.title.contains(word))
+        .map(|unfound| Ok((unfound, unfound::drive_on(&unfound, start()?)?)));
     let crashes = Crash::ALL
         .into_par_iter()
         .filter(|by| crash::title(*by).contains(word))
@@ -66,6 +74,7 @@ pub fn results<B: BoardProgram>(
     Ok(Results {
         cases: cases.collect::<Result<_, RunError>>()?,
         wheel_losses: wheel_losses.collect::<Result<_, RunError>>()?,
+        unfound: unfound.collect::<Result<_, RunError>>()?,
         crashes: crashes.collect::<Result<_, RunError>>()?,
         watchdog: watchdog::starve_tasks(start()?)?,
     })

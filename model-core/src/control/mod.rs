@@ -12,6 +12,8 @@ pub mod phases;
 
 pub mod calibration;
 
+pub mod current_sum;
+
 pub mod halls;
 
 pub mod current_loop;

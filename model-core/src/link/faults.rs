@@ -32,11 +32,13 @@ pub enum Fault {
     BadBlock,
     /// The watchdog restarted the processor.
     Watchdog,
+    /// The three currents of a motor did not add up to zero.
+    CurrentSum,
 }
 
 impl Fault {
     /// All of them, in the order of their codes.
-    pub const ALL: [Fault; 12] = [
+    pub const ALL: [Fault; 13] = [
         Fault::OverCurrent,
         Fault::OverVoltage,
         Fault::UnderVoltage,
@@ -49,6 +51,7 @@ impl Fault {
         Fault::TurnOverrun,
         Fault::BadBlock,
         Fault::Watchdog,
+        Fault::CurrentSum,
     ];
 
     /// Its number on the wire, from 1.
@@ -81,13 +84,14 @@ impl Fault {
             Fault::TurnOverrun => "a turn of the loop took longer than it has",
             Fault::BadBlock => "the stored parameter block is not sound",
             Fault::Watchdog => "the watchdog restarted the processor",
+            Fault::CurrentSum => "the three currents of a motor did not add up to zero: a sensor is wrong",
         }
     }
 
     /// True if it concerns one motor alone, so that three of four wheels can still drive. An over-current does not: what
     /// a short has hurt besides is not known.
     pub const fn one_motor(self) -> bool {
-        matches!(self, Fault::HallCode | Fault::Stall | Fault::OffsetCalibration)
+        matches!(self, Fault::HallCode | Fault::Stall | Fault::OffsetCalibration | Fault::CurrentSum)
     }
 }
 
@@ -152,7 +156,7 @@ mod tests {
             seen |= fault.bit();
         }
         assert_eq!(seen, Faults::KNOWN);
-        assert_eq!((Fault::from_code(0), Fault::from_code(13)), (None, None));
+        assert_eq!((Fault::from_code(0), Fault::from_code(14)), (None, None));
     }
 
     #[test]

@@ -87,6 +87,9 @@ const HEARD: u32 = 40;
 /// 300 ms, and as long again for a wheel to come to rest and to strain.
 const STALLED: u32 = 12_000;
 
+/// Two electrical turns at the speed of the drive, and three periods: a crest of every phase.
+const SUMMED: u32 = 410;
+
 /// Idle turns that last longer than a period, and longer than a motion turn.
 const LONG: u16 = 1_000;
 const LONGER: u16 = 20_000;
@@ -102,13 +105,26 @@ const OFFSET: FaultCase = case(
     1,
 );
 
+const STUCK: FaultCase = case(
+    "amplifier of motor 1, phase a, stuck at its middle",
+    Fault::CurrentSum,
+    FaultCause::Board(Broken::StuckAmplifier { motor: 1, phase: 0, code: 2048 }),
+    SUMMED,
+);
+const TURNED: FaultCase = case(
+    "amplifier of motor 1, phase b, of the wrong sign",
+    Fault::CurrentSum,
+    FaultCause::Board(Broken::TurnedAmplifier { motor: 1, phase: 1 }),
+    SUMMED,
+);
+
 /// True if the length of a turn is the event: only a processor, or its emulator, has that.
 pub const fn is_timed(cause: &FaultCause) -> bool {
     matches!(cause, FaultCause::LongTurn(_) | FaultCause::LongMotion(_))
 }
 
 /// All cases, by the codes of their faults.
-pub const CASES: [FaultCase; 24] = [
+pub const CASES: [FaultCase; 28] = [
     case("short in motor 0, phase a", Fault::OverCurrent, FaultCause::Board(Broken::Short { motor: 0, phase: 0 }), 0),
     on_three(case(
         "short in motor 2, phase c",
@@ -117,6 +133,7 @@ pub const CASES: [FaultCase; 24] = [
         0,
     )),
     case("bus at 18 V", Fault::OverVoltage, FaultCause::Board(Broken::Bus(18.0)), 2),
+    case("bus breaks down to 1 V", Fault::UnderVoltage, FaultCause::Board(Broken::Bus(1.0)), 2),
     case("bus at 6 V", Fault::UnderVoltage, FaultCause::Board(Broken::Bus(6.0)), 2),
     costs(1, HALLS_HIGH),
     costs(
@@ -141,6 +158,14 @@ pub const CASES: [FaultCase; 24] = [
         ),
     ),
     on_three(case("wheel 0 is blocked", Fault::Stall, FaultCause::Board(Broken::Blocked { motor: 0 }), STALLED)),
+    costs(1, STUCK),
+    costs(1, TURNED),
+    on_three(case(
+        "amplifier of motor 0, phase a, stuck at its middle",
+        Fault::CurrentSum,
+        FaultCause::Board(Broken::StuckAmplifier { motor: 0, phase: 0, code: 2048 }),
+        SUMMED,
+    )),
     case("fault line of the gate drivers pulled", Fault::DriverLine, FaultCause::Board(Broken::DriverLine), 0),
     costs(2, OFFSET),
     on_three(OFFSET),

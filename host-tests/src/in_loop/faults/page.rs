@@ -9,6 +9,7 @@ use super::case::{FaultCase, FaultCause, is_timed};
 use super::crash::{CrashOutcome, title};
 use super::run_case::{FaultOutcome, near};
 use super::test_robot::ACCELERATION;
+use super::unfound::{Unfound, UnfoundOutcome};
 use super::wheel_loss::{LEGS, WheelLoss, WheelLossOutcome};
 
 /// How far from what it is told a robot with three wheels may be [m/s, and rad/s over ten].
@@ -29,6 +30,10 @@ pub fn page(results: &Results) -> String {
     page += BETWEEN;
     for (loss, gone) in &results.wheel_losses {
         page += &leg_row(loss, gone);
+    }
+    page += UNFOUND;
+    for (unfound, went) in &results.unfound {
+        page += &unfound_row(unfound, went);
     }
     let watchdog = &results.watchdog;
     page += &format!(
@@ -81,6 +86,15 @@ to the right, and to turn, 1.5 s each. What it does in the last 0.3 s, and the l
 |---|---|---|---|---|---|
 ";
 
+const UNFOUND: &str = "
+## What is not found
+
+The robot with four wheels drives on for 2 s; its speed in the last half second, and the largest departure from it.
+
+| what goes wrong | speed | ripple | why it is not found |
+|---|---|---|---|
+";
+
 const WATCHDOG: &str = "
 ## Watchdog
 
@@ -106,7 +120,8 @@ const LEVELS: &str = "
 
 Every row is played on the image in QEMU; converters, hall lines, fault line, supply and link are the virtual board's. \
 What has no part there: the registers that the chip's board writes when its program fails (they are read off its linked \
-image, page `image.md`) and those that say what a reset came from; the gate drivers' own reaction; brown-out.
+image, page `image.md`) and those that say what a reset came from; the gate drivers' own reaction; a brown-out of the processor itself, which is a \
+start like any other: bridges open, no fault named.
 ";
 
 /// Periods as a time.
@@ -184,6 +199,11 @@ fn reason(to: u8, code: u8) -> String {
     words.unwrap_or("**no reason that is known**").into()
 }
 
+fn unfound_row(unfound: &Unfound, went: &UnfoundOutcome) -> String {
+    let found = if went.found.is_empty() && went.closed { "" } else { " **(it is found)**" };
+    format!("| {}{found} | {:.2} m/s | {:.2} m/s | {} |\n", unfound.title, went.speed, went.ripple, unfound.why)
+}
+
 fn leg_row(loss: &WheelLoss, gone: &WheelLossOutcome) -> String {
     let [ahead, left, back, turned] = gone.went;
     let held = if gone.without { "" } else { " **(not as it should be)**" };
@@ -230,6 +250,11 @@ pub fn broken_promises(results: &Results) -> Vec<String> {
         let reduced = loss.motor >= 4 || gone.acceleration < 0.9 * f64::from(ACCELERATION[0]);
         if !((0..4).all(near) && reduced && gone.without) {
             broken.push(format!("wheel lost: {}: {gone:?}", loss.title));
+        }
+    }
+    for (unfound, went) in &results.unfound {
+        if !(went.found.is_empty() && went.closed) {
+            broken.push(format!("it is found: {}: {went:?}", unfound.title));
         }
     }
     for (by, came) in &results.crashes {
