@@ -7,6 +7,7 @@ use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{self, BlockError, MAX_BYTES, Parameters};
 use model_core::link::command::{Command, Reply};
 use model_core::link::framing::{Frame, FrameDecoder, FrameKind};
+use model_core::link::probe::Probe;
 
 /// What a frame has brought.
 // There is one of them at a time, and nothing is allocated.
@@ -20,6 +21,8 @@ pub enum ReceivedCommand {
         /// How
         twist: BodyTwist,
     },
+    /// Put a voltage on one motor
+    Probe(Probe),
     /// Open the bridges
     Open,
     /// Forget latched faults
@@ -72,6 +75,7 @@ impl CommandReceiver {
         };
         match command {
             Command::Drive { sequence, twist } => Some(ReceivedCommand::Drive { sequence, twist }),
+            Command::Probe(probe) => Some(ReceivedCommand::Probe(probe)),
             Command::Open => Some(ReceivedCommand::Open),
             Command::Clear => Some(ReceivedCommand::Clear(answer(true, 0))),
             Command::Chunk { offset, bytes } => {

@@ -2,6 +2,7 @@
 
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::command::Reply;
+use model_core::link::probe::Probe;
 
 use crate::command_receiver::{AcceptedParameters, ReceivedCommand};
 
@@ -14,6 +15,10 @@ pub struct Inbox {
     pub commands: u32,
     /// The number of the last one
     pub sequence: Option<u16>,
+    /// A voltage for one motor
+    pub probe: Option<Probe>,
+    /// The number of the last one
+    pub probe_sequence: Option<u16>,
     /// True: open the bridges
     pub open: bool,
     /// True: forget latched faults
@@ -40,7 +45,16 @@ impl Inbox {
                 self.open = false;
                 self.commands = self.commands.wrapping_add(1);
             }
-            ReceivedCommand::Open => self.open = true,
+            ReceivedCommand::Probe(probe) if self.probe_sequence == Some(probe.sequence) => {}
+            ReceivedCommand::Probe(probe) => {
+                self.probe_sequence = Some(probe.sequence);
+                self.probe = Some(probe);
+                self.open = false;
+            }
+            ReceivedCommand::Open => {
+                self.open = true;
+                self.probe = None;
+            }
             ReceivedCommand::Clear(reply) => {
                 self.clear = true;
                 self.reply = Some(reply);

@@ -4,30 +4,35 @@
 //!  parameters      offsets learned      command
 //! ASLEEP ────► CALIBRATING ────► OPEN ◄────────► DRIVING ── any fault ──► FAULTED ── clear ──► OPEN
 //!                                     open
+//!
+//! OPEN ── probe ──► PROBING ── open, a command, other parameters, 200 ms without a probe ──► OPEN
 //! ```
 //!
 //! A turn takes what the windings tell, has `model-core`'s controller decide, and asks the windings for currents and
 //! voltages. It also watches what only shows over many periods: commands that end, for which the robot brakes
 //! ([`crate::silence`]), and a wheel that stands where it should turn ([`crate::stall`]).
 //!
-//! Nothing but a fresh command closes the bridges. They open, and wait for one, when the robot has come to rest because
-//! none came, when a fault is cleared, when a wheel that was lost comes back, and when other parameters are of another
-//! machine; parameters that only retune the same one are
+//! Nothing but a fresh command or probe ([`crate::probe`]) closes the bridges. They open, and wait for one, when the robot has come
+//! to rest because none came, when a fault is cleared, when a wheel that was lost comes back, and when other parameters are of
+//! another machine; parameters that only retune the same one are
 //! taken on the way.
 
 use model_core::control::calibration::Calibration;
 use model_core::control::drive::RobotDrive;
 use model_core::control::observer;
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::command::Reply;
+use model_core::link::command::{CommandError, Reply};
 use model_core::link::events::{Event, Events};
 use model_core::link::faults::{Fault, Faults};
+use model_core::link::framing::FrameKind;
 use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
+use model_core::link::probe::Probe;
 use model_core::link::record::OperatingState;
 
 use crate::codes::TICK_SECONDS;
 use crate::command_receiver::AcceptedParameters;
 use crate::inbox::Inbox;
+use crate::probe::{ProbeVector, Prober};
 use crate::silence::Silence;
 use crate::stall::{StallDetector, StallLimits};
 use crate::winding_config::{MAX_DUTY, WindingConfig};
@@ -38,6 +43,8 @@ use crate::winding_signals::{MotorSetpoints, WindingFeedback};
 pub struct MotionOutput {
     /// For the windings
     pub setpoints: MotorSetpoints,
+    /// The voltage of a probe, for the windings
+    pub probe: Option<ProbeVector>,
     /// Faults seen in this turn, for the windings to latch
     pub faults: Faults,
     /// One bit a motor that is stalled, to be taken out of use
@@ -69,6 +76,7 @@ pub struct Motion {
     commands: u32,
     silence: Silence,
     stall_detector: StallDetector,
+    prober: Prober,
     disabled: u8,
     /// Bus voltage when the robot was ready for the first time [V]
     bus_at_rest: Option<f32>,
@@ -120,6 +128,8 @@ impl Motion {
         self.hello = self.hello.map(|hello| with_offsets(hello, feedback));
         output.hello = self.hello;
 
+        let asked = inbox.probe.take();
+        let wants = asked.is_some_and(|probe| self.can_probe(probe, feedback));
         let before = self.state;
         let faulty = !feedback.faults.is_empty() || !output.faults.is_empty();
         self.silence.tick(fresh, before == OperatingState::Driving);
@@ -133,9 +143,21 @@ impl Motion {
             _ if !feedback.ready => OperatingState::Calibrating,
             OperatingState::Asleep | OperatingState::Calibrating | OperatingState::Faulted => OperatingState::Open,
             OperatingState::Open if fresh && !opens => OperatingState::Driving,
+            OperatingState::Open if wants && !opens => OperatingState::Probing,
             OperatingState::Driving if opens => OperatingState::Open,
+            OperatingState::Probing if opens || fresh || output.config.is_some() => OperatingState::Open,
             stage => stage,
         };
+        self.probe(asked.filter(|_| wants), &mut output);
+        if asked.is_some() && self.state != OperatingState::Probing {
+            let error = if wants || self.state != OperatingState::Open {
+                CommandError::NotOpen
+            } else {
+                CommandError::NoSuchProbe
+            };
+            let refused = Reply { to: FrameKind::Probe.code(), taken: false, reason: error.code() };
+            output.reply = output.reply.or(Some(refused));
+        }
         output.state = self.state;
         if self.silence.lasts() {
             output.events.add(Event::Silent);
@@ -185,6 +207,29 @@ impl Motion {
         let limits = StallLimits { others, current: drive.current_limit(), edge };
         output.stalled = self.stall_detector.tick(feedback, &drive_output, &limits);
         output
+    }
+}
+
+impl Motion {
+    /// True for a motor that the robot has and that may be used.
+    fn can_probe(&self, probe: Probe, feedback: &WindingFeedback) -> bool {
+        let motors = self.drive.as_ref().map_or(0, RobotDrive::motors);
+        (motors & !feedback.disabled) >> (probe.motor & 7) & 1 != 0
+    }
+
+    /// A turn of the probe, where one is on.
+    fn probe(&mut self, asked: Option<Probe>, output: &mut MotionOutput) {
+        if self.state != OperatingState::Probing {
+            self.prober.end();
+            return;
+        }
+        if let Some(probe) = asked {
+            self.prober.take(probe);
+        }
+        output.probe = self.prober.tick();
+        if output.probe.is_none() {
+            self.state = OperatingState::Open;
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! # Motor controller: one motor's turn, once a period
 //!
-//! The halls are followed whether the bridge is closed or not. While the speed is not known the motor commutates in six
+//! The halls are followed whether the bridge is closed or not, of a motor that was commissioned by the places of its edges. While the speed is not known the motor commutates in six
 //! steps, by the middle of its sector; once the halls tell where the rotor is between two edges, field-oriented.
 //!
 //! ```text
@@ -14,6 +14,7 @@
 
 use model_core::control::calibration::AdcCode;
 use model_core::control::current_loop::{CurrentMeasurement, CurrentMemory, CurrentSetpoint};
+use model_core::control::hall_tracker::{HallEdges, HallTracker};
 use model_core::control::halls::{HallCode, HallDecoder, HallFault, angle_of_code};
 
 use crate::codes::PERIODS_PER_TICK;
@@ -43,6 +44,8 @@ pub struct MotorMeasurement {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MotorController {
     halls: Option<HallDecoder>,
+    /// The same by the places of the edges, where they are known
+    tracker: Option<HallTracker>,
     memory: CurrentMemory<f32>,
     /// Electrical angle at which the currents were sampled [2⁻¹⁶ turn]
     angle: u16,
@@ -67,6 +70,14 @@ impl MotorController {
             None => self.halls = Some(HallDecoder::new(code)?),
         }
         Ok(())
+    }
+
+    /// Follows the rotor between edges whose places are known.
+    #[inline]
+    pub fn track(&mut self, edges: &HallEdges) {
+        if let Some(halls) = &self.halls {
+            self.tracker.get_or_insert_default().update(halls, edges);
+        }
     }
 
     /// Counts the voltage that was on the motor between the last sample and this one.
@@ -122,7 +133,10 @@ impl MotorController {
         let Some(halls) = &self.halls else { return Some(NO_SECTOR) };
         if halls.interval() > 0 && !six_step {
             // θ = θ_halls − ω_e·ε
-            self.angle = halls.angle_code_before(timing::HALLS_READ_PARTS);
+            self.angle = match &self.tracker {
+                Some(tracker) => tracker.angle_code_before(halls, timing::HALLS_READ_PARTS),
+                None => halls.angle_code_before(timing::HALLS_READ_PARTS),
+            };
             return None;
         }
         // the middle of the sector

@@ -10,6 +10,7 @@ use model_core::link::events::Event;
 use model_core::link::faults::Faults;
 use model_core::link::framing::{self, FrameKind, MAX_FRAME};
 use model_core::link::hello::Hello;
+use model_core::link::probe::ProbeReport;
 use model_core::link::record::TelemetryRecord;
 
 use crate::motion::MotionOutput;
@@ -24,6 +25,8 @@ pub enum TxMessage {
     Hello(Hello),
     /// An answer to a command
     Reply(Reply),
+    /// What was measured under a probe
+    Probe(ProbeReport),
 }
 
 /// Places for messages, one of which stays empty: seven milliseconds of records.
@@ -66,7 +69,7 @@ impl TxProducer {
             sequence: self.sequence,
             time: feedback.period,
             state: output.state,
-            enabled: output.setpoints.enabled,
+            enabled: output.setpoints.enabled | output.probe.map_or(0, |probe| 1 << probe.motor()),
             events: output.events,
             faults: Faults::from_bits(feedback.faults.bits() | feedback.motor_faults.bits() | output.faults.bits()),
             bus: feedback.codes.bus,
@@ -85,6 +88,9 @@ impl TxProducer {
         match self.queue.enqueue(TxMessage::Record(record)) {
             Ok(()) => self.dropped = 0,
             Err(_) => self.dropped = self.dropped.saturating_add(1),
+        }
+        if let Some(report) = feedback.probe {
+            let _full = self.queue.enqueue(TxMessage::Probe(report));
         }
         if let Some(reply) = output.reply {
             let _full = self.queue.enqueue(TxMessage::Reply(reply));
@@ -112,6 +118,9 @@ impl TxConsumer {
                 }
                 TxMessage::Reply(reply) => {
                     framing::encode_frame(FrameKind::Reply.code(), &reply.to_bytes(), &mut self.frame)
+                }
+                TxMessage::Probe(report) => {
+                    framing::encode_frame(FrameKind::ProbeReport.code(), &report.to_bytes(), &mut self.frame)
                 }
             };
             self.len = made.map_or(0, <[u8]>::len);

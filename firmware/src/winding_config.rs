@@ -2,12 +2,16 @@
 
 use model_core::control::calibration::Calibration;
 use model_core::control::current_loop::CurrentLoop;
+use model_core::control::hall_tracker::HallEdges;
+use model_core::control::halls::HallCode;
+use model_core::control::wiring::MotorWiring;
 use model_core::link::block::{Block, MAX_TRIP_COUNTS, Parameters, VERSION, trip_current};
 use model_core::link::hello::{Commutation, Hello};
 use model_core::link::record::MOTORS;
 
-use crate::codes::PERIODS_PER_SECOND;
+use crate::codes::{Codes, PERIODS_PER_SECOND};
 use crate::offsets::{MIDDLE, REACH};
+use crate::probe::PROBE_CURRENT;
 use crate::protection::TripLimits;
 use crate::registers::timing;
 
@@ -35,7 +39,62 @@ pub struct WindingConfig {
     pub limits: TripLimits,
     /// Speed of the wheel's shaft [rad/s] over electrical speed [rad a period]
     pub wheel_speed_per_electrical: f32,
+    /// How the motors are wired, where any was commissioned
+    pub wiring: Option<WiringTables>,
 }
+
+/// How the motors are wired, as the turn needs it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WiringTables {
+    motors: [MotorWiring; MOTORS],
+    /// What stands for each code of the hall lines
+    halls: [[HallCode; 8]; MOTORS],
+    /// One bit a motor that was commissioned
+    commissioned: u8,
+}
+
+impl WiringTables {
+    /// Those of a block; none where no motor was commissioned.
+    fn of<const N: usize>(wirings: &[Option<MotorWiring>; N]) -> Option<Self> {
+        let mut tables = Self { motors: Default::default(), halls: [PLAIN_HALLS; MOTORS], commissioned: 0 };
+        for (j, wiring) in wirings.iter().enumerate().take(MOTORS) {
+            if let Some(wiring) = wiring {
+                tables.motors[j] = *wiring;
+                tables.halls[j] = wiring.hall_table();
+                tables.commissioned |= 1 << j;
+            }
+        }
+        (tables.commissioned != 0).then_some(tables)
+    }
+
+    /// What the board would read if it were wired as its table of pins says.
+    #[inline]
+    pub fn codes(&self, read: &Codes) -> Codes {
+        let mut codes = *read;
+        for j in 0..MOTORS {
+            codes.phases[j] = self.motors[j].phases(read.phases[j]);
+            codes.halls[j] = self.halls[j][usize::from(read.halls[j].0 & 7)];
+        }
+        codes
+    }
+
+    /// Duties of a motor's outputs that give its phases theirs [1].
+    #[inline]
+    pub fn duties(&self, motor: usize, duties: [f32; 3]) -> [f32; 3] {
+        self.motors.get(motor).map_or(duties, |wiring| wiring.duties(duties))
+    }
+
+    /// Where a motor's hall edges are, if it was commissioned.
+    #[inline]
+    pub fn edges(&self, motor: usize) -> Option<HallEdges> {
+        let known = self.commissioned >> (motor & 7) & 1 != 0;
+        self.motors.get(motor).filter(|_| known).map(|wiring| HallEdges(wiring.edges))
+    }
+}
+
+/// Every code stands for itself.
+const PLAIN_HALLS: [HallCode; 8] =
+    [HallCode(0), HallCode(1), HallCode(2), HallCode(3), HallCode(4), HallCode(5), HallCode(6), HallCode(7)];
 
 impl Default for WindingConfig {
     /// No motors.
@@ -48,6 +107,7 @@ impl Default for WindingConfig {
             six_step: false,
             limits: TripLimits::default(),
             wheel_speed_per_electrical: 0.0,
+            wiring: None,
         }
     }
 }
@@ -57,6 +117,12 @@ impl WindingConfig {
     #[inline]
     pub fn motors(&self) -> u8 {
         (1 << (self.wheels & 7)) - 1
+    }
+
+    /// What is too much while a motor is probed.
+    pub fn probe_limits(&self) -> TripLimits {
+        let counts = PROBE_CURRENT / self.calibration.amps_per_count.abs();
+        TripLimits { trip_counts: self.limits.trip_counts.min(counts), ..self.limits }
     }
 
     /// The windings' share of these parameters.
@@ -95,6 +161,7 @@ impl WindingConfig {
                 most_supply: block.limits.over_voltage,
             },
             wheel_speed_per_electrical: calibration.wheel_speed(1.0, motor.gear_ratio),
+            wiring: WiringTables::of(&block.wiring),
         }
     }
 

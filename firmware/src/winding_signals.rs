@@ -1,6 +1,7 @@
 //! What the motion turn asks of the windings, and what it is told of them.
 
 use model_core::link::faults::Faults;
+use model_core::link::probe::ProbeReport;
 
 use crate::codes::{Codes, MOTORS};
 
@@ -50,4 +51,6 @@ pub struct WindingFeedback {
     pub disabled: u8,
     /// True once the offsets are known
     pub ready: bool,
+    /// What was measured under a probe, where one is on
+    pub probe: Option<ProbeReport>,
 }

@@ -10,10 +10,14 @@
 //! once its halls tell where the rotor is between two edges. A fault opens the bridges in the turn that sees it; it is
 //! latched until it is cleared. Without parameters nothing is driven.
 //!
+//! Codes are put right by the motors' wiring before anything looks at them, and duties behind all that decides: nothing
+//! in between knows of wires.
+//!
 //! A voltage decided with one sample is on the motor from the next sample on, for a period
 //! ([`crate::registers::timing`]); the mean that a record tells covers exactly the time from its predecessor's codes to
 //! its own.
 
+use model_core::control::calibration::AdcCode;
 use model_core::control::current_loop::CurrentSetpoint;
 use model_core::control::halls::HallCode;
 use model_core::link::faults::Fault;
@@ -22,6 +26,7 @@ use crate::codes::{Codes, MOTORS, PERIODS_PER_TICK};
 use crate::motion::MotionOutput;
 use crate::motor_controller::{MotorController, MotorMeasurement, NO_VOLTAGE};
 use crate::offsets::Offsets;
+use crate::probe::ProbeVector;
 use crate::protection::Protection;
 use crate::winding_config::WindingConfig;
 use crate::winding_signals::{MotorSetpoints, WindingFeedback};
@@ -44,6 +49,7 @@ pub struct Windings {
     motors: [MotorController; MOTORS],
     setpoints: MotorSetpoints,
     feedback: WindingFeedback,
+    probe: Option<ProbeVector>,
     period: u32,
     /// Periods for which all bridges have been open
     open: u8,
@@ -56,6 +62,7 @@ impl Windings {
     /// Takes what a motion turn decided, from the next period on.
     pub fn apply(&mut self, output: &MotionOutput) {
         self.setpoints = output.setpoints;
+        self.probe = output.probe;
         if let Some(config) = &output.config {
             self.install(config);
         }
@@ -74,6 +81,11 @@ impl Windings {
         if config.wheels != self.config.wheels {
             self.motors = [MotorController::default(); MOTORS];
             self.protection.set_wheels(config.wheels);
+        }
+        if config.wiring != self.config.wiring {
+            // other converters, or codes that count the other way
+            self.offsets = Offsets::default();
+            self.motors = [MotorController::default(); MOTORS];
         }
         self.config = *config;
     }
@@ -109,8 +121,16 @@ impl Windings {
 
     /// One period: what to do in the next.
     #[inline]
-    pub fn tick(&mut self, codes: &Codes) -> BridgeCommand {
+    pub fn tick(&mut self, read: &Codes) -> BridgeCommand {
         self.period = self.period.wrapping_add(1);
+        let wired;
+        let codes = match &self.config.wiring {
+            Some(wiring) => {
+                wired = wiring.codes(read);
+                &wired
+            }
+            None => read,
+        };
         let setpoints = self.setpoints;
         let bus = self.config.calibration.bus_voltage(codes.bus);
         if self.config.wheels > 0 {
@@ -162,11 +182,36 @@ impl Windings {
                 }
             }
         }
-        self.open = if command.enabled == 0 { self.open.saturating_add(1) } else { 0 };
+        if let Some(wiring) = &self.config.wiring {
+            for (j, duties) in command.duties.iter_mut().enumerate() {
+                *duties = wiring.duties(j, *duties);
+            }
+        }
         if self.motion_is_due() {
             self.feedback = self.measure(codes, bus);
         }
+        if let Some(vector) = self.probe {
+            self.probe(&vector, codes, read, &mut command);
+        }
+        self.open = if command.enabled == 0 { self.open.saturating_add(1) } else { 0 };
         command
+    }
+
+    /// A probe's voltage on its motor, and what is measured under it; nothing where there is a fault.
+    #[cold]
+    #[inline(never)]
+    fn probe(&mut self, vector: &ProbeVector, codes: &Codes, read: &Codes, command: &mut BridgeCommand) {
+        let j = usize::from(vector.motor()).min(MOTORS - 1);
+        let limits = self.config.probe_limits();
+        self.protection.over_current(&limits, &above_zero(&codes.phases[j], &self.offsets.of(j)));
+        let bit = (1_u8 << j) & self.config.motors() & !self.protection.disabled();
+        if self.offsets.are_known() && self.protection.faults().is_empty() {
+            command.enabled = bit;
+            command.duties[j] = vector.duties(self.period).unwrap_or(NO_VOLTAGE);
+        }
+        if self.motion_is_due() {
+            self.feedback.probe = Some(vector.report(self.period, read));
+        }
     }
 
     /// What the motion turn is to know of this period; begins its next mean.
@@ -198,6 +243,12 @@ impl Windings {
     }
 }
 
+/// Codes above their zeros [counts].
+#[inline]
+fn above_zero(codes: &[AdcCode; 3], zeros: &[f32; 3]) -> [f32; 3] {
+    core::array::from_fn(|phase| f32::from(codes[phase].0) - zeros[phase])
+}
+
 /// Which motor's turn it is, and what may be done.
 struct Place {
     motor: usize,
@@ -222,13 +273,16 @@ fn tick_motor(
         Ok(()) => protection.good_hall(place.motor),
         Err(_) => protection.bad_hall(place.motor, config.wheels),
     }
+    if let Some(edges) = config.wiring.as_ref().and_then(|wiring| wiring.edges(place.motor)) {
+        motor.track(&edges);
+    }
     if !place.ready {
         return NO_VOLTAGE;
     }
     // a lost motor's bridge is open, and its amplifiers may be what it was lost for
     let in_use = protection.disabled() >> place.motor & 1 == 0;
     if in_use {
-        let above = core::array::from_fn(|k| f32::from(measured.codes[k].0) - measured.offsets[k]);
+        let above = above_zero(&measured.codes, &measured.offsets);
         protection.over_current(&config.limits, &above);
         if place.closed {
             protection.current_sum(place.motor, config.wheels, above);

@@ -19,7 +19,7 @@ use embedded_storage::nor_flash::{NorFlash, ReadNorFlash};
 /// Bytes before the block.
 pub const HEAD: usize = 16;
 /// The longest block [bytes].
-pub const MAX_BLOCK: usize = 1024;
+pub const MAX_BLOCK: usize = model_core::link::block::MAX_BYTES;
 
 const MAGIC: [u8; 4] = *b"SLOT";
 

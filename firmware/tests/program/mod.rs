@@ -42,6 +42,7 @@ pub fn block<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
         continuous_current: 2.0,
         heating_time: 10.0,
         effects: BlockEffects::default(),
+        wiring: [None; N],
     }
 }
 
@@ -72,6 +73,8 @@ pub struct Program {
     tx_consumer: TxConsumer,
     decoder: FrameDecoder,
     pub records: Vec<TelemetryRecord>,
+    /// Why commands were refused, by the reasons' codes
+    pub refused: Vec<u8>,
     /// What the last motion turn decided
     pub output: MotionOutput,
     sequence: u16,
@@ -89,6 +92,7 @@ impl Program {
             tx_consumer,
             decoder: FrameDecoder::new(),
             records: Vec::new(),
+            refused: Vec::new(),
             output: MotionOutput::default(),
             sequence: 0,
         }
@@ -96,11 +100,16 @@ impl Program {
 
     /// One that drives, 70 ms after its start.
     pub fn driving(parameters: &Parameters) -> Self {
+        Self::driving_where(parameters, &still())
+    }
+
+    /// The same where a robot that stands reads these codes.
+    pub fn driving_where(parameters: &Parameters, still: &Codes) -> Self {
         let mut program = Self::new();
         program.send_block(&bytes(parameters));
-        program.ticks(60, &still());
+        program.ticks(60, still);
         program.drive();
-        program.ticks(10, &still());
+        program.ticks(10, still);
         program
     }
 
@@ -142,6 +151,7 @@ impl Program {
         if self.windings.motion_is_due() {
             let feedback = self.windings.feedback();
             self.output = self.motion.tick(&feedback, &mut self.inbox);
+            self.refused.extend(self.output.reply.filter(|reply| !reply.taken).map(|reply| reply.reason));
             let setpoints = &self.output.setpoints;
             assert!(setpoints.current.iter().chain(&setpoints.voltage).all(|x| x.is_finite()), "{setpoints:?}");
             self.windings.apply(&self.output);

@@ -170,7 +170,7 @@ impl<B: BoardProgram, const N: usize> ClosedLoopRun<B, N> {
                 Some(Message::Record(record)) => self.log.records.push(record),
                 Some(Message::Hello(hello)) => self.log.hellos.push(hello),
                 Some(Message::Reply(reply)) => self.log.replies.push(reply),
-                None => {}
+                Some(Message::ProbeReport(_)) | None => {}
             }
         }
     }

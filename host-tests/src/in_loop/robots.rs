@@ -86,6 +86,7 @@ pub fn block<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
         continuous_current: 2.0,
         heating_time: 10.0,
         effects: BlockEffects::default(),
+        wiring: [None; N],
     }
 }
 

@@ -238,6 +238,18 @@ impl HallDecoder {
         self.sector
     }
 
+    /// |ω_e| [2⁻³² turns a period]; 0 where the speed is not known.
+    #[inline]
+    pub(super) fn step(&self) -> u32 {
+        self.step
+    }
+
+    /// True where the last edge was crossed backwards.
+    #[inline]
+    pub(super) fn is_backwards(&self) -> bool {
+        self.backwards
+    }
+
     /// θ, electrical angle within the sector when it was read, in 2⁻¹⁶ turns.
     #[inline]
     pub fn angle_code(&self) -> u16 {

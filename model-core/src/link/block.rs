@@ -13,6 +13,7 @@
 //! · current of one count (below zero where the code falls with the current), bus voltage of one count f32
 //! · linear range of the current amplifiers, continuous current of a motor, its thermal time constant f32
 //! · effects u8 × (code u8 · wheel u8, 0xff where on all · its card's parameters f32)
+//! · how motors are wired, where any was commissioned
 //! · CRC-32 of all before (ISO HDLC)
 //! ```
 //!
@@ -20,6 +21,7 @@
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 
+use crate::control::wiring::MotorWiring;
 use crate::effects::active::MOST_UNDONE;
 use crate::effects::card::MAX_PARAMS;
 use crate::geometry::kinematics::{Wheel, Wheels};
@@ -32,6 +34,7 @@ mod bounds;
 mod effects;
 mod error;
 mod limits;
+mod wirings;
 
 pub use bounds::{BoundedField, MAX_TRIP_COUNTS, TRIP_OVER_LIMIT, USABLE_COUNTS, trip_current};
 pub use effects::{BlockEffect, BlockEffects, EFFECT_CODES, EffectCode};
@@ -42,14 +45,19 @@ pub use limits::Limits;
 pub const VERSION: u16 = 3;
 
 /// Room that is enough for every block.
-pub const MAX_BYTES: usize = 1024;
+pub const MAX_BYTES: usize = 1280;
 
 const MAGIC: [u8; 4] = *b"OMNI";
 const HEADER: usize = 13;
 const CHECK: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
-/// The longest block that there can be: four wheels and all effects with all parameters.
-const LONGEST: usize = HEADER + 4 * (4 * 3 + bounds::SCALARS.len()) + 1 + MOST_UNDONE * (2 + 4 * MAX_PARAMS) + 4;
+/// The longest block that there can be: four wheels, all effects with all parameters, all motors' wirings.
+const LONGEST: usize = HEADER
+    + 4 * (4 * 3 + bounds::SCALARS.len())
+    + 1
+    + MOST_UNDONE * (2 + 4 * MAX_PARAMS)
+    + (1 + 4 * wirings::BYTES)
+    + 4;
 const _: () = assert!(LONGEST <= MAX_BYTES, "every block fits");
 
 /// How the wheels are driven.
@@ -98,6 +106,8 @@ pub struct Block<const N: usize> {
     pub heating_time: f32,
     /// Effects that the robot should undo.
     pub effects: BlockEffects,
+    /// How the motors are wired; none of one that was never commissioned.
+    pub wiring: [Option<MotorWiring>; N],
 }
 
 impl<const N: usize> Default for Block<N> {
@@ -127,6 +137,7 @@ impl<const N: usize> Default for Block<N> {
             continuous_current: 0.0,
             heating_time: 0.0,
             effects: BlockEffects::default(),
+            wiring: [None; N],
         }
     }
 }
@@ -203,7 +214,8 @@ impl<const N: usize> Block<N> {
         }
         bounds::check_limits(self.robot.supply, &self.limits, self.amps_per_count, self.bus_volts_per_count)?;
         bounds::check_currents(self.limits.current, self.amps_per_count, self.linear_range, self.continuous_current)?;
-        self.effects.check(N)
+        self.effects.check(N)?;
+        wirings::check(&self.wiring)
     }
 
     /// Writes the block into `out` and returns how many bytes it has.
@@ -214,7 +226,7 @@ impl<const N: usize> Block<N> {
         self.check()?;
         let mut copy = *self;
         let effects = self.effects.iter().map(|effect| 2 + 4 * effect.params().len()).sum::<usize>();
-        let length = HEADER + 4 * (3 * N + bounds::SCALARS.len()) + 1 + effects + 4;
+        let length = HEADER + 4 * (3 * N + bounds::SCALARS.len()) + 1 + effects + wirings::length(&self.wiring) + 4;
         let mut writer = Writer::new(out);
         writer.bytes(&MAGIC);
         writer.u16(VERSION);
@@ -230,6 +242,7 @@ impl<const N: usize> Block<N> {
             writer.bytes(&[effect.code(), effect.wheel().unwrap_or(effects::EVERY_WHEEL)]);
             effect.params().iter().for_each(|x| writer.f32(*x));
         }
+        wirings::write(&self.wiring, &mut writer);
         writer.u32(CHECK.checksum(writer.written()));
         writer.len().filter(|written| *written == length).ok_or(BlockError::because(BlockErrorKind::Length, "length"))
     }
@@ -277,9 +290,7 @@ impl<const N: usize> Block<N> {
             let effect = BlockEffect::read(reader, short)?;
             block.effects.push(effect)?;
         }
-        if !reader.rest().is_empty() {
-            return Err(short);
-        }
+        block.wiring = wirings::read(reader, short)?;
         block.check()?;
         Ok(block)
     }

@@ -7,15 +7,17 @@
 //! Clear   nothing
 //! Chunk   offset u16 · bytes, 1 to 128
 //! Commit  length u16
+//! Probe   as in [`probe`](crate::link::probe)
 //! ```
 //!
 //! A command that is not of this form, or not finite, or faster than any robot of this size, is refused with a reason;
 //! what a robot can really do is for its limits to say. Clear, Commit and whatever is refused are answered by a
-//! [`Reply`].
+//! [`Reply`]; a probe that is taken is answered by its reports.
 
 use crate::geometry::frames::BodyTwist;
 use crate::link::bytes::{Reader, Writer};
 use crate::link::framing::{FrameKind, MAX_FRAME, MAX_PAYLOAD, encode_frame};
+use crate::link::probe::Probe;
 
 /// The fastest that a command may ask along v or vn [m/s].
 pub const FASTEST: f32 = 20.0;
@@ -52,6 +54,8 @@ pub enum Command<'a> {
         /// Its length [bytes]
         length: u16,
     },
+    /// Put a voltage that stands still on one motor.
+    Probe(Probe),
 }
 
 /// Why a command is not taken.
@@ -66,12 +70,22 @@ pub enum CommandError {
     NotFinite,
     /// Faster than any robot of this size.
     TooFast,
+    /// A probe of a motor that the robot does not have, or for more periods than there are.
+    NoSuchProbe,
+    /// A probe while the bridges are not open and at rest.
+    NotOpen,
 }
 
 impl CommandError {
     /// All reasons.
-    pub const ALL: [CommandError; 4] =
-        [CommandError::Kind, CommandError::Length, CommandError::NotFinite, CommandError::TooFast];
+    pub const ALL: [CommandError; 6] = [
+        CommandError::Kind,
+        CommandError::Length,
+        CommandError::NotFinite,
+        CommandError::TooFast,
+        CommandError::NoSuchProbe,
+        CommandError::NotOpen,
+    ];
 
     /// Its number in a [`Reply`].
     pub const fn code(self) -> u8 {
@@ -85,6 +99,8 @@ impl CommandError {
             CommandError::Length => "the command is too short or too long for its kind",
             CommandError::NotFinite => "a wanted speed is not a finite number",
             CommandError::TooFast => "a wanted speed is above 20 m/s or 100 rad/s",
+            CommandError::NoSuchProbe => "there is no such motor, or not so many periods",
+            CommandError::NotOpen => "the bridges are not open and at rest",
         }
     }
 }
@@ -109,9 +125,16 @@ impl<'a> Command<'a> {
                 return Ok(Command::Chunk { offset, bytes });
             }
             Some(FrameKind::Commit) => Command::Commit { length: reader.u16().ok_or(CommandError::Length)? },
+            Some(FrameKind::Probe) => Command::Probe(Probe::read(&mut reader).ok_or(CommandError::Length)?),
             _ => return Err(CommandError::Kind),
         };
-        if reader.rest().is_empty() { Ok(command) } else { Err(CommandError::Length) }
+        if !reader.rest().is_empty() {
+            return Err(CommandError::Length);
+        }
+        match command {
+            Command::Probe(probe) if !probe.is_possible() => Err(CommandError::NoSuchProbe),
+            command => Ok(command),
+        }
     }
 
     /// The kind of its frame.
@@ -122,6 +145,7 @@ impl<'a> Command<'a> {
             Command::Clear => FrameKind::Clear,
             Command::Chunk { .. } => FrameKind::Chunk,
             Command::Commit { .. } => FrameKind::Commit,
+            Command::Probe(_) => FrameKind::Probe,
         }
     }
 
@@ -145,6 +169,7 @@ impl<'a> Command<'a> {
                 writer.bytes(bytes);
             }
             Command::Commit { length } => writer.u16(*length),
+            Command::Probe(probe) => probe.write(&mut writer),
         }
         encode_frame(self.kind().code(), writer.written(), out)
     }
@@ -217,6 +242,7 @@ mod tests {
             Command::Chunk { offset: 384, bytes: &bytes },
             Command::Chunk { offset: 0, bytes: &[7; MAX_CHUNK] },
             Command::Commit { length: 412 },
+            Command::Probe(Probe { sequence: 9, motor: 3, periods: 20, share: 0xffff, angle: 1, rate: 0x1234 }),
         ];
         let mut decoder = FrameDecoder::new();
         for command in all {
@@ -255,7 +281,8 @@ mod tests {
 
     #[test]
     fn every_other_length_and_every_other_kind_is_refused() {
-        let long = [0; MAX_PAYLOAD];
+        // a probe of motor 1 for one period is possible
+        let long = [1; MAX_PAYLOAD];
         for kind in 0..=u8::MAX {
             for len in 0..=MAX_PAYLOAD {
                 let fits = match FrameKind::from_code(kind) {
@@ -263,6 +290,7 @@ mod tests {
                     Some(FrameKind::Open | FrameKind::Clear) => len == 0,
                     Some(FrameKind::Chunk) => (3..=2 + MAX_CHUNK).contains(&len),
                     Some(FrameKind::Commit) => len == 2,
+                    Some(FrameKind::Probe) => len == 10,
                     _ => {
                         assert_eq!(Command::decode(kind, &long[..len]), Err(CommandError::Kind));
                         continue;
@@ -270,6 +298,17 @@ mod tests {
                 };
                 assert_eq!(Command::decode(kind, &long[..len]).is_ok(), fits, "kind {kind}, {len} bytes");
             }
+        }
+    }
+
+    #[test]
+    fn a_probe_of_a_motor_that_is_not_there_is_refused() {
+        let mut payload = [0, 0, 3, 20, 0, 1, 0, 1, 0, 1];
+        assert!(Command::decode(FrameKind::Probe.code(), &payload).is_ok());
+        for (at, value) in [(2, 4), (3, 0), (3, 21)] {
+            let before = core::mem::replace(&mut payload[at], value);
+            assert_eq!(Command::decode(FrameKind::Probe.code(), &payload), Err(CommandError::NoSuchProbe));
+            payload[at] = before;
         }
     }
 

@@ -40,25 +40,31 @@ pub enum FrameKind {
     Chunk = 0x04,
     /// Host to robot: the parameter block is whole, take it.
     Commit = 0x05,
+    /// Host to robot: a voltage on one motor, to find out how it is wired.
+    Probe = 0x06,
     /// Robot to host: what a turn leaves behind.
     Record = 0x81,
     /// Robot to host: who the robot is and how to read its codes.
     Hello = 0x82,
     /// Robot to host: an answer to a command.
     Reply = 0x83,
+    /// Robot to host: what was measured under a probe.
+    ProbeReport = 0x84,
 }
 
 impl FrameKind {
     /// All of them.
-    pub const ALL: [FrameKind; 8] = [
+    pub const ALL: [FrameKind; 10] = [
         FrameKind::Drive,
         FrameKind::Open,
         FrameKind::Clear,
         FrameKind::Chunk,
         FrameKind::Commit,
+        FrameKind::Probe,
         FrameKind::Record,
         FrameKind::Hello,
         FrameKind::Reply,
+        FrameKind::ProbeReport,
     ];
 
     /// Its number on the wire.

@@ -5,6 +5,7 @@
 use crate::link::command::Reply;
 use crate::link::framing::FrameKind;
 use crate::link::hello::Hello;
+use crate::link::probe::ProbeReport;
 use crate::link::record::TelemetryRecord;
 
 /// What a robot says.
@@ -16,6 +17,8 @@ pub enum Message {
     Hello(Hello),
     /// An answer to a command.
     Reply(Reply),
+    /// What was measured under a probe.
+    ProbeReport(ProbeReport),
 }
 
 impl Message {
@@ -25,7 +28,13 @@ impl Message {
             FrameKind::Record => TelemetryRecord::from_bytes(payload).map(Message::Record),
             FrameKind::Hello => Hello::from_bytes(payload).map(Message::Hello),
             FrameKind::Reply => Reply::from_bytes(payload).map(Message::Reply),
-            FrameKind::Drive | FrameKind::Open | FrameKind::Clear | FrameKind::Chunk | FrameKind::Commit => None,
+            FrameKind::ProbeReport => ProbeReport::from_bytes(payload).map(Message::ProbeReport),
+            FrameKind::Drive
+            | FrameKind::Open
+            | FrameKind::Clear
+            | FrameKind::Chunk
+            | FrameKind::Commit
+            | FrameKind::Probe => None,
         }
     }
 }

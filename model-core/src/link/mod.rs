@@ -2,7 +2,8 @@
 //!
 //! Frames on a serial line ([`framing`]); in them commands and their replies ([`command`]), a record of every turn
 //! ([`record`]), who the robot is ([`hello`]), which of these a frame holds ([`message`]), which faults it has ([`faults`])
-//! and what it does about itself ([`events`]), and the parameters that it drives with ([`block`]). All numbers are little-endian.
+//! and what it does about itself ([`events`]), a motor that is asked how it is wired ([`probe`]), and the parameters that the
+//! robot drives with ([`block`]). All numbers are little-endian.
 
 mod bytes;
 
@@ -13,6 +14,8 @@ pub mod command;
 pub mod record;
 
 pub mod hello;
+
+pub mod probe;
 
 pub mod message;
 

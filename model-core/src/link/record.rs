@@ -49,16 +49,19 @@ pub enum OperatingState {
     Driving,
     /// A fault is kept, bridges open.
     Faulted,
+    /// One motor has a voltage that stands still, to find out how it is wired.
+    Probing,
 }
 
 impl OperatingState {
     /// All of them, in the order of their codes.
-    pub const ALL: [OperatingState; 5] = [
+    pub const ALL: [OperatingState; 6] = [
         OperatingState::Asleep,
         OperatingState::Calibrating,
         OperatingState::Open,
         OperatingState::Driving,
         OperatingState::Faulted,
+        OperatingState::Probing,
     ];
 
     /// Its number on the wire.
@@ -226,7 +229,7 @@ mod tests {
         for len in (0..=TelemetryRecord::BYTES + 1).filter(|len| *len != TelemetryRecord::BYTES) {
             assert_eq!(TelemetryRecord::from_bytes(&long[..len]), None);
         }
-        for stage in 5..16 {
+        for stage in 6..16 {
             let mut bad = bytes;
             bad[8] = stage;
             assert_eq!(TelemetryRecord::from_bytes(&bad), None);

@@ -92,6 +92,7 @@ fn export_of<const N: usize>(file: &RobotFile, path: &Path) -> Result<Exported> 
         continuous_current,
         heating_time: controller.heating_time_s as f32,
         effects: BlockEffects::default(),
+        wiring: [None; N],
     };
     let (undone, left) = effects_of(file, path, &mut block)?;
     let mut bytes = [0; MAX_BYTES];

@@ -237,6 +237,7 @@ fn ready(line: &mut Line) -> Result<()> {
     let (problem, fix) = match status.state {
         OperatingState::Open | OperatingState::Driving => return Ok(()),
         OperatingState::Faulted => (status.faults.join("; "), MEND),
+        OperatingState::Probing => ("it is being commissioned".into(), "Wait until that is over"),
         OperatingState::Calibrating => {
             ("it still measures the zeros of its current sensors".into(), "Wait for a second")
         }

@@ -14,7 +14,8 @@ pub const TURNS_A_SECOND: f64 = 20_000.0;
 /// How a robot is.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Status {
-    /// What it does: `asleep` (without parameters), `calibrating`, `open`, `driving` or `faulted`.
+    /// What it does: `asleep` (without parameters), `calibrating`, `open`, `driving`, `probing` (one
+    /// motor, by a commissioning) or `faulted`.
     #[schemars(with = "String")]
     #[serde(serialize_with = "as_word")]
     pub state: OperatingState,
@@ -53,6 +54,7 @@ pub const fn word(state: OperatingState) -> &'static str {
         OperatingState::Open => "open",
         OperatingState::Driving => "driving",
         OperatingState::Faulted => "faulted",
+        OperatingState::Probing => "probing",
     }
 }
 
@@ -86,7 +88,7 @@ impl StatusSeen {
                 self.began.get_or_insert(record.time);
             }
             Message::Hello(hello) => self.hello = Some(hello),
-            Message::Reply(_) => {}
+            Message::Reply(_) | Message::ProbeReport(_) => {}
         }
     }
 

@@ -32,11 +32,13 @@ pub enum BlockErrorKind {
     EffectTwice,
     /// More effects than a model carries.
     TooManyEffects,
+    /// A motor that is wired as none can be.
+    Wiring,
 }
 
 impl BlockErrorKind {
     /// All of them, in the order of their codes.
-    pub const ALL: [BlockErrorKind; 13] = [
+    pub const ALL: [BlockErrorKind; 14] = [
         BlockErrorKind::Magic,
         BlockErrorKind::Newer,
         BlockErrorKind::Older,
@@ -50,6 +52,7 @@ impl BlockErrorKind {
         BlockErrorKind::EffectWheel,
         BlockErrorKind::EffectTwice,
         BlockErrorKind::TooManyEffects,
+        BlockErrorKind::Wiring,
     ];
 
     /// Its number in a [`Reply`](crate::link::command::Reply) to a commit.
@@ -78,6 +81,7 @@ impl BlockErrorKind {
             BlockErrorKind::EffectWheel => "the effect does not belong on this wheel, or names none and needs one",
             BlockErrorKind::EffectTwice => "the effect stands there twice",
             BlockErrorKind::TooManyEffects => "there are more effects than a model carries",
+            BlockErrorKind::Wiring => "no motor is wired like that",
         }
     }
 }

@@ -34,6 +34,7 @@ fn with<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
         continuous_current: 1.5,
         heating_time: 10.0,
         effects,
+        wiring: [None; N],
     }
 }
 
@@ -296,4 +297,29 @@ fn reasons_have_codes_and_words_of_their_own() {
         assert_eq!(BlockErrorKind::from_code(reason.code()), Some(reason));
         assert!(BlockErrorKind::ALL.into_iter().skip(k + 1).all(|other| other.text() != reason.text()));
     }
+}
+
+#[test]
+fn what_a_commissioning_found_comes_back_and_a_robot_without_it_has_the_bytes_that_it_had() {
+    let plain = encoded(&four());
+    let crossed = MotorWiring { outputs: [0, 2, 1], inverted: [false, true, false], ..MotorWiring::default() };
+    let wiring = [Some(crossed), None, None, Some(MotorWiring::default())];
+    let (bytes, length) = encoded(&Block { wiring, ..four() });
+    assert_eq!(length, plain.1 + 1 + 2 * wirings::BYTES);
+    let Ok(Parameters::Four(block)) = Parameters::decode(&bytes[..length]) else { panic!("four wheels") };
+    assert_eq!(block.wiring, wiring);
+    // the places before are those of a block without it
+    assert_eq!(bytes[8..plain.1 - 4], plain.0[8..plain.1 - 4]);
+}
+
+#[test]
+fn a_wiring_that_no_motor_has_is_refused() {
+    let twice = MotorWiring { outputs: [0, 0, 1], ..MotorWiring::default() };
+    let told = Block { wiring: [None, Some(twice), None, None], ..four() }.check();
+    assert_eq!(told.unwrap_err().reason, BlockErrorKind::Wiring);
+    // of a motor that is not there
+    let wiring = [Some(MotorWiring::default()), None, None, None];
+    let (mut bytes, length) = encoded(&Block { wiring, ..four() });
+    bytes[length - 4 - wirings::BYTES - 1] = 0b1_0000;
+    assert_eq!(refusal(&resealed(bytes, length)).reason, BlockErrorKind::Length);
 }

@@ -60,7 +60,7 @@ impl Capture {
                 Some(Message::Record(record)) => self.keep(record),
                 // before the zeros of its sensors are known a robot tells them as 0
                 Some(Message::Hello(hello)) if zeros_are_known(&hello) => self.hellos.push((self.records.len(), hello)),
-                Some(Message::Hello(_) | Message::Reply(_)) => {}
+                Some(Message::Hello(_) | Message::Reply(_) | Message::ProbeReport(_)) => {}
                 None => self.strange += u32::from(!is_reply),
             }
             if self.is_enough() {
