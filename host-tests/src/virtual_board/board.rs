@@ -40,6 +40,8 @@ use super::faults::{InjectedFault, OnBoard};
 use super::instants::Instants;
 use super::machine::{BridgeLegs, RotorFlux};
 use super::motor::BoardMotor;
+use super::stand::Stand;
+use super::wiring::BoardWiring;
 
 /// One PWM period [s].
 pub const PERIOD: f64 = 50e-6;
@@ -81,6 +83,10 @@ pub struct BoardSetup<const N: usize> {
     pub hall_spread: f64,
     /// When currents are sampled and halls are read
     pub instants: Instants,
+    /// Which leads of the motors are soldered where
+    pub wirings: [BoardWiring; N],
+    /// The wheels are off the ground; none where they stand on it
+    pub stand: Option<Stand>,
     /// What zeros, placements, rotor angles and noise are drawn with
     pub seed: u64,
 }
@@ -100,6 +106,8 @@ impl<const N: usize> BoardSetup<N> {
             noise: 1.5,
             hall_spread: 0.0,
             instants: Instants::default(),
+            wirings: [BoardWiring::default(); N],
+            stand: None,
             seed,
         }
     }
@@ -118,6 +126,8 @@ pub struct VirtualBoard<const N: usize> {
     plant_effects: Effects<N, f64, OnBoard>,
     plant: Plant<N, f64, OnBoard>,
     state: State<N, f64>,
+    /// Speeds of wheels off the ground [rad/s]
+    hanging: [f64; N],
     memory: Vec<EffectState<f64>>,
     motors: [BoardMotor; N],
     battery: Battery,
@@ -165,6 +175,7 @@ impl<const N: usize> VirtualBoard<N> {
             plant_effects: carried,
             plant,
             state,
+            hanging: [0.0; N],
             memory,
             motors,
             battery,
@@ -189,7 +200,9 @@ impl<const N: usize> VirtualBoard<N> {
         let Instants { sample, halls } = self.setup.instants;
         for (j, motor) in self.motors.iter_mut().enumerate() {
             let legs = BridgeLegs {
-                duties: outputs.compare[j].map(|count| (f64::from(count) / f64::from(TOPS[j])).min(1.0)),
+                duties: motor
+                    .wiring
+                    .windings(outputs.compare[j].map(|count| (f64::from(count) / f64::from(TOPS[j])).min(1.0))),
                 bus: self.bus,
                 enabled: outputs.enabled >> j & 1 != 0,
             };
@@ -198,15 +211,31 @@ impl<const N: usize> VirtualBoard<N> {
             let magnet = RotorFlux { angle: motor.angle, speed };
             motor.period(&legs, magnet, sample);
             motor.angle = magnet.after(PERIOD).angle.rem_euclid(std::f64::consts::TAU);
-            codes.halls[j] = HallCode(motor.halls.code(magnet.after((sample + halls) * PERIOD).angle));
+            codes.halls[j] = motor.hall_code(magnet.after((sample + halls) * PERIOD).angle);
             codes.phases[j] = motor.codes(magnet.after(sample * PERIOD).angle, &mut self.rng);
         }
         codes.bus = AdcCode(self.bus_channel.code(self.bus, &mut self.rng));
         self.drawn = self.motors.iter().map(|motor| motor.outcome.bus_current).sum();
-        let current = Input::Current(self.currents());
-        self.plant.step(&mut self.state, &mut self.memory, &current, PERIOD);
+        self.move_on();
         self.spoil(&mut codes, outputs.enabled);
         codes
+    }
+
+    /// Robot or wheels, a period on.
+    fn move_on(&mut self) {
+        let currents = self.currents();
+        let Some(stand) = self.setup.stand else {
+            self.plant.step(&mut self.state, &mut self.memory, &Input::Current(currents), PERIOD);
+            return;
+        };
+        let motor = self.setup.robot.motor;
+        for (j, speed) in self.hanging.iter_mut().enumerate() {
+            let blocked =
+                self.faults.iter().any(|fault| matches!(fault, InjectedFault::Blocked { motor } if *motor == j));
+            // τ = l·K_t·i
+            let torque = motor.gear_ratio * motor.torque_constant * currents[j];
+            *speed = if blocked { 0.0 } else { stand.speed_after(*speed, torque, PERIOD) };
+        }
     }
 
     /// The codes of a board on which nothing is connected.
@@ -284,6 +313,11 @@ impl<const N: usize> VirtualBoard<N> {
         held.unwrap_or_else(|| self.capacitor.map_or_else(battery, |capacitor| capacitor.voltage))
     }
 
+    /// What the board and its robot are made of.
+    pub fn setup(&self) -> &BoardSetup<N> {
+        &self.setup
+    }
+
     /// Where the robot is.
     pub fn state(&self) -> &State<N, f64> {
         &self.state
@@ -291,6 +325,9 @@ impl<const N: usize> VirtualBoard<N> {
 
     /// Speed of each wheel at its shaft [rad/s].
     pub fn wheel_speeds(&self) -> [f64; N] {
+        if self.setup.stand.is_some() {
+            return self.hanging;
+        }
         // a wheel that rolls turns with the body; the plant keeps the speed of one that slips
         if self.plant_effects.none_at(Seam::Contact) {
             self.setup.robot.wheels.wheel_speeds(self.state.twist)
@@ -317,6 +354,16 @@ impl<const N: usize> VirtualBoard<N> {
     /// Mean current drawn from the battery over the last period [A].
     pub fn bus_current(&self) -> f64 {
         self.drawn
+    }
+
+    /// How far each motor's switches sit from their places [rad, electrical].
+    pub fn hall_errors(&self) -> [[f64; 3]; N] {
+        std::array::from_fn(|j| self.motors[j].halls.errors)
+    }
+
+    /// Currents of each motor's windings when they were sampled last [A].
+    pub fn winding_currents(&self) -> [[f64; 3]; N] {
+        std::array::from_fn(|j| self.motors[j].sampled)
     }
 
     /// Codes of zero current, phase by phase [counts].

@@ -8,6 +8,7 @@ use firmware::motor_controller::{MotorController, MotorMeasurement};
 use firmware::registers::timing;
 use firmware::winding_config::WindingConfig;
 use model_core::control::current_loop::{CurrentMeasurement, CurrentMemory, CurrentSetpoint};
+use model_core::control::hall_tracker::HallEdges;
 use model_core::link::block::{Block, Parameters};
 use model_core::plant::paper::four_wheels;
 use std::f64::consts::TAU;
@@ -49,10 +50,16 @@ struct Seen {
 
 impl Rig {
     fn new(instants: Instants) -> Self {
-        let mut setup = BoardSetup::new(four_wheels::<f64>(), Effects::default(), 5).ideal();
+        Self::placed(instants, 0.0, 5)
+    }
+
+    /// One whose hall switches sit up to so much off their places [rad].
+    fn placed(instants: Instants, spread: f64, seed: u64) -> Self {
+        let mut setup = BoardSetup::new(four_wheels::<f64>(), Effects::default(), seed).ideal();
+        setup.hall_spread = spread;
         (setup.robot.motor.resistance, setup.robot.motor.emf_constant) = (R, KV);
         (setup.inductance, setup.pole_pairs) = (L, POLE_PAIRS);
-        let mut rng = ChaCha8Rng::seed_from_u64(5);
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let motor = BoardMotor::new(&setup, 0, &mut rng);
         let mut block = Block { robot: four_wheels::<f32>(), inductance: L as f32, ..Block::<4>::default() };
         block.robot.motor.resistance = R as f32;
@@ -78,7 +85,7 @@ impl Rig {
         Seen {
             angle,
             codes: self.motor.codes(angle, &mut self.rng),
-            halls: HallCode(self.motor.halls.code(magnet.after((sample + halls) * PERIOD).angle)),
+            halls: self.motor.hall_code(magnet.after((sample + halls) * PERIOD).angle),
             current: [equivalent.re, equivalent.im],
         }
     }
@@ -98,8 +105,7 @@ struct Settled {
 }
 
 /// Plays turns, of which `decide` says duties and voltage, until all is settled and then 200 turns of the rotor.
-fn settled(instants: Instants, mut decide: impl FnMut(&WindingConfig, &Seen) -> ([f32; 3], f32)) -> Settled {
-    let mut rig = Rig::new(instants);
+fn settled(mut rig: Rig, mut decide: impl FnMut(&WindingConfig, &Seen) -> ([f32; 3], f32)) -> Settled {
     let turns = (200.0 * TAU / (SPEED * PERIOD)).round() as usize;
     let (mut voltage, mut d, mut q) = (0.0, Vec::new(), 0.0);
     for k in 0..4_000 + turns {
@@ -121,7 +127,7 @@ fn settled(instants: Instants, mut decide: impl FnMut(&WindingConfig, &Seen) -> 
 /// A turn that knows the rotor's angle at the sample.
 fn by_exact_angle(instants: Instants, setpoint: CurrentSetpoint) -> Settled {
     let mut memory = CurrentMemory::default();
-    settled(instants, move |config, seen| {
+    settled(Rig::new(instants), move |config, seen| {
         let measured = CurrentMeasurement {
             codes: seen.codes,
             offsets: [2048.0; 3],
@@ -137,9 +143,15 @@ fn by_exact_angle(instants: Instants, setpoint: CurrentSetpoint) -> Settled {
 
 /// The firmware's turn, by its halls.
 fn by_halls(instants: Instants, setpoint: CurrentSetpoint) -> Settled {
+    by_halls_of(Rig::new(instants), None, setpoint)
+}
+
+/// The same of a rig, by the places of its edges where they are known.
+fn by_halls_of(rig: Rig, edges: Option<HallEdges>, setpoint: CurrentSetpoint) -> Settled {
     let mut motor = MotorController::default();
-    settled(instants, move |config, seen| {
+    settled(rig, move |config, seen| {
         motor.update_halls(seen.halls).expect("a legal code");
+        edges.iter().for_each(|edges| motor.track(edges));
         let measured =
             MotorMeasurement { codes: seen.codes, offsets: [2048.0; 3], bus: BUS as f32, per_bus: 1.0 / BUS as f32 };
         motor.accumulate_voltage();
@@ -232,4 +244,30 @@ fn the_currents_are_those_of_the_instant() {
         assert!((outcome.current - rig.motor.outcome.current).abs() < 1e-12);
         assert!((outcome.bus_current - rig.motor.outcome.bus_current).abs() < 1e-12);
     }
+}
+
+/// The edges of a rig as a commissioning finds them, each off by up to a degree [2⁻¹⁶ turn].
+fn learned_edges(rig: &Rig, off: [f64; 6]) -> HallEdges {
+    let errors = rig.motor.halls.errors;
+    // sector k begins where switch 1 goes on, 0 off, 2 on, 1 off, 0 on, 2 off after the last: k·60° − 30° and its error
+    let switch = [2, 1, 0, 2, 1, 0];
+    HallEdges(std::array::from_fn(|k| {
+        let degrees = 60.0 * k as f64 - 30.0 + errors[switch[k]].to_degrees() + off[k];
+        (degrees.rem_euclid(360.0) * 65_536.0 / 360.0).round() as u32 as u16
+    }))
+}
+
+#[test]
+fn at_5000_rad_s_by_learned_edges_less_current_is_along_d_than_by_edges_taken_to_be_in_their_places() {
+    const OFF: [f64; 6] = [1.0, -1.0, 0.5, -0.5, 1.0, -1.0];
+    let spread = 5.0_f64.to_radians();
+    let (mut taken, mut learned) = (Vec::new(), Vec::new());
+    for seed in 1..=8 {
+        let rig = || Rig::placed(Instants::default(), spread, seed);
+        let edges = learned_edges(&rig(), OFF);
+        taken.push(by_halls_of(rig(), None, closed()).quantile);
+        learned.push(by_halls_of(rig(), Some(edges), closed()).quantile);
+    }
+    println!("95 % of |i_d|/i_q: {taken:.2?} by places taken, {learned:.2?} by learned ones");
+    assert!(taken.iter().zip(&learned).all(|(taken, learned)| *learned < 0.5 * taken), "{taken:?} {learned:?}");
 }

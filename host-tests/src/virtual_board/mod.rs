@@ -10,8 +10,8 @@
 //! ```
 //!
 //! The windings are solved here and share no line with the robot's code; body, wheels and their effects are the core's
-//! plant, driven by the mean current of each motor. [`board`] puts it together, [`instants`] says when it samples,
-//! [`faults`] is what can go wrong with it.
+//! plant, driven by the mean current of each motor; on a [`stand`] the wheels turn in the air. [`board`] puts it together,
+//! [`instants`] says when it samples, [`wiring`] which lead is soldered where, [`faults`] is what can go wrong with it.
 
 pub mod adc;
 pub mod battery;
@@ -21,7 +21,11 @@ pub mod halls;
 pub mod instants;
 pub mod machine;
 mod motor;
+pub mod stand;
+pub mod wiring;
 
 pub use board::{BoardSetup, Outputs, VirtualBoard};
 pub use faults::InjectedFault;
 pub use instants::Instants;
+pub use stand::Stand;
+pub use wiring::BoardWiring;

@@ -1,6 +1,7 @@
-//! # Motor: a motor of the board, with its converters and switches
+//! # Motor: windings, converters and switches of one motor, with its leads where they are soldered
 
 use model_core::control::calibration::AdcCode;
+use model_core::control::halls::HallCode;
 use model_core::effects::Effect;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -9,15 +10,18 @@ use super::adc::AdcChannel;
 use super::board::{BoardSetup, PERIOD};
 use super::halls::HallSwitches;
 use super::machine::{BridgeLegs, LegLoss, Machine, PeriodResult, RotorFlux, Vector, phases};
+use super::wiring::BoardWiring;
 
 /// A motor with its converters and switches.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BoardMotor {
+pub struct BoardMotor {
     pub machine: Machine,
     pub channels: [AdcChannel; 3],
     pub halls: HallSwitches,
     /// o of `current_sensor_offset` [A, DC-equivalent]
     sensor_offset: f64,
+    /// Which of its leads is soldered where
+    pub wiring: BoardWiring,
     /// Space vector of the phase currents [A]
     pub current: Vector,
     /// Phase currents when they were sampled last [A]
@@ -52,7 +56,13 @@ impl BoardMotor {
         let halls = HallSwitches { errors: [(); 3].map(|()| within(setup.hall_spread)) };
         let angle = within(std::f64::consts::PI).rem_euclid(std::f64::consts::TAU);
         let (current, outcome) = (Vector::default(), PeriodResult::default());
-        Self { machine, channels, halls, sensor_offset, current, sampled: [0.0; 3], angle, outcome }
+        let wiring = setup.wirings[j];
+        Self { machine, channels, halls, sensor_offset, wiring, current, sampled: [0.0; 3], angle, outcome }
+    }
+
+    /// What its hall lines read at an electrical angle [rad].
+    pub fn hall_code(&self, angle: f64) -> HallCode {
+        HallCode(self.wiring.lines(self.halls.code(angle)))
     }
 
     /// A period whose currents are sampled when a `sample` of it is over [1].
@@ -85,6 +95,8 @@ impl BoardMotor {
         // 2/√3·o
         let turning = Vector::new(0.0, 2.0 / 3.0_f64.sqrt() * self.sensor_offset) * Vector::from_polar(1.0, angle);
         let wrong = phases(turning);
-        std::array::from_fn(|x| AdcCode(self.channels[x].code(self.sampled[x] + wrong[x], rng)))
+        let flowing = std::array::from_fn(|x| self.sampled[x] + wrong[x]);
+        let measured = self.wiring.measured(flowing);
+        std::array::from_fn(|x| AdcCode(self.channels[x].code(measured[x], rng)))
     }
 }
