@@ -99,7 +99,7 @@ impl CommandError {
             CommandError::Length => "the command is too short or too long for its kind",
             CommandError::NotFinite => "a wanted speed is not a finite number",
             CommandError::TooFast => "a wanted speed is above 20 m/s or 100 rad/s",
-            CommandError::NoSuchProbe => "there is no such motor, or not so many periods",
+            CommandError::NoSuchProbe => "there is no such motor, it is out of use, or there are not so many periods",
             CommandError::NotOpen => "the bridges are not open and at rest",
         }
     }

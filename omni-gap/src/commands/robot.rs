@@ -1,6 +1,7 @@
 //! `robot`: what a robot is asked to do over its line.
 
 mod ask;
+mod commission;
 mod drive;
 mod live;
 
@@ -14,9 +15,10 @@ use super::console::Console;
 use super::done::{DONE, Done};
 use super::record::Record;
 pub use ask::{Ask, RobotAnswered};
+use commission::Commission;
 use drive::Drive;
 
-/// Send parameters to a robot, drive it, stop it, have it forget its faults, ask how it is
+/// Send parameters to a robot, find out how its motors are wired, drive it, stop it, have it forget its faults, ask how it is
 #[derive(Debug, clap::Args)]
 pub struct Robot {
     #[command(subcommand)]
@@ -29,6 +31,8 @@ enum Verb {
     Status(Ask),
     /// Send the parameters of a robot file, and wait until the robot drives with them
     Send(Send),
+    /// Find out how each motor is wired: phases, current signs, halls and their places; wheels off the ground, at most 1 A
+    Commission(Box<Commission>),
     /// Drive leg by leg, then come to rest and open the bridges; Ctrl-C does so at once
     Drive(Box<Drive>),
     /// Open the bridges: the robot coasts
@@ -60,6 +64,7 @@ impl Robot {
             Verb::Stop(ask) => ask.answer(console, "opening the bridges", stop)?,
             Verb::Clear(ask) => ask.answer(console, "clearing the faults", clear)?,
             Verb::Send(asked) => asked.run(console)?,
+            Verb::Commission(asked) => asked.run(console)?,
             Verb::Drive(asked) => asked.run(console)?,
         }
         Ok(DONE)

@@ -5,6 +5,7 @@
 //!
 //! [`Catalogue`]: super::Catalogue
 
+use super::commissioned::CommissionedFile;
 use super::controller::ControllerFile;
 use model_core::effects::nominal;
 use model_core::geometry::kinematics::Wheel;
@@ -190,6 +191,9 @@ pub struct RobotFile {
     /// What only the robot's controller needs to know.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<ControllerFile>,
+    /// How motors are wired, where that was found out.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub commissioned: Vec<CommissionedFile>,
     /// Effects, in the file's order.
     pub effects: Vec<EffectEntry>,
 }

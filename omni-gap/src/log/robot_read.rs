@@ -1,6 +1,7 @@
 //! # From the text of a robot file to a sound [`RobotFile`]
 
 use super::catalogue::Catalogue;
+use super::commissioned::commissioned;
 use super::controller::controller;
 use super::effects_read::effects;
 use super::plausible;
@@ -16,7 +17,7 @@ use toml_edit::TableLike;
 /// The newest form of the robot file that this program knows.
 const NEWEST_SCHEMA: usize = 1;
 
-const TOP: [&str; 13] = [
+const TOP: [&str; 14] = [
     "schema",
     "name",
     "wheel",
@@ -29,6 +30,7 @@ const TOP: [&str; 13] = [
     "supply",
     "limits",
     "controller",
+    "commissioned",
     "effects",
 ];
 
@@ -77,6 +79,7 @@ fn robot(text: &str, path: &Path, catalogue: &Catalogue) -> Result<RobotFile> {
         supply: section("supply", "[supply]")?.map(|s| supply(&s)).transpose()?,
         limits: section("limits", "[limits]")?.map(|s| limits(&s)).transpose()?,
         controller: section("controller", "[controller]")?.map(|s| controller(&s)).transpose()?,
+        commissioned: top.table.get("commissioned").map_or(Ok(Vec::new()), |item| commissioned(source, item, count))?,
         effects: section("effects", "[effects]")?.map_or(Ok(Vec::new()), |s| effects(&s, catalogue, count))?,
     };
     plausible::together(&robot, &needed)?;

@@ -12,7 +12,7 @@ use model_core::link::block::{
 use model_core::link::hello::Commutation;
 
 use crate::error::{Error, InputKind, Result};
-use crate::log::{ControllerFile, EffectEntry, RobotFile};
+use crate::log::{CommissionedFile, ControllerFile, EffectEntry, RobotFile};
 use crate::simulate::robot_of;
 
 /// A parameter block, and what it does.
@@ -92,7 +92,9 @@ fn export_of<const N: usize>(file: &RobotFile, path: &Path) -> Result<Exported> 
         continuous_current,
         heating_time: controller.heating_time_s as f32,
         effects: BlockEffects::default(),
-        wiring: [None; N],
+        wiring: std::array::from_fn(|j| {
+            file.commissioned.iter().find(|motor| motor.wheel == j).map(CommissionedFile::wiring)
+        }),
     };
     let (undone, left) = effects_of(file, path, &mut block)?;
     let mut bytes = [0; MAX_BYTES];
