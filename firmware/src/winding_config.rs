@@ -4,7 +4,7 @@ use model_core::control::calibration::Calibration;
 use model_core::control::current_loop::CurrentLoop;
 use model_core::control::hall_tracker::HallEdges;
 use model_core::control::halls::HallCode;
-use model_core::control::wiring::MotorWiring;
+use model_core::control::wiring::{MotorLeads, MotorWiring};
 use model_core::link::block::{Block, MAX_TRIP_COUNTS, Parameters, VERSION, trip_current};
 use model_core::link::hello::{Commutation, Hello};
 use model_core::link::record::MOTORS;
@@ -46,7 +46,8 @@ pub struct WindingConfig {
 /// How the motors are wired, as the turn needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WiringTables {
-    motors: [MotorWiring; MOTORS],
+    leads: [MotorLeads; MOTORS],
+    edges: [HallEdges; MOTORS],
     /// What stands for each code of the hall lines
     halls: [[HallCode; 8]; MOTORS],
     /// One bit a motor that was commissioned
@@ -56,10 +57,13 @@ pub struct WiringTables {
 impl WiringTables {
     /// Those of a block; none where no motor was commissioned.
     fn of<const N: usize>(wirings: &[Option<MotorWiring>; N]) -> Option<Self> {
-        let mut tables = Self { motors: Default::default(), halls: [PLAIN_HALLS; MOTORS], commissioned: 0 };
+        let plain = MotorWiring::default();
+        let edges = [HallEdges::new(plain.edges); MOTORS];
+        let mut tables = Self { leads: [plain.leads(); MOTORS], edges, halls: [PLAIN_HALLS; MOTORS], commissioned: 0 };
         for (j, wiring) in wirings.iter().enumerate().take(MOTORS) {
             if let Some(wiring) = wiring {
-                tables.motors[j] = *wiring;
+                tables.leads[j] = wiring.leads();
+                tables.edges[j] = HallEdges::new(wiring.edges);
                 tables.halls[j] = wiring.hall_table();
                 tables.commissioned |= 1 << j;
             }
@@ -72,7 +76,7 @@ impl WiringTables {
     pub fn codes(&self, read: &Codes) -> Codes {
         let mut codes = *read;
         for j in 0..MOTORS {
-            codes.phases[j] = self.motors[j].phases(read.phases[j]);
+            codes.phases[j] = self.leads[j].phases(read.phases[j]);
             codes.halls[j] = self.halls[j][usize::from(read.halls[j].0 & 7)];
         }
         codes
@@ -81,14 +85,13 @@ impl WiringTables {
     /// Duties of a motor's outputs that give its phases theirs [1].
     #[inline]
     pub fn duties(&self, motor: usize, duties: [f32; 3]) -> [f32; 3] {
-        self.motors.get(motor).map_or(duties, |wiring| wiring.duties(duties))
+        self.leads[motor % MOTORS].duties(duties)
     }
 
     /// Where a motor's hall edges are, if it was commissioned.
     #[inline]
-    pub fn edges(&self, motor: usize) -> Option<HallEdges> {
-        let known = self.commissioned >> (motor & 7) & 1 != 0;
-        self.motors.get(motor).filter(|_| known).map(|wiring| HallEdges(wiring.edges))
+    pub fn edges(&self, motor: usize) -> Option<&HallEdges> {
+        self.edges.get(motor).filter(|_| self.commissioned >> (motor & 7) & 1 != 0)
     }
 }
 

@@ -274,7 +274,7 @@ fn tick_motor(
         Err(_) => protection.bad_hall(place.motor, config.wheels),
     }
     if let Some(edges) = config.wiring.as_ref().and_then(|wiring| wiring.edges(place.motor)) {
-        motor.track(&edges);
+        motor.track(edges);
     }
     if !place.ready {
         return NO_VOLTAGE;

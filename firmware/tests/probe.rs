@@ -122,7 +122,7 @@ fn miswired(wiring: &MotorWiring, codes: &Codes) -> Codes {
     for j in 0..4 {
         for (x, converter) in wiring.converters.iter().enumerate() {
             let code = codes.phases[j][x].0;
-            read.phases[j][usize::from(*converter)] = AdcCode(if wiring.inverted[x] { 4096 - code } else { code });
+            read.phases[j][usize::from(*converter)] = AdcCode(if wiring.inverted[x] { 4095 - code } else { code });
         }
         let sector = codes.halls[j].sector().unwrap_or_default();
         read.halls[j] = wiring.codes[usize::from(sector)];
@@ -152,7 +152,7 @@ fn a_robot_with_crossed_leads_that_was_commissioned_decides_what_one_without_doe
             [(0, straight), (1, crossed)].map(|(k, wiring)| programs[k].period(&miswired(&wiring, &codes)));
         assert_eq!(wanted.enabled, decided.enabled);
         for j in 0..4 {
-            assert_eq!(crossed.duties(wanted.duties[j]), decided.duties[j], "period {period}");
+            assert_eq!(crossed.leads().duties(wanted.duties[j]), decided.duties[j], "period {period}");
         }
         if period % 100 == 0 {
             programs.iter_mut().for_each(Program::drive);

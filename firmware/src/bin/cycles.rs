@@ -23,6 +23,7 @@ use model_core::control::current_loop::{
 };
 use model_core::control::halls::{HallCode, HallDecoder};
 use model_core::control::motion_controller::{Controller, Demand, Measurement, Memory, Output, Settings};
+use model_core::control::wiring::MotorWiring;
 use model_core::effects::card::Scope;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{Block, EFFECT_CODES, Limits, Parameters};
@@ -37,7 +38,10 @@ fn main() -> ! {
     compensations(&mut watch);
     currents(&mut watch);
     halls(&mut watch);
-    current_interrupt(&mut watch);
+    current_interrupt(&mut watch, "", None);
+    let crossed =
+        MotorWiring { outputs: [0, 2, 1], converters: [1, 2, 0], inverted: [true; 3], ..MotorWiring::default() };
+    current_interrupt(&mut watch, ", commissioned", black_box(Some(crossed)));
     board::end()
 }
 
@@ -187,8 +191,8 @@ fn windings_tick(windings: &mut Windings, codes: &Codes) -> BridgeCommand {
 }
 
 /// The whole current interrupt but for the board: four motors that turn and are driven, an edge of every motor each eighth
-/// period (2,600 rad/s electrical).
-fn current_interrupt(watch: &mut Stopwatch) {
+/// period (2,600 rad/s electrical), wired as the table of pins says or otherwise.
+fn current_interrupt(watch: &mut Stopwatch, detail: &str, wiring: Option<MotorWiring>) {
     let block = Block {
         robot: paper::four_wheels(),
         inductance: 0.6e-3,
@@ -206,6 +210,7 @@ fn current_interrupt(watch: &mut Stopwatch) {
         linear_range: 9.4,
         continuous_current: 2.0,
         heating_time: 10.0,
+        wiring: [wiring; 4],
         ..Block::default()
     };
     let ask = MotorSetpoints { current: [0.3; 4], voltage: [3.0; 4], closed: true, enabled: 0b1111 };
@@ -230,5 +235,5 @@ fn current_interrupt(watch: &mut Stopwatch) {
         board::fail(format_args!("the windings are not driven: {driven:04b}"));
     }
     let cost = watch.cost(&mut codes, |codes| windings_tick(&mut windings, codes));
-    say("current turn, four motors, field-oriented", "", cost);
+    say("current turn, four motors, field-oriented", detail, cost);
 }

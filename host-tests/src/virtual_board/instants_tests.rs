@@ -251,7 +251,7 @@ fn learned_edges(rig: &Rig, off: [f64; 6]) -> HallEdges {
     let errors = rig.motor.halls.errors;
     // sector k begins where switch 1 goes on, 0 off, 2 on, 1 off, 0 on, 2 off after the last: k·60° − 30° and its error
     let switch = [2, 1, 0, 2, 1, 0];
-    HallEdges(std::array::from_fn(|k| {
+    HallEdges::new(std::array::from_fn(|k| {
         let degrees = 60.0 * k as f64 - 30.0 + errors[switch[k]].to_degrees() + off[k];
         (degrees.rem_euclid(360.0) * 65_536.0 / 360.0).round() as u32 as u16
     }))

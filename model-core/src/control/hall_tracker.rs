@@ -1,10 +1,11 @@
 //! # Hall tracker: where the rotor is between edges whose places are known
 //!
 //! ```text
-//! every period           θ += s·ω_e                                    ω_e that of the halls, in angle a period
-//! an edge was crossed    θ = edge + s·clamp(s·(θ − edge), 0, ω_e)      in the last period, so not further than that
-//! no edge was crossed    θ = edge + s·min(s·(θ − edge), width)         it would have been
-//! first of all           θ = edge + s·ω_e·(t₀ + ½)
+//! every period              x += ω_e                       ω_e that of the halls, in angle a period
+//! no edge was crossed       x = min(x, width)              it would have been
+//! an edge was crossed       x = clamp(x − width, 0, ω_e)   in the last period, so not further than that
+//! first of all              x = ω_e·(t₀ + ½)
+//! θ = edge + s·(x − ω_e·ε)                                 from the edge by which the sector was entered
 //! ```
 //!
 //! The switches are read once a period, so that an edge is known to a period. [`crate::control::halls`] takes the middle,
@@ -22,24 +23,33 @@
 use crate::control::halls::{HALL_PARTS, HallDecoder};
 
 /// Where the sectors begin, forward [2⁻¹⁶ turn].
+// eight, so that three bits are an index
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct HallEdges(pub [u16; 6]);
+pub struct HallEdges([u16; 8]);
 
 impl HallEdges {
-    /// Where a sector begins, forward, and its width [2⁻³² turn].
+    /// Sectors that begin there.
+    pub fn new(begins: [u16; 6]) -> Self {
+        Self(core::array::from_fn(|k| begins[k % 6]))
+    }
+
+    /// Where a sector begins, and its width [2⁻³² turn].
     #[inline]
     fn sector(&self, sector: u8) -> (u32, u32) {
-        let next = if sector >= 5 { 0 } else { sector + 1 };
-        let edge = |k: u8| u32::from(self.0.get(usize::from(k)).copied().unwrap_or_default()) << 16;
-        (edge(sector), edge(next).wrapping_sub(edge(sector)))
+        let begin = |k: u8| u32::from(self.0[usize::from(k & 7)]) << 16;
+        // behind the last stands the first
+        (begin(sector), begin(sector + 1).wrapping_sub(begin(sector)))
     }
 }
 
-/// The rotor's angle, followed from period to period.
+/// The rotor's way through its sector, followed from period to period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct HallTracker {
-    /// θ [2⁻³² turn]
-    angle: u32,
+    /// x, from the edge by which it was entered [2⁻³² turn]
+    within: u32,
+    /// Where the sector begins, forward, and its width [2⁻³² turn]
+    begin: u32,
+    width: u32,
     /// True while the speed is known
     moves: bool,
 }
@@ -48,36 +58,35 @@ impl HallTracker {
     /// Once a period, after the halls were followed.
     #[inline]
     pub fn update(&mut self, halls: &HallDecoder, edges: &HallEdges) {
-        let (begin, width) = edges.sector(halls.sector());
+        // at most a sixth of a turn, so that no sum below is a whole one
         let step = halls.step();
-        if step == 0 {
-            *self = Self { angle: begin.wrapping_add(width / 2), moves: false };
-            return;
-        }
-        let backwards = halls.is_backwards();
-        let end = begin.wrapping_add(width);
-        // s·(θ + s·ω_e − edge), which may be a little below zero
-        let beyond = if backwards { end.wrapping_sub(self.angle) } else { self.angle.wrapping_sub(begin) };
-        let beyond = beyond.wrapping_add(step).cast_signed();
-        let since = u32::from(halls.since_edge());
-        let beyond = if !self.moves {
-            step.saturating_mul(since).saturating_add(step / 2)
-        } else if since == 0 {
-            beyond.clamp(0, step.cast_signed()).cast_unsigned()
+        if step == 0 || !self.moves {
+            let (begin, width) = edges.sector(halls.sector());
+            // x = ω_e·(t₀ + ½); the middle where the speed is not known
+            let first = step.saturating_mul(u32::from(halls.since_edge())).saturating_add(step / 2).min(width);
+            let within = if step == 0 { width / 2 } else { first };
+            *self = Self { within, begin, width, moves: step != 0 };
+        } else if halls.since_edge() == 0 {
+            // x = clamp(x − width, 0, ω_e)
+            let beyond = self.within.wrapping_add(step).saturating_sub(self.width).min(step);
+            let (begin, width) = edges.sector(halls.sector());
+            *self = Self { within: beyond.min(width), begin, width, moves: true };
         } else {
-            beyond.max(0).cast_unsigned()
-        };
-        let beyond = beyond.min(width);
-        let angle = if backwards { end.wrapping_sub(beyond) } else { begin.wrapping_add(beyond) };
-        *self = Self { angle, moves: true };
+            // x = min(x, width)
+            self.within = self.within.wrapping_add(step).min(self.width);
+        }
     }
 
-    /// θ a little before the halls were read [2⁻¹⁶ turn]; `before` is in parts of which [`HALL_PARTS`] are a period.
+    /// θ a little before the halls were read [2⁻¹⁶ turn]; `before` is ε in parts of which [`HALL_PARTS`] are a period.
     #[inline]
     pub fn angle_code_before(&self, halls: &HallDecoder, before: u32) -> u16 {
-        // θ − s·ω_e·ε
-        let back = halls.step() / HALL_PARTS * before;
-        let angle = if halls.is_backwards() { self.angle.wrapping_add(back) } else { self.angle.wrapping_sub(back) };
+        // θ = edge + s·(x − ω_e·ε)
+        let way = self.within.wrapping_sub(halls.step() / HALL_PARTS * before);
+        let angle = if halls.is_backwards() {
+            self.begin.wrapping_add(self.width).wrapping_sub(way)
+        } else {
+            self.begin.wrapping_add(way)
+        };
         (angle.wrapping_add(1 << 15) >> 16) as u16
     }
 }
@@ -93,7 +102,7 @@ mod tests {
     const OFF: [f64; 6] = [4.0, -5.0, 2.0, -1.0, 5.0, -3.0];
 
     fn edges() -> HallEdges {
-        HallEdges(core::array::from_fn(|k| {
+        HallEdges::new(core::array::from_fn(|k| {
             nominal_edge(k as u8).wrapping_add((OFF[k] * 65_536.0 / 360.0).round() as i32 as u16)
         }))
     }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! δ_out[x] = δ_x                                   phase x ∈ {a, b, c} hangs on output out[x]
-//! n_x = n[conv[x]],  or 4096 − n[conv[x]]          its converter, and one whose code falls with the current
+//! n_x = n[conv[x]],  or 4095 − n[conv[x]]          its converter, and one whose code falls with the current
 //! sector of a code: k where codes[k] is the code   rotor's flux between edge k and edge k + 1
 //! edge k nominal: k·60° − 30°
 //! ```
@@ -33,6 +33,42 @@ pub struct MotorWiring {
     pub codes: [HallCode; 6],
     /// Where each sector begins, forward [2⁻¹⁶ turn]
     pub edges: [u16; 6],
+}
+
+/// Where the phases of one motor go: what codes and duties are put right with, every period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MotorLeads {
+    outputs: [u8; 3],
+    converters: [u8; 3],
+    /// What turns a code round, or nothing
+    turns: [u16; 3],
+}
+
+impl MotorLeads {
+    /// The codes of phases a, b, c of what the converters read.
+    #[inline]
+    pub fn phases(&self, [a, b, c]: [AdcCode; 3]) -> [AdcCode; 3] {
+        // four, so that two bits are an index
+        let read = [a, b, c, AdcCode(0)];
+        let of = |x: usize| {
+            let AdcCode(code) = read[usize::from(self.converters[x] & 3)];
+            // n_x = 4095 − n, which of twelve bits is each of them turned
+            AdcCode(code ^ self.turns[x])
+        };
+        [of(0), of(1), of(2)]
+    }
+
+    /// The duties of the outputs that give phases a, b, c theirs.
+    #[inline]
+    pub fn duties(&self, [a, b, c]: [f32; 3]) -> [f32; 3] {
+        let mut duties = [0.0; 4];
+        for (output, duty) in self.outputs.into_iter().zip([a, b, c]) {
+            // δ_out[x] = δ_x
+            duties[usize::from(output & 3)] = duty;
+        }
+        let [a, b, c, _] = duties;
+        [a, b, c]
+    }
 }
 
 impl Default for MotorWiring {
@@ -76,28 +112,10 @@ impl MotorWiring {
             && in_order
     }
 
-    /// The codes of phases a, b, c of what the converters read.
-    #[inline]
-    pub fn phases(&self, read: [AdcCode; 3]) -> [AdcCode; 3] {
-        let of = |x: usize| {
-            let code = read.get(usize::from(self.converters[x])).copied().unwrap_or_default();
-            // n_x = 4096 − n
-            if self.inverted[x] { AdcCode((FULL_SCALE + 1 - code.0.min(FULL_SCALE)).min(FULL_SCALE)) } else { code }
-        };
-        [of(0), of(1), of(2)]
-    }
-
-    /// The duties of the outputs that give phases a, b, c theirs.
-    #[inline]
-    pub fn duties(&self, [a, b, c]: [f32; 3]) -> [f32; 3] {
-        let mut duties = [0.5; 3];
-        for (output, duty) in self.outputs.into_iter().zip([a, b, c]) {
-            // δ_out[x] = δ_x
-            if let Some(slot) = duties.get_mut(usize::from(output)) {
-                *slot = duty;
-            }
-        }
-        duties
+    /// Its leads alone.
+    pub fn leads(&self) -> MotorLeads {
+        let Self { outputs, converters, inverted, .. } = *self;
+        MotorLeads { outputs, converters, turns: inverted.map(|inverted| if inverted { FULL_SCALE } else { 0 }) }
     }
 
     /// The code that stands for a line's code in [`crate::control::halls`], by that code; 0 for one that no sector gives.
@@ -129,7 +147,7 @@ mod tests {
         let plain = MotorWiring::default();
         assert!(plain.is_possible());
         let codes = [1, 2049, 4095].map(AdcCode);
-        assert_eq!((plain.phases(codes), plain.duties([0.1, 0.2, 0.3])), (codes, [0.1, 0.2, 0.3]));
+        assert_eq!((plain.leads().phases(codes), plain.leads().duties([0.1, 0.2, 0.3])), (codes, [0.1, 0.2, 0.3]));
         for code in (0..8).map(HallCode) {
             let same = if code.sector().is_some() { code } else { HallCode(0) };
             assert_eq!(plain.hall_table()[usize::from(code.0)], same);
@@ -139,9 +157,9 @@ mod tests {
     #[test]
     fn leads_come_back_to_where_they_belong() {
         assert!(CROSSED.is_possible());
-        assert_eq!(CROSSED.duties([0.1, 0.2, 0.3]), [0.1, 0.3, 0.2]);
-        // c reads what a is, turned round: 4096 − 2148 = 1948; the lowest code has no partner and stays in the range
-        assert_eq!(CROSSED.phases([2000, 0, 2148].map(AdcCode)), [1948, 2000, 4095].map(AdcCode));
+        assert_eq!(CROSSED.leads().duties([0.1, 0.2, 0.3]), [0.1, 0.3, 0.2]);
+        // phase a is read by converter c, turned round: 4095 − 2148 = 1947
+        assert_eq!(CROSSED.leads().phases([2000, 0, 2148].map(AdcCode)), [1947, 2000, 4095].map(AdcCode));
         for (sector, code) in CROSSED.codes.iter().enumerate() {
             assert_eq!(CROSSED.hall_table()[usize::from(code.0)].sector(), Some(sector as u8));
         }
