@@ -12,10 +12,9 @@
 //! voltages. It also watches what only shows over many periods: commands that end, for which the robot brakes
 //! ([`crate::silence`]), and a wheel that stands where it should turn ([`crate::stall`]).
 //!
-//! Nothing but a fresh command or probe ([`crate::probe`]) closes the bridges. They open, and wait for one, when the robot has come
-//! to rest because none came, when a fault is cleared, when a wheel that was lost comes back, and when other parameters are of
-//! another machine; parameters that only retune the same one are
-//! taken on the way.
+//! Nothing but a fresh command or probe ([`crate::probe`]) closes the bridges. They open, and wait for one, when the robot has
+//! come to rest because none came, when a fault is cleared, when a wheel that was lost comes back, and when other parameters are
+//! of another machine; parameters that only retune the same one are taken on the way.
 
 use model_core::control::calibration::Calibration;
 use model_core::control::drive::RobotDrive;
@@ -129,7 +128,7 @@ impl Motion {
         output.hello = self.hello;
 
         let asked = inbox.probe.take();
-        let wants = asked.is_some_and(|probe| self.can_probe(probe, feedback));
+        let possible = asked.is_some_and(|probe| self.can_probe(probe, feedback));
         let before = self.state;
         let faulty = !feedback.faults.is_empty() || !output.faults.is_empty();
         self.silence.tick(fresh, before == OperatingState::Driving);
@@ -143,21 +142,12 @@ impl Motion {
             _ if !feedback.ready => OperatingState::Calibrating,
             OperatingState::Asleep | OperatingState::Calibrating | OperatingState::Faulted => OperatingState::Open,
             OperatingState::Open if fresh && !opens => OperatingState::Driving,
-            OperatingState::Open if wants && !opens => OperatingState::Probing,
+            OperatingState::Open if possible && !opens => OperatingState::Probing,
             OperatingState::Driving if opens => OperatingState::Open,
             OperatingState::Probing if opens || fresh || output.config.is_some() => OperatingState::Open,
             stage => stage,
         };
-        self.probe(asked.filter(|_| wants), &mut output);
-        if asked.is_some() && self.state != OperatingState::Probing {
-            let error = if wants || self.state != OperatingState::Open {
-                CommandError::NotOpen
-            } else {
-                CommandError::NoSuchProbe
-            };
-            let refused = Reply { to: FrameKind::Probe.code(), taken: false, reason: error.code() };
-            output.reply = output.reply.or(Some(refused));
-        }
+        self.probe(asked, possible, &mut output);
         output.state = self.state;
         if self.silence.lasts() {
             output.events.add(Event::Silent);
@@ -217,13 +207,17 @@ impl Motion {
         (motors & !feedback.disabled) >> (probe.motor & 7) & 1 != 0
     }
 
-    /// A turn of the probe, where one is on.
-    fn probe(&mut self, asked: Option<Probe>, output: &mut MotionOutput) {
+    /// A turn of the probe, where one is on; one that is asked for in vain is refused.
+    fn probe(&mut self, asked: Option<Probe>, possible: bool, output: &mut MotionOutput) {
         if self.state != OperatingState::Probing {
             self.prober.end();
+            let is_open = self.state == OperatingState::Open;
+            let error = if is_open && !possible { CommandError::NoSuchProbe } else { CommandError::NotOpen };
+            let refused = Reply { to: FrameKind::Probe.code(), taken: false, reason: error.code() };
+            output.reply = output.reply.or(asked.map(|_| refused));
             return;
         }
-        if let Some(probe) = asked {
+        if let Some(probe) = asked.filter(|_| possible) {
             self.prober.take(probe);
         }
         output.probe = self.prober.tick();
