@@ -148,9 +148,8 @@ fn table_of(motor: &CommissionedFile) -> Table {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Catalogue, RobotFile};
     use super::*;
-    use crate::known_effects;
-    use crate::log::RobotFile;
 
     const FILE: &str = include_str!("../../../examples/feup-4w/robot.toml");
 
@@ -165,7 +164,7 @@ mod tests {
     }
 
     fn read(text: &str) -> Result<RobotFile> {
-        RobotFile::parse(text, Path::new("robot.toml"), &known_effects())
+        RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default())
     }
 
     #[test]

@@ -27,6 +27,18 @@ fn speeds_that_no_robot_has_are_refused_before_the_line_is_opened() {
 }
 
 #[test]
+fn what_cannot_be_commissioned_is_told_before_the_line_is_opened() {
+    let bench = Bench::with_session();
+    let to = ["--to", "tcp:127.0.0.1:1"];
+    let commission = |more: &[&'static str]| [&["robot", "commission", "session/robot.toml"], more, &to[..]].concat();
+    refused(&bench, &commission(&["--out", "new.toml", "--motor", "4"]), &["there is no motor 4", "--motor"]);
+    refused(&bench, &commission(&["--out", "nosuch/new.toml"]), &["there is no folder nosuch"]);
+    refused(&bench, &commission(&["--out", "new.toml"]), &["tcp:127.0.0.1:1", "start what listens there"]);
+    let said = bench.run(&commission(&[]));
+    assert!(said.code == 2 && said.err.contains("--out <ROBOT.toml>"), "{}", said.err);
+}
+
+#[test]
 fn a_line_on_which_nothing_is_heard_says_what_to_check() {
     let bench = Bench::empty();
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();

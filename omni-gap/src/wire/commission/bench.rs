@@ -28,6 +28,10 @@ pub trait ProbePort {
     fn error(&self, problem: String, fix: &str) -> Error;
 }
 
+/// Current of a phase that everything but the first pulses is done with [A]: the limit is 1 A, and a rotor that comes to the
+/// vector induces a little more.
+pub(super) const CURRENT: f64 = 0.85;
+
 /// Reports from one sending of a probe to the next: a quarter of the robot's patience.
 const AGAIN: usize = 50;
 

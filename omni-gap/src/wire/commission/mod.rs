@@ -34,7 +34,3 @@ pub use bench::ProbePort;
 pub use connected::{Connected, connect};
 pub use guided::{Guided, Person, guided};
 pub use motor::{Found, MOST_TURNED, find, show, wheel_degrees};
-
-/// Current of a phase that everything but the first pulses is done with [A]: the limit is 1 A, and a rotor that comes to the
-/// vector induces a little more.
-pub const CURRENT: f64 = 0.85;

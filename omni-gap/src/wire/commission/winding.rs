@@ -19,8 +19,7 @@
 
 use crate::error::Result;
 
-use super::CURRENT;
-use super::bench::{Bench, Mean, ProbePort, Vector};
+use super::bench::{Bench, CURRENT, Mean, ProbePort, Vector};
 use super::sense::{Sense, ramp};
 
 /// A number with its standard error.
@@ -39,7 +38,7 @@ pub struct Winding {
     pub resistance: Estimate,
     /// L, DC-equivalent [H]
     pub inductance: Estimate,
-    /// Share of the bus at which [`CURRENT`] flows [1]
+    /// Share of the bus at which the current of a commissioning flows [1]
     pub share: f64,
 }
 
