@@ -14,12 +14,15 @@
 //! - [`study`]: all of these, on many seeds, and one of them in the emulator too;
 //! - [`page`]: what came of it, and what is promised;
 //! - [`faults`]: every fault, injected while the robot drives;
+//! - [`commissioned`] and [`commissioned_page`]: boards that are wired wrong, found out and then driven;
 //! - [`served`]: one that listens at a network address;
 //! - [`supply_plug`]: what a person may pull at it;
 //! - [`gap`] and [`gap_page`]: drive, record, diagnose, correct, drive again.
 
 mod closed_loop_run;
 pub mod command_timeout;
+pub mod commissioned;
+pub mod commissioned_page;
 pub mod faults;
 pub mod figure_eight;
 pub mod gap;

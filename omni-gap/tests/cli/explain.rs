@@ -54,7 +54,7 @@ fn the_robot_of_the_page_can_be_read_and_has_every_key() {
     let page = Bench::empty().done(&["explain", "robot"]).out;
     let toml = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a robot");
     let robot = RobotFile::parse(toml, Path::new("robot.toml"), &known_effects()).unwrap();
-    assert_eq!((robot.wheel.len(), robot.effects.len()), (3, 2));
+    assert_eq!((robot.wheel.len(), robot.effects.len(), robot.commissioned.len()), (3, 2, 1));
     let (sensors, limits) = (robot.sensors, robot.limits.expect("limits"));
     let optional =
         [sensors.gyro_noise_rad_s, sensors.battery_noise_v, limits.current_a, limits.speed_m_s, limits.field_m];
