@@ -29,7 +29,6 @@ use model_core::effects::card::Seam;
 use model_core::effects::electrical::supply_sag::SupplySag;
 use model_core::effects::{Effect, EffectSet, EffectState};
 use model_core::geometry::frames::{BodyTwist, Pose};
-use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant, State};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -38,13 +37,10 @@ use super::adc::{AdcChannel, FULL_SCALE};
 use super::battery::{Battery, BusCapacitor};
 use super::faults::{InjectedFault, OnBoard};
 use super::instants::Instants;
+pub use super::instants::PERIOD;
 use super::machine::{BridgeLegs, RotorFlux};
 use super::motor::BoardMotor;
-use super::stand::Stand;
-use super::wiring::BoardWiring;
-
-/// One PWM period [s].
-pub const PERIOD: f64 = 50e-6;
+pub use super::setup::BoardSetup;
 
 /// The hall code of the motor that is not there: a legal position at which nothing moves.
 const RESTING: HallCode = HallCode(1);
@@ -56,66 +52,6 @@ pub struct Outputs {
     pub compare: [[u16; 3]; MOTORS],
     /// One bit a motor: its gate driver is enabled
     pub enabled: u8,
-}
-
-/// What a board and its robot are made of.
-#[derive(Clone, Copy, Debug)]
-pub struct BoardSetup<const N: usize> {
-    /// The robot
-    pub robot: Robot<N, f64>,
-    /// What it has besides
-    pub effects: Effects<N, f64>,
-    /// Capacitor on the bus, of a supply that takes no current back [F]; none: the battery takes it
-    pub bus_capacitor: Option<f64>,
-    /// DC-equivalent inductance of a motor [H]
-    pub inductance: f64,
-    /// Pole pairs of a motor
-    pub pole_pairs: u8,
-    /// Phase current over code [A]
-    pub amps_per_count: f64,
-    /// Bus voltage over code [V]
-    pub bus_volts_per_count: f64,
-    /// How far the converters' zeros lie from the middle, at most [counts]
-    pub offset_spread: f64,
-    /// σ of every converter [counts]
-    pub noise: f64,
-    /// How far the hall switches sit from their places, at most [rad, electrical]
-    pub hall_spread: f64,
-    /// When currents are sampled and halls are read
-    pub instants: Instants,
-    /// Which leads of the motors are soldered where
-    pub wirings: [BoardWiring; N],
-    /// The wheels are off the ground; none where they stand on it
-    pub stand: Option<Stand>,
-    /// What zeros, placements, rotor angles and noise are drawn with
-    pub seed: u64,
-}
-
-impl<const N: usize> BoardSetup<N> {
-    /// A robot on the board's default scaling: ±10 A and 36 V of full scale, offsets within 12 codes and noise of 1.5.
-    pub fn new(robot: Robot<N, f64>, effects: Effects<N, f64>, seed: u64) -> Self {
-        Self {
-            robot,
-            effects,
-            bus_capacitor: None,
-            inductance: 0.6e-3,
-            pole_pairs: 8,
-            amps_per_count: 0.0049,
-            bus_volts_per_count: 0.00886,
-            offset_spread: 12.0,
-            noise: 1.5,
-            hall_spread: 0.0,
-            instants: Instants::default(),
-            wirings: [BoardWiring::default(); N],
-            stand: None,
-            seed,
-        }
-    }
-
-    /// The same with converters and switches that are as they should be.
-    pub fn ideal(self) -> Self {
-        Self { offset_spread: 0.0, noise: 0.0, hall_spread: 0.0, ..self }
-    }
 }
 
 /// The board with its robot.

@@ -1,5 +1,7 @@
 //! The board against the plant of the core under the same voltages, and what its faults do to the codes.
 
+use model_core::plant::robot::Robot;
+
 use super::super::machine::{Vector, phases};
 use super::*;
 use model_core::effects::EffectKind;

@@ -14,6 +14,9 @@
 
 use firmware::registers::timing;
 
+/// One PWM period [s].
+pub const PERIOD: f64 = 50e-6;
+
 /// When currents are sampled and halls are read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instants {

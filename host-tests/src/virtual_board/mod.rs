@@ -21,11 +21,13 @@ pub mod halls;
 pub mod instants;
 pub mod machine;
 mod motor;
+mod setup;
 pub mod stand;
 pub mod wiring;
 
-pub use board::{BoardSetup, Outputs, VirtualBoard};
+pub use board::{Outputs, VirtualBoard};
 pub use faults::InjectedFault;
 pub use instants::Instants;
+pub use setup::BoardSetup;
 pub use stand::Stand;
 pub use wiring::BoardWiring;

@@ -7,9 +7,10 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::adc::AdcChannel;
-use super::board::{BoardSetup, PERIOD};
 use super::halls::HallSwitches;
+use super::instants::PERIOD;
 use super::machine::{BridgeLegs, LegLoss, Machine, PeriodResult, RotorFlux, Vector, phases};
+use super::setup::BoardSetup;
 use super::wiring::BoardWiring;
 
 /// A motor with its converters and switches.
