@@ -22,13 +22,20 @@ use model_core::link::probe::{MOST_PERIODS, Probe, ProbeReport};
 use model_core::number::scalar::Real;
 
 use crate::codes::{Codes, PERIODS_PER_TICK};
-use crate::winding_config::MAX_DUTY;
+use crate::protection::TripLimits;
+use crate::winding_config::{MAX_DUTY, WindingConfig};
 
 /// Phase current beyond which a probe ends [A]: what a commissioning may use, and a quarter.
 pub const PROBE_CURRENT: f32 = 1.25;
 
 /// Turns without a probe after which the voltage goes: 200 ms.
 pub const PROBE_TIMEOUT_TICKS: u16 = 200;
+
+/// What is too much while a motor is probed.
+pub fn probe_limits(config: &WindingConfig) -> TripLimits {
+    let counts = PROBE_CURRENT / config.calibration.amps_per_count.abs();
+    TripLimits { trip_counts: config.limits.trip_counts.min(counts), ..config.limits }
+}
 
 const _: () = assert!(MOST_PERIODS as u32 == PERIODS_PER_TICK, "a voltage may be on all the time");
 

@@ -11,7 +11,6 @@ use model_core::link::record::MOTORS;
 
 use crate::codes::{Codes, PERIODS_PER_SECOND};
 use crate::offsets::{MIDDLE, REACH};
-use crate::probe::PROBE_CURRENT;
 use crate::protection::TripLimits;
 use crate::registers::timing;
 
@@ -120,12 +119,6 @@ impl WindingConfig {
     #[inline]
     pub fn motors(&self) -> u8 {
         (1 << (self.wheels & 7)) - 1
-    }
-
-    /// What is too much while a motor is probed.
-    pub fn probe_limits(&self) -> TripLimits {
-        let counts = PROBE_CURRENT / self.calibration.amps_per_count.abs();
-        TripLimits { trip_counts: self.limits.trip_counts.min(counts), ..self.limits }
     }
 
     /// The windings' share of these parameters.

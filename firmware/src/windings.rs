@@ -26,7 +26,7 @@ use crate::codes::{Codes, MOTORS, PERIODS_PER_TICK};
 use crate::motion::MotionOutput;
 use crate::motor_controller::{MotorController, MotorMeasurement, NO_VOLTAGE};
 use crate::offsets::Offsets;
-use crate::probe::ProbeVector;
+use crate::probe::{ProbeVector, probe_limits};
 use crate::protection::Protection;
 use crate::winding_config::WindingConfig;
 use crate::winding_signals::{MotorSetpoints, WindingFeedback};
@@ -202,7 +202,7 @@ impl Windings {
     #[inline(never)]
     fn probe(&mut self, vector: &ProbeVector, codes: &Codes, read: &Codes, command: &mut BridgeCommand) {
         let j = usize::from(vector.motor()).min(MOTORS - 1);
-        let limits = self.config.probe_limits();
+        let limits = probe_limits(&self.config);
         self.protection.over_current(&limits, &above_zero(&codes.phases[j], &self.offsets.of(j)));
         let bit = (1_u8 << j) & self.config.motors() & !self.protection.disabled();
         if self.offsets.are_known() && self.protection.faults().is_empty() {
