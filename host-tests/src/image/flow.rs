@@ -53,7 +53,7 @@ pub fn flow(function: &Function) -> Flow {
             }
         };
         match instruction.does {
-            Action::GoesOn | Action::Conditions(_) => goes_on(&mut waiting),
+            Action::GoesOn | Action::Conditions(_) | Action::Address { .. } => goes_on(&mut waiting),
             Action::Stack(by) => {
                 let after = taken - i64::from(by);
                 waiting.push((next, if *conditional { after.max(taken) } else { after }));
@@ -73,8 +73,8 @@ pub fn flow(function: &Function) -> Flow {
                     goes_on(&mut waiting);
                 }
             }
-            Action::Table { wide } => {
-                let targets = table(function, next, wide);
+            Action::Table { .. } | Action::TableAt { .. } => {
+                let targets = targets(function, &steps, at);
                 if targets.is_empty() {
                     flow.unbounded = Some(format!("the table behind {at:#x} cannot be told from code"));
                 }
@@ -143,18 +143,37 @@ fn steps(function: &Function) -> BTreeMap<u32, Step> {
     steps
 }
 
-/// Targets of a table branch whose table begins at `base`; none if the mapping symbols do not say how long it is.
-fn table(function: &Function, base: u32, wide: bool) -> Vec<u32> {
-    let begin = base - function.address;
-    let Some((_, end)) = function.data.iter().find(|(from, _)| *from == begin) else { return Vec::new() };
+/// Where a table branch may go; none if that cannot be told.
+fn targets(function: &Function, steps: &BTreeMap<u32, Step>, at: u32) -> Vec<u32> {
+    let behind = at + 4;
+    match steps.get(&at).map(|step| step.0.does) {
+        Some(Action::Table { wide }) => table(function, behind, behind, wide),
+        Some(Action::TableAt { wide, register }) => {
+            // the address that was put into the register last
+            let put = steps.range(..at).rev().find_map(|(_, step)| match step.0.does {
+                Action::Address { register: to, address } if to == register => Some(address),
+                _ => None,
+            });
+            put.map_or(Vec::new(), |begin| table(function, begin, behind, wide))
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Targets, counted from `base`, of a table that begins at an address; none if the mapping symbols do not say how long it is.
+fn table(function: &Function, begin: u32, base: u32, wide: bool) -> Vec<u32> {
+    let Some(begin) = begin.checked_sub(function.address) else { return Vec::new() };
+    let Some((_, end)) = function.data.iter().find(|(from, end)| (*from..*end).contains(&begin)) else {
+        return Vec::new();
+    };
     let entries = &function.bytes[begin as usize..*end as usize];
     let offsets: Vec<u32> = if wide {
         entries.as_chunks::<2>().0.iter().map(|half| u32::from(u16::from_le_bytes(*half))).collect()
     } else {
-        // an odd table is filled up with a byte; a zero would lead into the table itself
-        entries.iter().map(|byte| u32::from(*byte)).filter(|byte| *byte != 0).collect()
+        entries.iter().map(|byte| u32::from(*byte)).collect()
     };
-    offsets.into_iter().map(|offset| base + 2 * offset).collect()
+    // what fills up a table is zero, which would lead into the table itself
+    offsets.into_iter().filter(|offset| *offset != 0).map(|offset| base + 2 * offset).collect()
 }
 
 /// The word of a function's data at an address.

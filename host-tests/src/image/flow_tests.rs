@@ -67,6 +67,21 @@ fn a_table_leads_to_each_of_its_targets() {
 }
 
 #[test]
+fn a_table_may_stand_behind_a_word_of_data() {
+    // adr r2, #8; tbh [r2, r1, lsl #1]; a word; table 6, 5; two words further: bx lr; push {r4, lr}; blx r3; pop {r4, pc}
+    let mut f =
+        function(&[0xA202, 0xBF00, 0xE8D2, 0xF011, 0x1234, 0x5678, 0x0005, 0x0004, 0x4770, 0xB510, 0x4798, 0xBD10]);
+    f.data = vec![(8, 16)];
+    let with = flow(&f);
+    assert_eq!((with.deepest, &with.unbounded), (8, &None));
+    assert_eq!(with.unknown, calls(&[(AT + 20, 8)]));
+    // without the address
+    let mut f = function(&[0xBF00, 0xBF00, 0xE8D2, 0xF011, 0x1234, 0x5678, 0x0005, 0x0004, 0x4770]);
+    f.data = vec![(8, 16)];
+    assert!(flow(&f).unbounded.is_some(), "a table that may stand anywhere");
+}
+
+#[test]
 fn a_veneer_leads_to_where_its_word_says() {
     // ldr.w pc, [pc]; .word 0x08004321
     let mut f = function(&[0xF85F, 0xF000, 0x4321, 0x0800]);

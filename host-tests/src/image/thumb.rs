@@ -29,6 +29,20 @@ pub enum Action {
         /// Half words
         wide: bool,
     },
+    /// Goes through such a table at an address in a register
+    TableAt {
+        /// Half words
+        wide: bool,
+        /// The register
+        register: u8,
+    },
+    /// Puts an address into a register
+    Address {
+        /// The register
+        register: u8,
+        /// What it then says
+        address: u32,
+    },
     /// Goes to the address that stands at an address
     JumpVia(u32),
     /// Goes to an address in a register or in memory
@@ -95,6 +109,8 @@ fn short(address: u32, h: u16) -> Action {
             PC => Action::JumpUnknown,
             _ => Action::GoesOn,
         },
+        // ADR Rd, #imm8 1010 0ddd
+        _ if h & 0xF800 == 0xA000 => address_behind(address, h >> 8 & 7, u32::from(h & 0xFF) * 4),
         // BX LR; BX Rm 0100 0111 0; BLX Rm 0100 0111 1
         0x4770 => Action::Return(0),
         _ if h & 0xFF80 == 0x4700 => Action::JumpUnknown,
@@ -136,10 +152,20 @@ fn long(address: u32, h: u16, g: u16) -> Action {
         // 1111 0: branches and control with g<15>, otherwise data processing with a constant
         0b111_1000..=0b111_1011 if g & 0x8000 != 0 => branch(address, h, g),
         0b111_1000..=0b111_1011 if g >> 8 & 0xF == SP => constant(h, g, base),
+        // ADR Rd, #i:imm3:imm8 1111 0i10 0000 1111 0mmm dddd; what counts downwards is no table behind it
+        _ if h & 0xFBFF == 0xF20F => {
+            let offset = u32::from(h >> 10 & 1) << 11 | u32::from(g >> 12 & 7) << 8 | u32::from(g & 0xFF);
+            address_behind(address, g >> 8 & 0xF, offset)
+        }
         // 1111 100: load and store of one register
         0b111_1100 => single(address, h, g, base),
         _ => Action::GoesOn,
     }
+}
+
+/// The address so many bytes behind what the program counter reads as, rounded down to a word.
+fn address_behind(address: u32, register: u16, offset: u32) -> Action {
+    Action::Address { register: register as u8, address: (address.wrapping_add(4) & !3).wrapping_add(offset) }
 }
 
 /// LDM, STM: 1110 100o o0WL nnnn, o = 01 upwards, 10 downwards.
@@ -160,7 +186,8 @@ fn multiple(h: u16, g: u16, base: u16) -> Action {
 /// LDRD, STRD: 1110 100P U1WL nnnn, P or W; TBB, TBH: 1110 1000 1101 nnnn 1111 0000 000H.
 fn dual(h: u16, g: u16, base: u16) -> Action {
     if h & 0xFFF0 == 0xE8D0 && g & 0xFFE0 == 0xF000 {
-        return if base == PC { Action::Table { wide: g & 0x10 != 0 } } else { Action::JumpUnknown };
+        let wide = g & 0x10 != 0;
+        return if base == PC { Action::Table { wide } } else { Action::TableAt { wide, register: base as u8 } };
     }
     if base == SP && h & 0x20 != 0 {
         let bytes = 4 * i32::from(g & 0xFF);

@@ -91,6 +91,9 @@ fn jumps_and_calls_go_where_they_say() {
         ("blx r3", &[0x4798], Action::CallUnknown),
         ("tbb [pc, r0]", &[0xE8DF, 0xF000], Action::Table { wide: false }),
         ("tbh [pc, r0, lsl #1]", &[0xE8DF, 0xF010], Action::Table { wide: true }),
+        ("tbh [r2, r1, lsl #1]", &[0xE8D2, 0xF011], Action::TableAt { wide: true, register: 2 }),
+        ("adr.w r2, #12", &[0xF20F, 0x020C], Action::Address { register: 2, address: ((AT + 4) & !3) + 12 }),
+        ("adr r3, #8", &[0xA302], Action::Address { register: 3, address: ((AT + 4) & !3) + 8 }),
         ("it eq", &[0xBF08], Action::Conditions(1)),
         ("itte ne", &[0xBF1A], Action::Conditions(3)),
     ] {
