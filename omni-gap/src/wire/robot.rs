@@ -1,7 +1,7 @@
 //! # Robot: what a robot is asked to do, and what it says to that
 //!
 //! Whatever is sent is answered before it counts as done: a block by the checksum of the parameters that the robot then
-//! drives with, a stop by open bridges, forgotten faults by those that are left. A robot that hears nothing for 200 ms opens its
+//! drives with, a stop by open bridges, forgotten faults by those that are left. A robot that hears nothing for 200 ms brakes and opens its
 //! bridges by itself; nothing here is what keeps a robot safe.
 
 use std::time::{Duration, Instant};
