@@ -180,6 +180,7 @@ mod tests {
             six_step: false,
             limits: TripLimits { trip_counts: 2_000.0, least_supply: 1.0, most_supply: 35.0 },
             wheel_speed_per_electrical: 100.0,
+            wiring: None,
         };
         let ask = MotorSetpoints { current: [1.0; MOTORS], voltage: [2.0; MOTORS], closed: true, enabled: 0b1111 };
         let mut windings = Windings::default();

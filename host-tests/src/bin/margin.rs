@@ -17,8 +17,8 @@ use rayon::prelude::*;
 /// How long the image may think about one period.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// The speeds: log2 of the nanoseconds of an instruction, whether the faults are played too, and the most that a current turn may
-/// take of its period [1].
+/// The speeds: log2 of the nanoseconds of an instruction, whether the faults are played too, and the largest share of its period
+/// that a current turn may take.
 const SPEEDS: [(u8, bool, f64); 2] = [(3, true, 1.0), (4, false, 0.8)];
 
 fn main() -> ExitCode {

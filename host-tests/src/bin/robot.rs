@@ -26,7 +26,7 @@ const ADDRESS: &str = "127.0.0.1:7000";
 const PTY: &str = "pty";
 /// The draw of what is off.
 const SEED: u64 = 1;
-/// What the gears leave of the torque [1].
+/// The share of the torque that the gears leave.
 const GEAR_EFFICIENCY: f64 = 0.8;
 /// How long the emulator may think about one period.
 const PATIENCE: Duration = Duration::from_secs(20);

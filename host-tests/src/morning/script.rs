@@ -1,7 +1,7 @@
 //! The commands of a page, and what it says that they print.
 //!
-//! Between [`BEGIN`] and [`END`] a block of `sh` is typed as it stands, and the block of `text` behind it is what it prints: a
-//! line `...` stands for any lines, `…` within a line for any text. A block below [`ON_A_BOARD`] is for a person alone.
+//! Between `BEGIN` and `END` a block of `sh` is typed as it stands, and the block of `text` behind it is what it prints: a
+//! line `...` stands for any lines, `…` within a line for any text. A block below `ON_A_BOARD` is for a person alone.
 
 const BEGIN: &str = "<!-- morning -->";
 const END: &str = "<!-- end of morning -->";
