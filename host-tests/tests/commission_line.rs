@@ -15,7 +15,6 @@ use model_core::effects::active::Effects;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::command::Command;
 use model_core::link::message::Message;
-use model_core::link::record::OperatingState;
 use model_core::plant::paper::four_wheels;
 use omni_gap::api::{RobotFile, export, known_effects};
 use omni_gap::log::with_commissioned;
@@ -136,14 +135,14 @@ fn a_robot_that_cannot_be_commissioned_is_told() {
     let told = guided(&mut line, &file(), &[0], None).unwrap_err().to_string();
     assert!(told.contains("it has no parameters") && told.contains("robot send"), "{told}");
     ready(&mut line);
-    line.send(&Command::Drive { sequence: 1, twist: BodyTwist::default() }).unwrap();
+    // driven before anybody asked how it is wired: one of its amplifiers is turned, which costs it that motor
+    line.send(&Command::Drive { sequence: 1, twist: BodyTwist { v: 0.2, vn: 0.0, w: 1.0 } }).unwrap();
     let until = Instant::now() + Duration::from_secs(10);
-    line.listen(until, |message| {
-        matches!(message, Message::Record(record) if record.state == OperatingState::Faulted).then_some(())
-    })
-    .unwrap();
+    let found = line
+        .listen(until, |message| matches!(message, Message::Record(record) if !record.faults.is_empty()).then_some(()));
+    assert_eq!(found.unwrap(), Some(()));
     let told = guided(&mut line, &file(), &[0], None).unwrap_err().to_string();
-    assert!(told.contains("no command came in time") && told.contains("robot clear"), "{told}");
+    assert!(told.contains("robot clear"), "{told}");
 }
 
 #[test]
