@@ -106,6 +106,12 @@ pub const ERRANDS: &[Errand] = &[
         run: robot,
     },
     Errand {
+        name: "commission",
+        takes: "",
+        does: "commission motors of 48 wirings on 8 seeds over the link of the firmware's program (BLESS=1: rewrite)",
+        run: commission,
+    },
+    Errand {
         name: "margin",
         takes: "",
         does: "play every ride and fault in QEMU with instructions 8 and 16 times as slow (BLESS=1: rewrite)",
@@ -287,6 +293,10 @@ fn robot(address: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
     Line::of(steps::EMULATED_IMAGES).announced()?;
     address.iter().fold(Line::of(steps::ROBOT), Line::word).announced()
+}
+
+fn commission(_: &[OsString]) -> Result<(), String> {
+    Line::of("cargo run --release -p host-tests --bin commission").announced()
 }
 
 fn margin(_: &[OsString]) -> Result<(), String> {

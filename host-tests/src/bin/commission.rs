@@ -13,7 +13,7 @@ use rayon::prelude::*;
 /// Seeds of the page.
 const SEEDS: usize = 8;
 
-const COMMAND: &str = "BLESS=1 cargo run -p host-tests --bin commission";
+const COMMAND: &str = "cargo xtask commission";
 
 fn main() -> ExitCode {
     let seeds = std::env::args().nth(1).and_then(|seeds| seeds.parse().ok()).unwrap_or(SEEDS);
