@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use firmware::exchange::{LINK_BYTES, LinkBytes};
-use model_core::link::command::Command;
+use model_core::link::command::{Command, MAX_CHUNK};
 use model_core::link::framing::{FrameDecoder, MAX_FRAME};
 
 /// A frame that has come from the robot.
@@ -36,6 +36,16 @@ impl HostLink {
         let mut room = [0; MAX_FRAME];
         let frame = command.frame(&mut room).expect("every command fits a frame");
         self.waiting.extend(frame);
+    }
+
+    /// Puts the bytes of a parameter block on the line, sound or not.
+    pub fn block(&mut self, block: &[u8]) {
+        for (k, bytes) in block.chunks(MAX_CHUNK).enumerate() {
+            let offset = u16::try_from(k * MAX_CHUNK).expect("a short block");
+            self.command(&Command::Chunk { offset, bytes });
+        }
+        let length = u16::try_from(block.len()).expect("a short block");
+        self.command(&Command::Commit { length });
     }
 
     /// What leaves in this period.

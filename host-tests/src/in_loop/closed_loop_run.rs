@@ -3,7 +3,7 @@
 use firmware::exchange::UpFrame;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::link::block::{MAX_BYTES, Parameters};
-use model_core::link::command::{Command, MAX_CHUNK, Reply};
+use model_core::link::command::{Command, Reply};
 use model_core::link::hello::Hello;
 use model_core::link::message::Message;
 use model_core::link::record::TelemetryRecord;
@@ -80,12 +80,7 @@ impl<B: BoardProgram, const N: usize> ClosedLoopRun<B, N> {
 
     /// Sends the bytes of a parameter block, sound or not.
     pub fn send_bytes_of_block(&mut self, block: &[u8]) {
-        for (k, bytes) in block.chunks(MAX_CHUNK).enumerate() {
-            let offset = u16::try_from(k * MAX_CHUNK).expect("a short block");
-            self.lockstep.link.command(&Command::Chunk { offset, bytes });
-        }
-        let length = u16::try_from(block.len()).expect("a short block");
-        self.lockstep.link.command(&Command::Commit { length });
+        self.lockstep.link.block(block);
     }
 
     /// Sends one command to move.

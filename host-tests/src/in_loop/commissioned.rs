@@ -13,7 +13,7 @@ use model_core::control::wiring::MotorWiring;
 use model_core::effects::active::Effects;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{Block, MAX_BYTES, Parameters};
-use model_core::link::command::{Command, MAX_CHUNK};
+use model_core::link::command::Command;
 use model_core::link::hello::Hello;
 use model_core::link::message::Message;
 use model_core::link::record::{MOTORS, OperatingState};
@@ -121,10 +121,7 @@ impl Simulated {
     fn send_block(&mut self, block: &Block<4>) {
         let mut room = [0; MAX_BYTES];
         let length = Parameters::Four(*block).encode(&mut room).expect("a block that the robot would take");
-        for (k, bytes) in room[..length].chunks(MAX_CHUNK).enumerate() {
-            self.lockstep.link.command(&Command::Chunk { offset: (k * MAX_CHUNK) as u16, bytes });
-        }
-        self.lockstep.link.command(&Command::Commit { length: length as u16 });
+        self.lockstep.link.block(&room[..length]);
         // until the zeros are known and a hello has said so
         (0..150).for_each(|_| self.tick());
     }

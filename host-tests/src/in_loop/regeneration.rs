@@ -9,6 +9,7 @@ use model_core::link::block::Block;
 use model_core::link::events::Event;
 use model_core::link::faults::Fault;
 use model_core::link::record::TelemetryRecord;
+use model_core::number::scalar::Real;
 use model_core::plant::paper::four_wheels;
 use model_core::plant::robot::Robot;
 
@@ -33,19 +34,14 @@ struct Stop {
 }
 
 /// The paper's robot, whose motors have a quarter of the resistance: they can give back what they brake.
-fn strong() -> Robot<4, f64> {
-    let mut robot = four_wheels();
-    robot.motor.resistance *= 0.25;
+fn strong<T: Real>() -> Robot<4, T> {
+    let mut robot = four_wheels::<T>();
+    robot.motor.resistance *= T::lit(0.25);
     robot
 }
 
 fn stop(change: impl Fn(&mut Block<4>)) -> Stop {
-    let single: Robot<4, f32> = {
-        let mut robot = four_wheels();
-        robot.motor.resistance *= 0.25;
-        robot
-    };
-    let mut block = robots::block(single);
+    let mut block = robots::block(strong());
     change(&mut block);
     let fastest = BodyTwist { v: f64::from(block.limits.speed), vn: 0.0, w: 0.0 };
     let setup = BoardSetup { bus_capacitor: Some(CAPACITOR), ..BoardSetup::new(strong(), Effects::default(), 4) };
@@ -55,7 +51,7 @@ fn stop(change: impl Fn(&mut Block<4>)) -> Stop {
     run.follow(1.5, |_| fastest).expect("software does not fail");
     let holds = |run: &ClosedLoopRun<HostProgram, 4>| {
         let (v, u) = (run.lockstep.board.state().twist.v, run.lockstep.board.bus());
-        [0.5 * strong().mass * v * v, 0.5 * CAPACITOR * u * u]
+        [0.5 * strong::<f64>().mass * v * v, 0.5 * CAPACITOR * u * u]
     };
     let (begins, from) = (holds(&run), run.log.records.len());
     let (mut highest, mut drawn) = (0.0_f64, 0.0);
