@@ -234,16 +234,23 @@ impl Drive<'_> {
 /// Refuses a robot that would not drive.
 fn ready(line: &mut Line) -> Result<()> {
     let status = status(line)?;
-    let (problem, fix) = match status.state {
-        OperatingState::Open | OperatingState::Driving => return Ok(()),
-        OperatingState::Faulted => (status.faults.join("; "), MEND),
+    match hindrance(status.state, &status.faults) {
+        None => Ok(()),
+        Some((problem, fix)) => Err(line.error(format!("the robot does not drive: {problem}"), fix)),
+    }
+}
+
+/// Why a robot does not close its bridges for a command, and what to do about it; none where it would.
+pub(super) fn hindrance(state: OperatingState, faults: &[&str]) -> Option<(String, &'static str)> {
+    Some(match state {
+        OperatingState::Open | OperatingState::Driving => return None,
+        OperatingState::Faulted => (faults.join("; "), MEND),
         OperatingState::Probing => ("it is being commissioned".into(), "Wait until that is over"),
         OperatingState::Calibrating => {
             ("it still measures the zeros of its current sensors".into(), "Wait for a second")
         }
         OperatingState::Asleep => ("it has no parameters".into(), "`omni-gap robot send ROBOT.toml`"),
-    };
-    Err(line.error(format!("the robot does not drive: {problem}"), fix))
+    })
 }
 
 const CHECK_LINE: &str = "Check the line, and that the firmware is of this program\'s version";
@@ -261,9 +268,10 @@ fn reply(line: &mut Line, to: FrameKind, within: Duration) -> Result<Option<Repl
     })
 }
 
-/// Why a block was refused, in words.
-fn refused(reply: Reply) -> &'static str {
+/// Why a command or a block was refused, in words.
+pub(super) fn refused(reply: Reply) -> &'static str {
     let block = BlockErrorKind::ALL.into_iter().find(|kind| kind.code() == reply.reason).map(BlockErrorKind::text);
+    let block = block.filter(|_| reply.to == FrameKind::Commit.code());
     let command = || CommandError::ALL.into_iter().find(|kind| kind.code() == reply.reason).map(CommandError::text);
     block.or_else(command).unwrap_or("for a reason that this program does not know")
 }

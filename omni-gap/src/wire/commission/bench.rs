@@ -1,6 +1,6 @@
 //! Probes held until they have settled, and what was reported under them.
 
-use model_core::link::command::{Command, CommandError};
+use model_core::link::command::Command;
 use model_core::link::faults::{Fault, Faults};
 use model_core::link::framing::FrameKind;
 use model_core::link::hello::Hello;
@@ -9,6 +9,7 @@ use model_core::link::probe::{Probe, ProbeReport};
 use model_core::link::record::OperatingState;
 
 use crate::error::{Error, Result};
+use crate::wire::robot::refused;
 
 /// Where probes go, and what the robot says to them.
 pub trait ProbePort {
@@ -31,6 +32,9 @@ pub trait ProbePort {
 /// Current of a phase that everything but the first pulses is done with [A]: the limit is 1 A, and a rotor that comes to the
 /// vector induces a little more.
 pub(super) const CURRENT: f64 = 0.85;
+
+/// How fast a vector turns where nothing is measured on the way: two turns a second [2⁻¹⁶ turn/ms].
+pub(super) const QUICKLY: u16 = 131;
 
 /// Reports from one sending of a probe to the next: a quarter of the robot's patience.
 const AGAIN: usize = 50;
@@ -194,8 +198,7 @@ impl<'a, P: ProbePort> Bench<'a, P> {
                     return Err(self.faulted());
                 }
                 Message::Reply(reply) if reply.to == FrameKind::Probe.code() && !reply.taken => {
-                    let why = CommandError::ALL.into_iter().find(|why| why.code() == reply.reason);
-                    let why = why.map_or("for a reason that this program does not know", CommandError::text);
+                    let why = refused(reply);
                     return Err(self.trouble(format!("the robot refuses the probe: {why}"), "`omni-gap robot status`"));
                 }
                 Message::Hello(_) | Message::Reply(_) | Message::ProbeReport(_) => {}

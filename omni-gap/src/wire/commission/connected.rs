@@ -11,7 +11,7 @@ use model_core::link::record::{OperatingState, TelemetryRecord};
 use super::bench::ProbePort;
 use crate::error::{Error, Result};
 use crate::wire::line::Line;
-use crate::wire::robot::MEND;
+use crate::wire::robot::hindrance;
 
 /// What is waited for anything that a robot says: it speaks a thousand times a second.
 const SILENT: Duration = Duration::from_millis(1000);
@@ -49,15 +49,10 @@ pub fn connect(line: &mut Line) -> Result<Connected<'_>> {
         return Err(line.error("nothing is heard of a robot", "Check its power, the line, and --baud"));
     };
     let faults: Vec<&str> = record.faults.iter().map(|fault| fault.text()).collect();
-    let (problem, fix) = match record.state {
-        OperatingState::Asleep => ("it has no parameters".to_owned(), "`omni-gap robot send ROBOT.toml`"),
-        OperatingState::Faulted => (faults.join("; "), MEND),
-        OperatingState::Driving | OperatingState::Probing => {
-            ("it is driven by another program".to_owned(), "`omni-gap robot stop` first")
-        }
-        OperatingState::Calibrating | OperatingState::Open => {
-            ("it does not come to rest with open bridges".to_owned(), "Switch it off and on")
-        }
+    let (problem, fix) = match (hindrance(record.state, &faults), record.state) {
+        (Some(hindrance), _) => hindrance,
+        (None, OperatingState::Driving) => ("it is driven by another program".into(), "`omni-gap robot stop` first"),
+        (None, _) => ("it does not come to rest with open bridges".into(), "Switch it off and on"),
     };
     Err(line.error(format!("the robot is not commissioned: {problem}"), fix))
 }

@@ -4,7 +4,7 @@ use model_core::link::hello::Hello;
 
 use super::bench::ProbePort;
 use super::connected::{Connected, connect};
-use super::motor::{Found, MOST_TURNED, find, show, wheel_degrees};
+use super::motor::{Found, MOST_TURNED, SEEN, find, show, wheel_degrees};
 use super::winding::Estimate;
 use crate::error::{Error, Result};
 use crate::log::{CommissionedFile, RobotFile};
@@ -30,9 +30,6 @@ const TELLS: f64 = 2.0;
 
 /// What an inductance of a robot file may be off, which states none [1], one standard deviation.
 const INDUCTANCE: f64 = 0.1;
-
-/// What the wheels turn at the least that a person is shown [°].
-const SHOWN: f64 = 30.0;
 
 /// Commissions motors one after the other; without a person every wheel is taken to have turned forward.
 ///
@@ -66,7 +63,7 @@ pub fn guided(
 
 /// What is to happen, and whether it may.
 fn warn(robot: &Connected, hello: &Hello, person: &mut dyn Person) -> Result<()> {
-    let most = wheel_degrees(hello, MOST_TURNED + 360.0).max(SHOWN);
+    let most = wheel_degrees(hello, MOST_TURNED + 360.0).max(SEEN);
     let question = format!(
         "Each motor gets up to 1 A, and its wheel turns by up to {most:.0}°, one after the other. Are all wheels off the ground, \
          and is a hand at the switch of the motor supply"

@@ -58,12 +58,7 @@ impl HallsFound {
             found.edges[k] = ((again + lag) * 65_536.0 / TAU).rem_euclid(65_536.0);
             found.lag += lag / 6.0;
         }
-        let strange =
-            |pair: &[(f64, HallCode)]| pair[0].1 != pair[1].1 && !are_neighbours(&codes, [pair[0].1, pair[1].1]);
-        if back.windows(2).any(strange) {
-            return Err(NoHalls::Back);
-        }
-        Ok(found)
+        if goes_round(&codes, back) { Ok(found) } else { Err(NoHalls::Back) }
     }
 
     /// The same seen by a motor for which forward is the other way: outputs b and c swapped.
@@ -107,15 +102,18 @@ fn ring(way: &Way) -> Result<[HallCode; 6], NoHalls> {
     let changed = order.iter().fold(0, |changed, code| changed | (code.0 ^ order[0].0));
     let no_ring = NoHalls::Order { stuck: 7 & !changed };
     let codes = <[HallCode; 6]>::try_from(order).map_err(|_| no_ring)?;
-    let strange = |pair: &[(f64, HallCode)]| pair[0].1 != pair[1].1 && !are_neighbours(&codes, [pair[0].1, pair[1].1]);
-    if way.windows(2).any(strange) { Err(no_ring) } else { Ok(codes) }
+    if goes_round(&codes, way) { Ok(codes) } else { Err(no_ring) }
 }
 
-fn are_neighbours(ring: &[HallCode; 6], [one, other]: [HallCode; 2]) -> bool {
-    (0..6).any(|k| {
-        let pair = (ring[k], ring[(k + 1) % 6]);
-        pair == (one, other) || pair == (other, one)
-    })
+/// True where each code on a way is followed by itself or by a neighbour in the ring.
+fn goes_round(ring: &[HallCode; 6], way: &Way) -> bool {
+    let are_neighbours = |one: HallCode, other: HallCode| {
+        (0..6).any(|k| {
+            let pair = (ring[k], ring[(k + 1) % 6]);
+            pair == (one, other) || pair == (other, one)
+        })
+    };
+    way.windows(2).all(|pair| pair[0].1 == pair[1].1 || are_neighbours(pair[0].1, pair[1].1))
 }
 
 /// Where two codes change into each other on a way, in the mean over all times [rad]; none where they do not.

@@ -7,7 +7,7 @@ use model_core::link::probe::ProbeReport;
 
 use crate::error::{Error, Result};
 
-use super::bench::{Bench, ProbePort, Vector};
+use super::bench::{Bench, ProbePort, QUICKLY, Vector};
 use super::halls::{HallsFound, NoHalls};
 use super::sense::{Sense, sense};
 use super::winding::{Winding, winding};
@@ -31,15 +31,12 @@ const WAY: i32 = 87_381;
 /// angle that grows with this.
 const SLOWLY: u16 = 30;
 
-/// What a person is shown: up to two turns a second.
-const QUICKLY: u16 = 131;
-
 /// How far a rotor goes from where it was found, at the most, until a person is shown anything [°, electrical]: half a turn to
 /// the first pulse, 150° from there to the vector, and with that forward from 90° before output a to 420° behind it.
 pub const MOST_TURNED: f64 = 180.0 + 150.0 + 510.0;
 
 /// What the wheel is to turn for a person to see it, in all [°].
-const SEEN: f64 = 30.0;
+pub(super) const SEEN: f64 = 30.0;
 
 /// Finds out how a motor is wired; its bridge is open then, whatever came of it.
 ///

@@ -17,9 +17,11 @@
 //! Neglects: saturation and saliency: it is the inductance along d, at the current that is used. What the scales of the
 //! codes are off by, R and L are off by too; the uncertainty stated is that of noise and rounding alone.
 
+use model_core::control::phases::{AlphaBeta, dc_current};
+
 use crate::error::Result;
 
-use super::bench::{Bench, CURRENT, Mean, ProbePort, Vector};
+use super::bench::{Bench, CURRENT, Mean, ProbePort, QUICKLY, Vector};
 use super::sense::{Sense, ramp};
 
 /// A number with its standard error.
@@ -45,9 +47,6 @@ pub struct Winding {
 /// A quarter of a turn before output a [2⁻¹⁶ turn].
 const SIDE: u16 = 49_152;
 
-/// From there to it: two turns a second [2⁻¹⁶ turn/ms].
-const QUICKLY: u16 = 131;
-
 /// Periods of the rises that are looked at.
 const RISES: [u8; 6] = [1, 2, 3, 5, 8, 12];
 
@@ -70,7 +69,7 @@ pub(super) fn winding<P: ProbePort>(bench: &mut Bench<P>, sense: &Sense) -> Resu
     let high = bench.measure(full, 50, 100)?;
     let low = bench.measure(half, 50, 100)?;
     let amps = f64::from(bench.hello.calibration.amps_per_count).abs();
-    let dc = |mean: &Mean| amps * dc_current(sense.outputs(mean.counts));
+    let dc = |mean: &Mean| amps * dc_size(sense.outputs(mean.counts));
     let (volts, current) = (high.voltage - low.voltage, dc(&high) - dc(&low));
     if current <= 0.1 * CURRENT {
         let problem = format!("the current does not grow with the voltage: {:.2} A and {:.2} A", dc(&low), dc(&high));
@@ -92,9 +91,10 @@ pub(super) fn winding<P: ProbePort>(bench: &mut Bench<P>, sense: &Sense) -> Resu
 }
 
 /// DC-equivalent current of a vector of phase currents.
-fn dc_current([a, b, c]: [f64; 3]) -> f64 {
+fn dc_size(phases: [f64; 3]) -> f64 {
     // √3/2·|i_αβ|
-    0.5 * 3.0_f64.sqrt() * ((2.0 * a - b - c) / 3.0).hypot((b - c) / 3.0_f64.sqrt())
+    let AlphaBeta { alpha, beta } = AlphaBeta::clarke(phases);
+    dc_current(alpha.hypot(beta))
 }
 
 /// (1 − e^{−n·x})/(1 − e^{−20·x})
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn a_vector_along_a_phase_is_what_a_direct_current_would_be() {
         // u/√3 over R/2 in phase a: u = √3·(R/2)·I, so that u/R is √3/2 of it
-        assert!((dc_current([1.0, -0.5, -0.5]) - 0.866_025).abs() < 1e-6);
-        assert!((dc_current([0.0, 1.0, -1.0]) - 1.0).abs() < 1e-12, "between two terminals");
+        assert!((dc_size([1.0, -0.5, -0.5]) - 0.866_025).abs() < 1e-6);
+        assert!((dc_size([0.0, 1.0, -1.0]) - 1.0).abs() < 1e-12, "between two terminals");
     }
 }
