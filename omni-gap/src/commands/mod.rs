@@ -28,6 +28,7 @@ mod new;
 mod next;
 mod output_path;
 mod predict;
+mod prompt;
 mod record;
 mod robot;
 mod schema;

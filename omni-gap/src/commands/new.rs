@@ -16,6 +16,7 @@ use super::cli_error::CliError;
 use super::console::{Console, wrapped};
 use super::done::{DONE, Done};
 use super::output_path;
+use super::prompt::prompt;
 use drawing::drawing;
 use ready_made::ReadyMade;
 use starter::{Layout, Starter};
@@ -108,18 +109,13 @@ fn asked<T: std::str::FromStr>(
     output: &mut impl Write,
 ) -> Result<T, CliError> {
     loop {
-        let mut line = String::new();
-        let read =
-            write!(output, "{question}? ").and_then(|()| output.flush()).and_then(|()| input.read_line(&mut line));
-        if read.unwrap_or(0) == 0 {
-            return Err(CliError::Unclear(
-                "the answers ended early; `omni-gap new --help` lists the options that give them",
-            ));
-        }
-        match line.trim().parse() {
+        let line = prompt(&format!("{question}? "), input, output).ok_or(CliError::Unclear(
+            "the answers ended early; `omni-gap new --help` lists the options that give them",
+        ))?;
+        match line.parse() {
             Ok(answer) => return Ok(answer),
             Err(_) => {
-                let _ = writeln!(output, "`{}` cannot be read.", line.trim());
+                let _ = writeln!(output, "`{line}` cannot be read.");
             }
         }
     }

@@ -1,6 +1,5 @@
 //! `robot commission`: motor by motor, how it is wired, with a person who says which way its wheel turned.
 
-use std::io::{BufRead, Write};
 use std::path::PathBuf;
 
 use omni_gap::api::{RobotFile, export, known_effects};
@@ -12,6 +11,7 @@ use super::ask::Ask;
 use crate::commands::cli_error::CliError;
 use crate::commands::console::Console;
 use crate::commands::output_path;
+use crate::commands::prompt::prompt;
 use crate::commands::record::run_place::text_of;
 
 /// Which robot is commissioned, and where the result goes.
@@ -75,15 +75,9 @@ impl Person for Terminal {
     fn answer<'a>(&mut self, question: &str, answers: &[&'a str]) -> Option<&'a str> {
         let (mut input, mut output) = (std::io::stdin().lock(), std::io::stderr());
         loop {
-            let mut line = String::new();
-            let read = write!(output, "{question}? [{}] ", answers.join("/"))
-                .and_then(|()| output.flush())
-                .and_then(|()| input.read_line(&mut line));
-            if read.unwrap_or(0) == 0 {
-                return None;
-            }
+            let asked = format!("{question}? [{}] ", answers.join("/"));
             // by its first letters
-            let line = line.trim().to_lowercase();
+            let line = prompt(&asked, &mut input, &mut output)?.to_lowercase();
             if let Some(known) = answers.iter().find(|known| !line.is_empty() && known.starts_with(&line)) {
                 return Some(known);
             }

@@ -76,7 +76,7 @@ impl Drive {
         };
         // what was recorded before a fault tells of it
         let notices = match (&robot, place) {
-            (Some(robot), Some(place)) => self.write(&line, robot, &place)?,
+            (Some(robot), Some((place, path))) => self.write(&line, robot, &place, path)?,
             _ => Vec::new(),
         };
         if let Ended::Faulted(faults) = ended {
@@ -85,17 +85,17 @@ impl Drive {
         self.ask.say(console, &status, &notices)
     }
 
-    /// Where the drive is to be recorded.
-    fn place(&self) -> Result<Option<RunPlace>, CliError> {
+    /// Where the drive is to be recorded, and the robot file that goes with it.
+    fn place(&self) -> Result<Option<(RunPlace, &Path)>, CliError> {
         let (Some(session), Some(path)) = (&self.out, &self.robot) else { return Ok(None) };
-        Ok(Some(RunPlace::new(session, &self.name, false, vec![("robot.toml", text_of(path)?)])?))
+        Ok(Some((RunPlace::new(session, &self.name, false, vec![("robot.toml", text_of(path)?)])?, path)))
     }
 
     /// Writes the run; what a person should know of it.
-    fn write(&self, line: &Line, robot: &RobotFile, place: &RunPlace) -> Result<Vec<String>, CliError> {
+    fn write(&self, line: &Line, robot: &RobotFile, place: &RunPlace, path: &Path) -> Result<Vec<String>, CliError> {
         let recorded = record_kept(line.kept(), &line.place(), &self.name, robot.wheel.len())?;
         let mut notices = vec![place.write(&recorded, |_| Ok(()))?];
-        notices.extend(remarks(&recorded, robot, self.robot.as_deref().unwrap_or(Path::new(""))));
+        notices.extend(remarks(&recorded, robot, path));
         Ok(notices)
     }
 }
