@@ -283,15 +283,19 @@ fn peers(_: &[OsString]) -> Result<(), String> {
     tests.fold(Line::of("").word(python), Line::word).env("PYTHONPATH", "host-tests").announced()
 }
 
-fn pil(_: &[OsString]) -> Result<(), String> {
+/// The emulator, and the images for it.
+fn emulated_images() -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
-    Line::of(steps::EMULATED_IMAGES).announced()?;
+    Line::of(steps::EMULATED_IMAGES).announced()
+}
+
+fn pil(_: &[OsString]) -> Result<(), String> {
+    emulated_images()?;
     steps::IN_LOOP.into_iter().try_for_each(|command| Line::of(command).announced())
 }
 
 fn robot(address: &[OsString]) -> Result<(), String> {
-    tool::ensure(tool::TOOLS)?;
-    Line::of(steps::EMULATED_IMAGES).announced()?;
+    emulated_images()?;
     address.iter().fold(Line::of(steps::ROBOT), Line::word).announced()
 }
 
@@ -300,20 +304,17 @@ fn commission(_: &[OsString]) -> Result<(), String> {
 }
 
 fn margin(_: &[OsString]) -> Result<(), String> {
-    tool::ensure(tool::TOOLS)?;
-    Line::of(steps::EMULATED_IMAGES).announced()?;
+    emulated_images()?;
     Line::of(steps::MARGIN).announced()
 }
 
 fn morning(_: &[OsString]) -> Result<(), String> {
-    tool::ensure(tool::TOOLS)?;
-    Line::of(steps::EMULATED_IMAGES).announced()?;
+    emulated_images()?;
     steps::MORNING.iter().try_for_each(|command| Line::of(command).announced())
 }
 
 fn emulate(_: &[OsString]) -> Result<(), String> {
-    tool::ensure(tool::TOOLS)?;
-    Line::of(steps::EMULATED_IMAGES).announced()?;
+    emulated_images()?;
     Line::of(steps::EMULATE).announced()
 }
 
