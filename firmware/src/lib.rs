@@ -31,7 +31,6 @@ pub mod windings;
 // The motion, 1 kHz
 pub mod probe;
 pub mod silence;
-
 pub mod stall;
 
 pub mod motion;

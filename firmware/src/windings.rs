@@ -5,10 +5,10 @@
 //!                                 └─ what the motion turn is told
 //! ```
 //!
-//! First the offsets of the converters are learned with the bridges open, and followed as long as they stay so. Then every period looks for what must not be,
-//! follows the halls, and has the current loop decide: six-step while a motor's speed is not known yet, field-oriented
-//! once its halls tell where the rotor is between two edges. A fault opens the bridges in the turn that sees it; it is
-//! latched until it is cleared. Without parameters nothing is driven.
+//! First the offsets of the converters are learned with the bridges open, and followed as long as they stay so. Then every
+//! period looks for what must not be, follows the halls, and has the current loop decide: six-step while a motor's speed is
+//! not known yet, field-oriented once its halls tell where the rotor is between two edges. A fault opens the bridges in the
+//! turn that sees it; it is latched until it is cleared. Without parameters nothing is driven.
 //!
 //! Codes are put right by the motors' wiring before anything looks at them, and duties behind all that decides: nothing
 //! in between knows of wires.
