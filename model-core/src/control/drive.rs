@@ -298,7 +298,7 @@ impl<const N: usize> WheeledDrive<N> {
         let acceleration = self.accelerations[usize::from(stops)];
         if acceleration != self.settings.acceleration {
             self.settings.acceleration = acceleration;
-            self.controller = Controller::new(&self.settings);
+            self.controller.set_acceleration(acceleration);
         }
     }
 

@@ -146,6 +146,8 @@ pub struct Controller<const N: usize, T = f32> {
     /// Which effects are undone: see [`compensate`].
     flags: u32,
     limiter: AccelerationLimiter<T>,
+    /// What is left of the largest accelerations in the plane and about the vertical, with the wheels that work [1]
+    reduced: [T; 2],
     /// 1/Δt [1/s]
     rate: T,
     /// (M, M, J), what turns with the wheels included [kg, kg, kg·m²]

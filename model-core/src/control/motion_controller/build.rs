@@ -89,18 +89,15 @@ impl<const N: usize, T: Real> Controller<N, T> {
             turning[i][k] * turning[i][k] > bound
         };
         let coupled = couples(0, 1) || couples(0, 2) || couples(1, 2);
-        let acceleration = settings.acceleration;
         let mass = [
             on * (robot.mass + turning[0][0]),
             on * (robot.mass + turning[1][1]),
             on * (robot.inertia + turning[2][2]),
         ];
-        Self {
+        let mut controller = Self {
             flags: flags(settings, moves, coupled),
-            limiter: AccelerationLimiter::new(
-                [acceleration[0] * plane, acceleration[1] * plane, acceleration[2] * turn],
-                dt,
-            ),
+            limiter: AccelerationLimiter::new([zero; 3], dt),
+            reduced: [plane, turn],
             rate: one / dt,
             mass,
             push: mass.map(|m| m / dt),
@@ -129,7 +126,17 @@ impl<const N: usize, T: Real> Controller<N, T> {
                 push,
                 spin,
             },
-        }
+        };
+        controller.set_acceleration(settings.acceleration);
+        controller
+    }
+
+    /// From now on the reference changes no faster along v, along vn and about the vertical [m/s², m/s², rad/s²]; less with
+    /// a wheel lost.
+    pub fn set_acceleration(&mut self, acceleration: [T; 3]) {
+        let [plane, turn] = self.reduced;
+        let limits = [acceleration[0] * plane, acceleration[1] * plane, acceleration[2] * turn];
+        self.limiter = AccelerationLimiter::new(limits, T::lit(2.0) * self.compensation.half);
     }
 
     /// From now on braking currents fade so.
