@@ -12,6 +12,7 @@ use firmware::board::{self, Stopwatch};
 use firmware::codes::Codes;
 use firmware::motion::MotionOutput;
 use firmware::offsets;
+use firmware::tx_queue::TxStorage;
 use firmware::winding_config::{MAX_DUTY, WindingConfig};
 use firmware::winding_signals::MotorSetpoints;
 use firmware::windings::{BridgeCommand, Windings};
@@ -31,8 +32,11 @@ use model_core::plant::paper;
 use model_core::plant::robot::Robot;
 use panic_halt as _;
 
+mod tasks;
+
 #[entry]
 fn main() -> ! {
+    static mut ROOM: TxStorage = TxStorage::new();
     let mut watch = Stopwatch::take();
     motion(&mut watch);
     compensations(&mut watch);
@@ -42,6 +46,8 @@ fn main() -> ! {
     let crossed =
         MotorWiring { outputs: [0, 2, 1], converters: [1, 2, 0], inverted: [true; 3], ..MotorWiring::default() };
     current_interrupt(&mut watch, ", commissioned", black_box(Some(crossed)));
+    tasks::motion_turns(&mut watch);
+    tasks::link(&mut watch, ROOM);
     board::end()
 }
 
@@ -190,10 +196,9 @@ fn windings_tick(windings: &mut Windings, codes: &Codes) -> BridgeCommand {
     windings.tick(codes)
 }
 
-/// The whole current interrupt but for the board: four motors that turn and are driven, an edge of every motor each eighth
-/// period (2,600 rad/s electrical), wired as the table of pins says or otherwise.
-fn current_interrupt(watch: &mut Stopwatch, detail: &str, wiring: Option<MotorWiring>) {
-    let block = Block {
+/// The paper's robot, its motors wired so.
+fn four_wheels(wiring: Option<MotorWiring>) -> Block<4> {
+    Block {
         robot: paper::four_wheels(),
         inductance: 0.6e-3,
         pole_pairs: 8,
@@ -212,11 +217,16 @@ fn current_interrupt(watch: &mut Stopwatch, detail: &str, wiring: Option<MotorWi
         heating_time: 10.0,
         wiring: [wiring; 4],
         ..Block::default()
-    };
+    }
+}
+
+/// The whole current interrupt but for the board: four motors that turn and are driven, an edge of every motor each eighth
+/// period (2,600 rad/s electrical), wired as the table of pins says or otherwise.
+fn current_interrupt(watch: &mut Stopwatch, detail: &str, wiring: Option<MotorWiring>) {
     let ask = MotorSetpoints { current: [0.3; 4], voltage: [3.0; 4], closed: true, enabled: 0b1111 };
     let mut windings = Windings::default();
     windings.apply(&MotionOutput {
-        config: Some(WindingConfig::of(&Parameters::Four(block))),
+        config: Some(WindingConfig::of(&Parameters::Four(four_wheels(wiring)))),
         setpoints: ask,
         ..MotionOutput::default()
     });
