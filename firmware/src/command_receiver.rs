@@ -1,13 +1,15 @@
 //! # Command receiver: bytes from the link, made commands and parameters
 //!
 //! A parameter block comes in chunks and is looked at as a whole when it is committed; nothing of it is used before, and
-//! where it is refused the parameters in use stay. A frame that is damaged is not answered: its sender hears no reply.
+//! where it is refused the parameters in use stay. One that is taken is also there to be stored. A frame that is damaged is not answered: its sender hears no reply.
 
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::{self, BlockError, MAX_BYTES, Parameters};
+use model_core::link::block::MAX_BYTES;
 use model_core::link::command::{Command, Reply};
 use model_core::link::framing::{Frame, FrameDecoder, FrameKind};
 use model_core::link::probe::Probe;
+
+use crate::configured_robot::ConfiguredRobot;
 
 /// What a frame has brought.
 // There is one of them at a time, and nothing is allocated.
@@ -27,27 +29,47 @@ pub enum ReceivedCommand {
     Open,
     /// Forget latched faults
     Clear(Reply),
-    /// Parameters that may be used; no reply where they were kept from before
-    Parameters(AcceptedParameters, Option<Reply>),
+    /// Parameters that may be used, and what was made of them; no reply where they were kept from before
+    Parameters(ConfiguredRobot, Option<Reply>),
     /// A command that cannot be followed
     BadCommand(Reply),
     /// A parameter block that cannot be used
     BadBlock(Reply),
 }
 
-/// Parameters that may be used.
-#[derive(Clone, Copy, Debug)]
-pub struct AcceptedParameters {
-    /// The parameters
-    pub parameters: Parameters,
-    /// The checksum of their block, to know them by
-    pub check: u32,
+/// The chunks of a block.
+#[derive(Clone, Debug)]
+struct BlockChunks {
+    bytes: [u8; MAX_BYTES],
+    /// Length of the block, if it was committed and no chunk of another one has come
+    committed: Option<usize>,
 }
 
-impl AcceptedParameters {
-    fn of(block: &[u8]) -> Result<Self, BlockError> {
-        let parameters = Parameters::decode(block)?;
-        Ok(Self { parameters, check: block::checksum(block).unwrap_or_default() })
+impl BlockChunks {
+    /// Takes a chunk; where it leads out of the block it is left out, and the block's checksum tells.
+    fn put(&mut self, offset: usize, chunk: &[u8]) {
+        self.begin_anew();
+        if let Some(to) = self.bytes.get_mut(offset..offset + chunk.len()) {
+            to.copy_from_slice(chunk);
+        }
+    }
+
+    /// The block, which is whole.
+    fn commit(&mut self, length: u16) -> &[u8] {
+        self.begin_anew();
+        self.committed = Some(usize::from(length).min(MAX_BYTES));
+        self.committed().unwrap_or_default()
+    }
+
+    fn committed(&self) -> Option<&[u8]> {
+        self.bytes.get(..self.committed?)
+    }
+
+    /// A block after another is made of its own chunks alone.
+    fn begin_anew(&mut self) {
+        if self.committed.take().is_some() {
+            self.bytes = [0; MAX_BYTES];
+        }
     }
 }
 
@@ -55,12 +77,12 @@ impl AcceptedParameters {
 #[derive(Clone, Debug)]
 pub struct CommandReceiver {
     decoder: FrameDecoder,
-    block: [u8; MAX_BYTES],
+    block: BlockChunks,
 }
 
 impl Default for CommandReceiver {
     fn default() -> Self {
-        Self { decoder: FrameDecoder::default(), block: [0; MAX_BYTES] }
+        Self { decoder: FrameDecoder::default(), block: BlockChunks { bytes: [0; MAX_BYTES], committed: None } }
     }
 }
 
@@ -79,23 +101,19 @@ impl CommandReceiver {
             Command::Open => Some(ReceivedCommand::Open),
             Command::Clear => Some(ReceivedCommand::Clear(answer(true, 0))),
             Command::Chunk { offset, bytes } => {
-                let from = usize::from(offset);
-                if let Some(to) = self.block.get_mut(from..from + bytes.len()) {
-                    to.copy_from_slice(bytes);
-                }
+                self.block.put(usize::from(offset), bytes);
                 None
             }
-            Command::Commit { length } => {
-                let block = self.block.get(..usize::from(length)).unwrap_or(&self.block);
-                let received = match AcceptedParameters::of(block) {
-                    Ok(accepted) => ReceivedCommand::Parameters(accepted, Some(answer(true, 0))),
-                    Err(why) => ReceivedCommand::BadBlock(answer(false, why.reason.code())),
-                };
-                // the next one is to be made of its own chunks alone
-                self.block = [0; MAX_BYTES];
-                Some(received)
-            }
+            Command::Commit { length } => Some(match ConfiguredRobot::of(self.block.commit(length)) {
+                Ok(robot) => ReceivedCommand::Parameters(robot, Some(answer(true, 0))),
+                Err(why) => ReceivedCommand::BadBlock(answer(false, why.reason.code())),
+            }),
         }
+    }
+
+    /// The block that was committed last, while no chunk of another one has come.
+    pub fn committed(&self) -> Option<&[u8]> {
+        self.block.committed()
     }
 
     /// The parameters of a block that was kept; `None` where nothing was kept.
@@ -103,8 +121,8 @@ impl CommandReceiver {
         if kept.iter().all(|byte| *byte == 0xff) {
             return None;
         }
-        Some(match AcceptedParameters::of(kept) {
-            Ok(accepted) => ReceivedCommand::Parameters(accepted, None),
+        Some(match ConfiguredRobot::of(kept) {
+            Ok(robot) => ReceivedCommand::Parameters(robot, None),
             Err(why) => ReceivedCommand::BadBlock(Reply {
                 to: FrameKind::Commit.code(),
                 taken: false,

@@ -4,7 +4,8 @@ use model_core::geometry::frames::BodyTwist;
 use model_core::link::command::Reply;
 use model_core::link::probe::Probe;
 
-use crate::command_receiver::{AcceptedParameters, ReceivedCommand};
+use crate::command_receiver::ReceivedCommand;
+use crate::configured_robot::ConfiguredRobot;
 
 /// What has come and was not taken yet.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,8 +28,10 @@ pub struct Inbox {
     pub bad_command: bool,
     /// A parameter block came that cannot be taken
     pub bad_block: bool,
+    /// Parameters that are in use, or about to be, are not stored
+    pub unsaved: bool,
     /// Other parameters
-    pub parameters: Option<AcceptedParameters>,
+    pub parameters: Option<ConfiguredRobot>,
     /// An answer to what came last
     pub reply: Option<Reply>,
 }
@@ -59,8 +62,10 @@ impl Inbox {
                 self.clear = true;
                 self.reply = Some(reply);
             }
-            ReceivedCommand::Parameters(accepted, reply) => {
-                self.parameters = Some(accepted);
+            ReceivedCommand::Parameters(robot, reply) => {
+                self.parameters = Some(robot);
+                // those without a reply come from the flash
+                self.unsaved = reply.is_some();
                 self.reply = reply;
             }
             ReceivedCommand::BadCommand(reply) => {

@@ -37,8 +37,10 @@ pub mod motion;
 
 // The link
 pub mod command_receiver;
+pub mod configured_robot;
 
 pub mod inbox;
+pub mod to_store;
 
 pub mod tx_queue;
 

@@ -6,7 +6,7 @@
 //! | `motion` | 3 | every 20th of these, 1 kHz | command → currents and voltages, one record |
 //! | `listen` | 2 | after each motion turn | bytes → commands, parameter blocks |
 //! | `record` | 1 | after each motion turn | records → bytes |
-//! | `idle` | 0 | otherwise | feeds the watchdog while the others keep their time |
+//! | `idle` | 0 | otherwise | feeds the watchdog while the others keep their time; stores a new block while nothing is driven |
 //!
 //! Interrupts that no pin uses stand for the software's own tasks: a hardware task is bound without the executor of
 //! `async` ones, which links a panic.
@@ -23,14 +23,16 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 
 #[rtic::app(device = firmware::board::pac, peripherals = true)]
 mod app {
-    use firmware::board::{Bridges, SerialLink, Watchdog};
+    use firmware::board::{Bridges, FlashStore, SerialLink, Watchdog};
     use firmware::command_receiver::CommandReceiver;
     use firmware::drivers::heartbeat::Heartbeats;
     use firmware::inbox::Inbox;
     use firmware::motion::Motion;
+    use firmware::to_store::BlockToStore;
     use firmware::tx_queue::{TxConsumer, TxProducer, TxStorage};
     use firmware::windings::Windings;
 
+    use crate::tasks::event_log::EventLog;
     use crate::tasks::load::Load;
     use crate::tasks::{current::current, idle::idle, listen::listen, motion::motion, record::record, start::init};
 
@@ -40,6 +42,7 @@ mod app {
         pub inbox: Inbox,
         pub load: Load,
         pub serial: SerialLink,
+        pub to_store: BlockToStore,
         pub heartbeats: Heartbeats,
     }
 
@@ -47,10 +50,12 @@ mod app {
     pub struct Local {
         pub bridges: Bridges,
         pub motion_control: Motion,
+        pub event_log: EventLog,
         pub receiver: CommandReceiver,
         pub tx_producer: TxProducer,
         pub tx_consumer: TxConsumer,
         pub watchdog: Watchdog,
+        pub flash_store: FlashStore,
     }
 
     extern "Rust" {
@@ -60,16 +65,16 @@ mod app {
         #[task(binds = ADC, priority = 4, local = [bridges], shared = [windings, load, &heartbeats])]
         fn current(_: current::Context);
 
-        #[task(binds = EXTI0, priority = 3, local = [motion_control, tx_producer], shared = [windings, inbox, load, &heartbeats])]
+        #[task(binds = EXTI0, priority = 3, local = [motion_control, tx_producer, event_log], shared = [windings, inbox, load, &heartbeats])]
         fn motion(_: motion::Context);
 
-        #[task(binds = EXTI1, priority = 2, local = [receiver], shared = [inbox, serial, &heartbeats])]
+        #[task(binds = EXTI1, priority = 2, local = [receiver], shared = [inbox, serial, to_store, &heartbeats])]
         fn listen(_: listen::Context);
 
         #[task(binds = EXTI2, priority = 1, local = [tx_consumer], shared = [serial, &heartbeats])]
         fn record(_: record::Context);
 
-        #[idle(local = [watchdog], shared = [&heartbeats])]
+        #[idle(local = [watchdog, flash_store], shared = [windings, inbox, load, to_store, &heartbeats])]
         fn idle(_: idle::Context) -> !;
     }
 }

@@ -28,13 +28,12 @@ use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
 use model_core::link::probe::Probe;
 use model_core::link::record::OperatingState;
 
-use crate::codes::TICK_SECONDS;
-use crate::command_receiver::AcceptedParameters;
+use crate::configured_robot::ConfiguredRobot;
 use crate::inbox::Inbox;
 use crate::probe::{ProbeVector, Prober};
 use crate::silence::Silence;
 use crate::stall::{StallDetector, StallLimits};
-use crate::winding_config::{MAX_DUTY, WindingConfig};
+use crate::winding_config::WindingConfig;
 use crate::winding_signals::{MotorSetpoints, WindingFeedback};
 
 /// What a turn decided.
@@ -66,6 +65,13 @@ pub struct MotionOutput {
     pub events: Events,
 }
 
+impl MotionOutput {
+    /// What is latched in the windings, and what this turn found.
+    pub fn all_faults(&self, feedback: &WindingFeedback) -> Faults {
+        Faults::from_bits(feedback.faults.bits() | feedback.motor_faults.bits() | self.faults.bits())
+    }
+}
+
 /// The motion turn and its memory.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Motion {
@@ -81,35 +87,48 @@ pub struct Motion {
     bus_at_rest: Option<f32>,
 }
 
-impl Motion {
-    /// Takes other parameters; true if they are of another machine than those before.
-    #[inline(never)]
-    fn set_parameters(&mut self, accepted: &AcceptedParameters, output: &mut MotionOutput) -> bool {
-        let parameters = &accepted.parameters;
-        let config = WindingConfig::of(parameters);
-        let mut drive = RobotDrive::new(parameters, MAX_DUTY, TICK_SECONDS);
-        if let Some(old) = &self.drive {
-            drive.take_over(old);
-        }
-        drive.exclude_motors(self.disabled);
-        if let Some(bus) = self.bus_at_rest {
-            drive.set_bus_at_rest(bus);
-        }
-        self.drive = Some(drive);
-        let hello = config.hello(parameters, accepted.check);
-        let same = self.hello.is_some_and(|before| machine(&before) == machine(&hello));
-        self.hello = Some(hello);
-        output.config = Some(config);
-        output.events.add(Event::Parameters);
-        !same
-    }
+/// What was heard since the last turn, but for what has been taken already.
+#[derive(Clone, Copy, Debug)]
+struct Heard {
+    /// A command came
+    fresh: bool,
+    /// The bridges are to open
+    opens: bool,
+    /// Other parameters came
+    parameters: bool,
+    probe: Option<Probe>,
+    /// The motor of the probe is there and may be used
+    can_probe: bool,
+}
 
+impl Motion {
     /// One turn.
     pub fn tick(&mut self, feedback: &WindingFeedback, inbox: &mut Inbox) -> MotionOutput {
         let mut output = MotionOutput { reply: inbox.reply.take(), headroom: 1.0, ..MotionOutput::default() };
+        let mut heard = self.hear(feedback, inbox, &mut output);
+        self.listen_to_silence(feedback, &mut heard, &mut output);
+        self.state = self.next_state(feedback, &heard, !output.faults.is_empty());
+        self.probe(&heard, &mut output);
+        output.state = self.state;
+        self.watch_motors(feedback, &mut output);
+        if self.state == OperatingState::Driving {
+            self.follow(feedback, inbox.twist, &mut output);
+        } else {
+            self.stall_detector = StallDetector::default();
+            if let Some(drive) = &mut self.drive {
+                drive.reset();
+            }
+        }
+        output
+    }
+
+    /// Takes what the link has brought.
+    fn hear(&mut self, feedback: &WindingFeedback, inbox: &mut Inbox, output: &mut MotionOutput) -> Heard {
         let mut opens = inbox.open;
-        if let Some(accepted) = inbox.parameters.take() {
-            opens |= self.set_parameters(&accepted, &mut output);
+        let parameters = inbox.parameters.is_some();
+        if let Some(robot) = &inbox.parameters {
+            opens |= self.set_parameters(robot, output);
+            inbox.parameters = None;
         }
         if core::mem::take(&mut inbox.bad_command) {
             output.faults.add(Fault::BadCommand);
@@ -122,37 +141,69 @@ impl Motion {
             output.events.add(Event::Cleared);
             opens |= self.disabled != 0;
         }
+        if inbox.unsaved {
+            output.events.add(Event::Unsaved);
+        }
         let fresh = inbox.commands != self.commands;
         self.commands = inbox.commands;
         self.hello = self.hello.map(|hello| with_offsets(hello, feedback));
         output.hello = self.hello;
+        let probe = inbox.probe.take();
+        let can_probe = probe.is_some_and(|probe| self.can_probe(probe, feedback));
+        Heard { fresh, opens, parameters, probe, can_probe }
+    }
 
-        let asked = inbox.probe.take();
-        let possible = asked.is_some_and(|probe| self.can_probe(probe, feedback));
-        let before = self.state;
-        let faulty = !feedback.faults.is_empty() || !output.faults.is_empty();
-        self.silence.tick(fresh, before == OperatingState::Driving);
-        if faulty || opens {
+    /// Takes other parameters; true if they are of another machine than those before. All that takes long was made of them
+    /// before, by whoever received them.
+    #[inline(never)]
+    fn set_parameters(&mut self, robot: &ConfiguredRobot, output: &mut MotionOutput) -> bool {
+        let mut drive = robot.drive;
+        if let Some(old) = &self.drive {
+            drive.take_over(old);
+        }
+        drive.exclude_motors(self.disabled);
+        if let Some(bus) = self.bus_at_rest {
+            drive.set_bus_at_rest(bus);
+        }
+        self.drive = Some(drive);
+        let same = self.hello.is_some_and(|before| machine(&before) == machine(&robot.hello));
+        self.hello = Some(robot.hello);
+        output.config = Some(robot.windings);
+        output.events.add(Event::Parameters);
+        !same
+    }
+
+    /// Counts the turns without a command; the bridges are to open once a robot that heard none has come to rest.
+    fn listen_to_silence(&mut self, feedback: &WindingFeedback, heard: &mut Heard, output: &mut MotionOutput) {
+        self.silence.tick(heard.fresh, self.state == OperatingState::Driving);
+        if !feedback.faults.is_empty() || !output.faults.is_empty() || heard.opens {
             self.silence = Silence::default();
         }
-        opens |= self.silence.is_over();
-        self.state = match before {
-            _ if faulty => OperatingState::Faulted,
+        heard.opens |= self.silence.is_over();
+        if self.silence.lasts() {
+            output.events.add(Event::Silent);
+        }
+    }
+
+    /// What the robot does in this turn.
+    fn next_state(&self, feedback: &WindingFeedback, heard: &Heard, new_fault: bool) -> OperatingState {
+        let Heard { fresh, opens, parameters, can_probe, .. } = *heard;
+        match self.state {
+            _ if new_fault || !feedback.faults.is_empty() => OperatingState::Faulted,
             _ if self.drive.is_none() => OperatingState::Asleep,
             _ if !feedback.ready => OperatingState::Calibrating,
             OperatingState::Asleep | OperatingState::Calibrating | OperatingState::Faulted => OperatingState::Open,
             OperatingState::Open if fresh && !opens => OperatingState::Driving,
-            OperatingState::Open if possible && !opens => OperatingState::Probing,
+            OperatingState::Open if can_probe && !opens => OperatingState::Probing,
             OperatingState::Driving if opens => OperatingState::Open,
-            OperatingState::Probing if opens || fresh || output.config.is_some() => OperatingState::Open,
-            stage => stage,
-        };
-        self.probe(asked, possible, &mut output);
-        output.state = self.state;
-        if self.silence.lasts() {
-            output.events.add(Event::Silent);
+            OperatingState::Probing if opens || fresh || parameters => OperatingState::Open,
+            state => state,
         }
-        let Some(drive) = &mut self.drive else { return output };
+    }
+
+    /// Which motors are in use, how warm they are, and the bus before anything was driven.
+    fn watch_motors(&mut self, feedback: &WindingFeedback, output: &mut MotionOutput) {
+        let Some(drive) = &mut self.drive else { return };
         if feedback.disabled != self.disabled {
             self.disabled = feedback.disabled;
             drive.exclude_motors(self.disabled);
@@ -167,18 +218,18 @@ impl Motion {
             self.bus_at_rest = Some(feedback.bus);
             drive.set_bus_at_rest(feedback.bus);
         }
-        if self.state != OperatingState::Driving {
-            drive.reset();
-            self.stall_detector = StallDetector::default();
-            return output;
-        }
+    }
+
+    /// Follows a wanted motion, or brakes where nobody commands one.
+    fn follow(&mut self, feedback: &WindingFeedback, twist: BodyTwist, output: &mut MotionOutput) {
+        let Some(drive) = &mut self.drive else { return };
         let wheels = core::array::from_fn(|j| observer::HallReading {
             edges: feedback.edges[j],
             since_edge: feedback.since_edge[j],
             speed: feedback.wheel_speed[j],
         });
         drive.stop_hard(self.silence.lasts());
-        let want = if self.silence.lasts() { BodyTwist::default() } else { inbox.twist };
+        let want = if self.silence.lasts() { BodyTwist::default() } else { twist };
         let drive_output = drive.tick(&wheels, feedback.bus, want);
         self.silence.followed(drive_output.reference);
         output.reference = drive_output.reference;
@@ -196,11 +247,8 @@ impl Motion {
         let others = drive.told_by_others(&feedback.wheel_speed);
         let limits = StallLimits { others, current: drive.current_limit(), edge };
         output.stalled = self.stall_detector.tick(feedback, &drive_output, &limits);
-        output
     }
-}
 
-impl Motion {
     /// True for a motor that the robot has and that may be used.
     fn can_probe(&self, probe: Probe, feedback: &WindingFeedback) -> bool {
         let motors = self.drive.as_ref().map_or(0, RobotDrive::motors);
@@ -208,7 +256,8 @@ impl Motion {
     }
 
     /// A turn of the probe, where one is on; one that is asked for in vain is refused.
-    fn probe(&mut self, asked: Option<Probe>, possible: bool, output: &mut MotionOutput) {
+    fn probe(&mut self, heard: &Heard, output: &mut MotionOutput) {
+        let (asked, possible) = (heard.probe, heard.can_probe);
         if self.state != OperatingState::Probing {
             self.prober.end();
             let is_open = self.state == OperatingState::Open;

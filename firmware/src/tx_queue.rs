@@ -7,7 +7,6 @@
 use heapless::spsc::{Consumer, Producer, Queue};
 use model_core::link::command::Reply;
 use model_core::link::events::Event;
-use model_core::link::faults::Faults;
 use model_core::link::framing::{self, FrameKind, MAX_FRAME};
 use model_core::link::hello::Hello;
 use model_core::link::probe::ProbeReport;
@@ -71,7 +70,7 @@ impl TxProducer {
             state: output.state,
             enabled: output.setpoints.enabled | output.probe.map_or(0, |probe| 1 << probe.motor()),
             events: output.events,
-            faults: Faults::from_bits(feedback.faults.bits() | feedback.motor_faults.bits() | output.faults.bits()),
+            faults: output.all_faults(feedback),
             bus: feedback.codes.bus,
             phases: feedback.codes.phases,
             angle: feedback.angle,

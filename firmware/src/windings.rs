@@ -113,6 +113,11 @@ impl Windings {
         self.feedback
     }
 
+    /// True once all bridges have been open for so long that no current is left.
+    pub fn are_at_rest(&self) -> bool {
+        self.open >= CURRENT_FREE
+    }
+
     /// True if a motion turn begins with the period that has just been looked at.
     #[inline]
     pub fn motion_is_due(&self) -> bool {
@@ -131,14 +136,40 @@ impl Windings {
             }
             None => read,
         };
-        let setpoints = self.setpoints;
         let bus = self.config.calibration.bus_voltage(codes.bus);
+        let ready = self.check_supply_and_offsets(codes, bus);
+        let may = if ready { self.setpoints.enabled & self.config.motors() & !self.protection.disabled() } else { 0 };
+        let mut command = self.drive_motors(codes, bus, may);
+        if self.protection.faults().is_empty() {
+            command.enabled = may & !self.protection.disabled();
+        }
+        if command.enabled != may {
+            self.forget_what_is_not_applied(&mut command);
+        }
+        if let Some(wiring) = &self.config.wiring {
+            for (j, duties) in command.duties.iter_mut().enumerate() {
+                *duties = wiring.duties(j, *duties);
+            }
+        }
+        if self.motion_is_due() {
+            self.feedback = self.measure(codes, bus);
+        }
+        if let Some(vector) = self.probe {
+            self.probe(&vector, codes, read, &mut command);
+        }
+        self.open = if command.enabled == 0 { self.open.saturating_add(1) } else { 0 };
+        command
+    }
+
+    /// The supply, the drivers' fault line, and the zeros of the converters; true once these are known.
+    #[inline]
+    fn check_supply_and_offsets(&mut self, codes: &Codes, bus: f32) -> bool {
         if self.config.wheels > 0 {
             self.protection.supply(&self.config.limits, bus);
         }
         if !self.offsets.are_known() {
             self.offsets.learn(&codes.phases);
-        } else if self.open >= CURRENT_FREE && self.protection.faults().is_empty() {
+        } else if self.are_at_rest() && self.protection.faults().is_empty() {
             self.offsets.follow(&codes.phases);
         }
         let ready = self.offsets.are_known();
@@ -151,8 +182,14 @@ impl Windings {
                 self.protection.disable_motor(Fault::OffsetCalibration, j, self.config.wheels);
             }
         }
-        let may = if ready { setpoints.enabled & self.config.motors() & !self.protection.disabled() } else { 0 };
+        ready
+    }
 
+    /// Duties of all motors, of which those with a bit in `may` may be driven.
+    #[inline]
+    fn drive_motors(&mut self, codes: &Codes, bus: f32, may: u8) -> BridgeCommand {
+        let ready = self.offsets.are_known();
+        let setpoints = self.setpoints;
         let mut command = BridgeCommand::default();
         let per_bus = 1.0 / bus;
         for j in 0..MOTORS {
@@ -170,31 +207,17 @@ impl Windings {
             let place = Place { motor: j, ready, closed: may >> j & 1 != 0, hall: codes.halls[j] };
             command.duties[j] = tick_motor(motor, &mut self.protection, &self.config, &place, &measured, &setpoint);
         }
-        if self.protection.faults().is_empty() {
-            command.enabled = may & !self.protection.disabled();
-        }
-        if command.enabled != may {
-            // what was decided above and is not applied
-            for (j, (motor, duties)) in self.motors.iter_mut().zip(&mut command.duties).enumerate() {
-                if command.enabled >> j & 1 == 0 {
-                    *duties = NO_VOLTAGE;
-                    motor.bridge_opened();
-                }
-            }
-        }
-        if let Some(wiring) = &self.config.wiring {
-            for (j, duties) in command.duties.iter_mut().enumerate() {
-                *duties = wiring.duties(j, *duties);
-            }
-        }
-        if self.motion_is_due() {
-            self.feedback = self.measure(codes, bus);
-        }
-        if let Some(vector) = self.probe {
-            self.probe(&vector, codes, read, &mut command);
-        }
-        self.open = if command.enabled == 0 { self.open.saturating_add(1) } else { 0 };
         command
+    }
+
+    /// No voltage where a bridge opens in spite of what was decided.
+    fn forget_what_is_not_applied(&mut self, command: &mut BridgeCommand) {
+        for (j, (motor, duties)) in self.motors.iter_mut().zip(&mut command.duties).enumerate() {
+            if command.enabled >> j & 1 == 0 {
+                *duties = NO_VOLTAGE;
+                motor.bridge_opened();
+            }
+        }
     }
 
     /// A probe's voltage on its motor, and what is measured under it; nothing where there is a fault.

@@ -1,13 +1,43 @@
-//! Nothing to do: feed the watchdog, if all others have been at work since the last time.
+//! Nothing to do: feed the watchdog, if all others have been at work since the last time, and store what is to be stored.
+
+use rtic::Mutex;
 
 use crate::app;
 
 /// Waits for the next interrupt, for ever.
-pub fn idle(cx: app::idle::Context<'_>) -> ! {
+pub fn idle(mut cx: app::idle::Context<'_>) -> ! {
     loop {
         if cx.shared.heartbeats.all_alive() {
             cx.local.watchdog.feed();
         }
+        store(&mut cx);
         cortex_m::asm::wfi();
     }
+}
+
+/// Stores a block that waits for it, once it is driven with and all bridges are open. With all interrupts masked: no turn may
+/// close a bridge and then stand still with the core.
+fn store(cx: &mut app::idle::Context<'_>) {
+    let app::idle::SharedResources { windings, inbox, to_store, load, .. } = &mut cx.shared;
+    let flash_store = &mut *cx.local.flash_store;
+    to_store.lock(|to_store| {
+        let Some(block) = to_store.block() else { return };
+        let tried = cortex_m::interrupt::free(|_| {
+            let open = windings.lock(|windings| windings.are_at_rest());
+            if !open || inbox.lock(|inbox| inbox.parameters.is_some()) {
+                return None;
+            }
+            let stored = flash_store.save(block);
+            load.lock(|load| load.stand());
+            Some(stored)
+        });
+        let Some(stored) = tried else { return };
+        to_store.clear();
+        inbox.lock(|inbox| inbox.unsaved = !stored);
+        if stored {
+            defmt::info!("parameters stored");
+        } else {
+            defmt::error!("the flash does not take the parameters");
+        }
+    });
 }

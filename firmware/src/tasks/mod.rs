@@ -1,6 +1,7 @@
 //! What the tasks do, one a file.
 
 pub mod current;
+pub mod event_log;
 pub mod idle;
 pub mod listen;
 pub mod load;

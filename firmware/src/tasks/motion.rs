@@ -15,6 +15,7 @@ pub fn motion(mut cx: app::motion::Context<'_>) {
 
     let load = cx.shared.load.lock(|load| load.motion());
     cx.local.tx_producer.enqueue_tick(&feedback, &output, load);
+    cx.local.event_log.tell(output.state, output.all_faults(&feedback), output.events);
     cx.shared.heartbeats.beat(Task::Motion);
     rtic::pend(board::pac::Interrupt::EXTI1);
     rtic::pend(board::pac::Interrupt::EXTI2);

@@ -5,11 +5,13 @@ use firmware::command_receiver::CommandReceiver;
 use firmware::drivers::heartbeat::Heartbeats;
 use firmware::inbox::Inbox;
 use firmware::motion::Motion;
+use firmware::to_store::BlockToStore;
 use firmware::tx_queue;
 use firmware::windings::Windings;
 use model_core::link::faults::Fault;
 
 use crate::app;
+use crate::tasks::event_log::EventLog;
 use crate::tasks::load::Load;
 
 /// Takes the board, reads the parameters that were kept, and lets the periods begin.
@@ -29,7 +31,23 @@ pub fn init(cx: app::init::Context<'_>) -> (app::Shared, app::Local) {
     }
     bridges.start();
     (
-        app::Shared { windings, inbox, load: Load::default(), serial, heartbeats: Heartbeats::new() },
-        app::Local { bridges, motion_control: Motion::default(), receiver, tx_producer, tx_consumer, watchdog },
+        app::Shared {
+            windings,
+            inbox,
+            load: Load::default(),
+            serial,
+            to_store: BlockToStore::default(),
+            heartbeats: Heartbeats::new(),
+        },
+        app::Local {
+            bridges,
+            motion_control: Motion::default(),
+            event_log: EventLog::default(),
+            receiver,
+            tx_producer,
+            tx_consumer,
+            watchdog,
+            flash_store,
+        },
     )
 }

@@ -7,10 +7,11 @@
 use std::collections::VecDeque;
 use std::fmt;
 
-use firmware::command_receiver::CommandReceiver;
+use firmware::command_receiver::{CommandReceiver, ReceivedCommand};
 use firmware::exchange::{DownFrame, LINK_BYTES, LinkBytes, TOPS, UpFrame, compare};
 use firmware::inbox::Inbox;
 use firmware::motion::Motion;
+use firmware::to_store::BlockToStore;
 use firmware::tx_queue::{self, TxConsumer, TxProducer, TxStorage};
 use firmware::windings::Windings;
 use model_core::link::faults::Faults;
@@ -23,6 +24,9 @@ pub struct HostProgram {
     motion: Motion,
     receiver: CommandReceiver,
     inbox: Inbox,
+    to_store: BlockToStore,
+    /// What is in the flash
+    stored: Vec<u8>,
     tx_producer: TxProducer,
     tx_consumer: TxConsumer,
     out: VecDeque<u8>,
@@ -39,6 +43,8 @@ impl Default for HostProgram {
             motion: Motion::default(),
             receiver: CommandReceiver::default(),
             inbox: Inbox::default(),
+            to_store: BlockToStore::default(),
+            stored: Vec::new(),
             tx_producer,
             tx_consumer,
             out: VecDeque::new(),
@@ -58,6 +64,32 @@ impl fmt::Debug for HostProgram {
 }
 
 impl HostProgram {
+    /// The program as it starts with this in its flash.
+    pub fn with_stored(block: &[u8]) -> Self {
+        let mut program = Self { stored: block.to_vec(), ..Self::default() };
+        if let Some(command) = program.receiver.restore(block) {
+            program.inbox.put(command);
+        }
+        program
+    }
+
+    /// What is in its flash.
+    pub fn stored(&self) -> &[u8] {
+        &self.stored
+    }
+
+    /// Stores a block that waits for it, as the idle task does.
+    fn store(&mut self) {
+        if let Some(block) = self.to_store.block()
+            && self.windings.are_at_rest()
+            && self.inbox.parameters.is_none()
+        {
+            self.stored = block.to_vec();
+            self.to_store.clear();
+            self.inbox.unsaved = false;
+        }
+    }
+
     /// The faults that are latched, those included that only cost a wheel.
     pub fn faults(&self) -> Faults {
         let guard = self.windings.protection();
@@ -90,6 +122,9 @@ impl BoardProgram for HostProgram {
             self.tx_producer.enqueue_tick(&feedback, &output, (0, 0));
             for byte in std::mem::take(&mut self.inward) {
                 if let Some(command) = self.receiver.push(byte) {
+                    if let (ReceivedCommand::Parameters(..), Some(block)) = (&command, self.receiver.committed()) {
+                        self.to_store.put(block);
+                    }
                     self.inbox.put(command);
                 }
             }
@@ -102,6 +137,7 @@ impl BoardProgram for HostProgram {
                 }
             }
         }
+        self.store();
         Ok(())
     }
 }

@@ -10,7 +10,7 @@
 //! - [`saturation`]: a diagonal acceleration for which the bus has not enough;
 //! - [`command_timeout`]: commands that end;
 //! - [`margin`]: all of it on a processor that is slow;
-//! - `push`: a robot that is held, `regeneration`: a hard stop on a supply that takes nothing back;
+//! - `push`: a robot that is held, `regeneration`: a hard stop on a supply that takes nothing back, `storing`: a power cut;
 //! - [`study`]: all of these, on many seeds, and one of them in the emulator too;
 //! - [`page`]: what came of it, and what is promised;
 //! - [`faults`]: every fault, injected while the robot drives;
@@ -39,6 +39,8 @@ pub mod robots;
 pub mod saturation;
 pub mod served;
 mod shadow;
+#[cfg(test)]
+mod storing;
 pub mod study;
 pub mod supply_plug;
 

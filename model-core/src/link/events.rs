@@ -19,12 +19,21 @@ pub enum Event {
     Silent,
     /// A motor is warm: its largest current is folded back towards its continuous one.
     FoldBack,
+    /// The parameters in use are not in the flash: the robot stores them once its bridges are open.
+    Unsaved,
 }
 
 impl Event {
     /// All of them, in the order of their bits.
-    pub const ALL: [Event; 6] =
-        [Event::Parameters, Event::Saturated, Event::WheelLost, Event::Cleared, Event::Silent, Event::FoldBack];
+    pub const ALL: [Event; 7] = [
+        Event::Parameters,
+        Event::Saturated,
+        Event::WheelLost,
+        Event::Cleared,
+        Event::Silent,
+        Event::FoldBack,
+        Event::Unsaved,
+    ];
 
     /// Its bit in [`Events`].
     pub const fn bit(self) -> u8 {
@@ -39,6 +48,7 @@ impl Event {
             Event::WheelLost => "a wheel is out of use",
             Event::Cleared => "faults were cleared",
             Event::FoldBack => "a motor is warm: its current is held towards what it bears for ever",
+            Event::Unsaved => "the parameters are not stored yet: a power cut would lose them",
             Event::Silent => "no command comes: the robot brakes to rest and opens its bridges",
         }
     }

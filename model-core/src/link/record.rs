@@ -54,6 +54,18 @@ pub enum OperatingState {
 }
 
 impl OperatingState {
+    /// Its name, in a word.
+    pub const fn name(self) -> &'static str {
+        match self {
+            OperatingState::Asleep => "asleep",
+            OperatingState::Calibrating => "calibrating",
+            OperatingState::Open => "open",
+            OperatingState::Driving => "driving",
+            OperatingState::Faulted => "faulted",
+            OperatingState::Probing => "probing",
+        }
+    }
+
     /// All of them, in the order of their codes.
     pub const ALL: [OperatingState; 6] = [
         OperatingState::Asleep,

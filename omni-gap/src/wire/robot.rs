@@ -91,7 +91,8 @@ pub fn status(line: &mut Line) -> Result<Status> {
     seen.status().ok_or_else(|| silent(line))
 }
 
-/// Sends a parameter block, and waits until the robot drives with it; how it is then.
+/// Sends a parameter block, and waits until the robot drives with it and has stored it; how it is then. A robot whose flash does
+/// not take it says so in the events of its status.
 ///
 /// # Errors
 /// Where the robot drives, refuses the block, or does not say that it took it.
@@ -117,7 +118,7 @@ pub fn send(line: &mut Line, block: &[u8], checksum: u32) -> Result<Status> {
         return Err(line.error(format!("the robot refuses the block: {}", refused(answered)), fix));
     }
     let mut seen = StatusSeen::default();
-    hear(line, &mut seen, |seen| seen.drives_with(checksum))?;
+    hear(line, &mut seen, |seen| seen.drives_with(checksum) && seen.has_stored())?;
     seen.status()
         .filter(|_| seen.drives_with(checksum))
         .ok_or_else(|| line.error("the robot took the block and does not say that it drives with it", CHECK_LINE))

@@ -46,22 +46,10 @@ pub struct Identity {
     pub wheels: u8,
 }
 
-/// What a robot does, in a word.
-pub const fn word(state: OperatingState) -> &'static str {
-    match state {
-        OperatingState::Asleep => "asleep",
-        OperatingState::Calibrating => "calibrating",
-        OperatingState::Open => "open",
-        OperatingState::Driving => "driving",
-        OperatingState::Faulted => "faulted",
-        OperatingState::Probing => "probing",
-    }
-}
-
 // serde hands over a reference
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn as_word<S: Serializer>(state: &OperatingState, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(word(*state))
+    serializer.serialize_str(state.name())
 }
 
 impl Status {
@@ -111,6 +99,11 @@ impl StatusSeen {
     /// Whether the robot said that it drives with the parameters of this checksum.
     pub fn drives_with(&self, checksum: u32) -> bool {
         self.is_whole() && self.hello.is_some_and(|hello| hello.block_check == checksum)
+    }
+
+    /// Whether nothing waits to be stored.
+    pub fn has_stored(&self) -> bool {
+        self.record.is_some_and(|record| !record.events.has(Event::Unsaved))
     }
 
     pub fn faults(&self) -> Faults {

@@ -4,7 +4,7 @@ use model_core::link::record::OperatingState;
 use omni_gap::error::Result;
 use omni_gap::wire::line::Line;
 use omni_gap::wire::source::Source;
-use omni_gap::wire::status::{Status, word};
+use omni_gap::wire::status::Status;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -73,7 +73,7 @@ fn told(status: &Status) -> String {
     let bridges =
         if driven.is_empty() { "bridges open".into() } else { format!("motors {} driven", driven.join(", ")) };
     let bus = status.bus_v.map_or(String::new(), |volts| format!(", bus {volts:.1} V"));
-    let mut text = format!("{}: {bridges}{bus}\n", word(status.state));
+    let mut text = format!("{}: {bridges}{bus}\n", status.state.name());
     for fault in &status.faults {
         text += &wrapped(2, &format!("fault: {fault}"));
     }

@@ -12,7 +12,7 @@ use omni_gap::Error;
 use omni_gap::api::{RobotFile, known_effects, record_kept};
 use omni_gap::wire::line::Line;
 use omni_gap::wire::robot::{Driven, Ended, Leg, MEND, drive};
-use omni_gap::wire::status::{Status, word};
+use omni_gap::wire::status::Status;
 
 use super::ask::Ask;
 use super::live;
@@ -105,7 +105,7 @@ fn driving(status: &Status) -> String {
     let [v, vn, w] = status.wanted;
     let bus = status.bus_v.map_or(String::new(), |volts| format!(", bus {volts:.1} V"));
     let load = 100.0 * status.load;
-    format!("{}: wants {v:.2} {vn:.2} m/s {w:.2} rad/s{bus}, load {load:.0} %", word(status.state))
+    format!("{}: wants {v:.2} {vn:.2} m/s {w:.2} rad/s{bus}, load {load:.0} %", status.state.name())
 }
 
 fn faulted(line: &Line, faults: Faults) -> Error {
