@@ -12,7 +12,6 @@
 
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::Block;
-use model_core::link::command::Command;
 use model_core::link::faults::Fault;
 
 use super::robots::ToParameters;
@@ -20,6 +19,9 @@ use super::study::{NominalRobot, SEEDS, Scenario, load};
 use super::{ClosedLoopRun, RunLog};
 use crate::emulator::{BoardProgram, RunError};
 use crate::virtual_board::VirtualBoard;
+
+/// Most of its period that a current turn may take [1].
+pub const MOST_TURN: f64 = 0.8;
 
 /// Nanoseconds of a current period.
 pub const PERIOD_NS: f64 = 50_000.0;
@@ -48,8 +50,6 @@ pub enum Ride {
     Scenario(Scenario),
     /// Other parameters while it drives
     Swap,
-    /// A drive after a CLEAR, as parameters may have taken too long
-    Cleared,
 }
 
 impl Ride {
@@ -69,7 +69,6 @@ impl Ride {
         match self {
             Self::Scenario(scenario) => scenario.name(),
             Self::Swap => "other parameters on the way",
-            Self::Cleared => "a drive after a CLEAR",
         }
     }
 }
@@ -99,7 +98,6 @@ where
     match ride {
         Ride::Scenario(scenario) => Ok(robot.run(program, scenario, SEEDS[0])?.0.log),
         Ride::Swap => swapped(robot, program),
-        Ride::Cleared => cleared(robot, program),
     }
 }
 
@@ -119,20 +117,6 @@ where
         run.send_block(&block.parameters());
     }
     run.follow(0.5, |_| BodyTwist { v: 0.4, vn: -0.2, w: 2.0 })?;
-    Ok(run.log)
-}
-
-/// A drive of a robot that forgot what it found while it took its parameters.
-fn cleared<B: BoardProgram, const N: usize>(robot: &NominalRobot<N>, program: B) -> Result<RunLog, RunError>
-where
-    Block<N>: ToParameters,
-{
-    let mut run = ClosedLoopRun::new(program, VirtualBoard::new(robot.board(SEEDS[0])));
-    run.send_block(&robot.block().parameters());
-    run.wait(0.3)?;
-    run.lockstep.link.command(&Command::Clear);
-    run.wait(0.1)?;
-    run.follow(1.0, |_| BodyTwist { v: 0.6, vn: -0.3, w: 3.0 })?;
     Ok(run.log)
 }
 
