@@ -29,6 +29,7 @@ pub mod motor_controller;
 pub mod windings;
 
 // The motion, 1 kHz
+pub mod open_phase;
 pub mod probe;
 pub mod silence;
 pub mod stall;

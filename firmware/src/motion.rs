@@ -10,7 +10,8 @@
 //!
 //! A turn takes what the windings tell, has `model-core`'s controller decide, and asks the windings for currents and
 //! voltages. It also watches what only shows over many periods: commands that end, for which the robot brakes
-//! ([`crate::silence`]), and a wheel that stands where it should turn ([`crate::stall`]).
+//! ([`crate::silence`]), a wheel that stands where it should turn ([`crate::stall`]), and a phase that carries nothing
+//! ([`crate::open_phase`]).
 //!
 //! Nothing but a fresh command or probe ([`crate::probe`]) closes the bridges. They open, and wait for one, when the robot has
 //! come to rest because none came, when a fault is cleared, when a wheel that was lost comes back, and when other parameters are
@@ -30,6 +31,7 @@ use model_core::link::record::OperatingState;
 
 use crate::configured_robot::ConfiguredRobot;
 use crate::inbox::Inbox;
+use crate::open_phase::OpenPhaseDetector;
 use crate::probe::{ProbeVector, Prober};
 use crate::silence::Silence;
 use crate::stall::{StallDetector, StallLimits};
@@ -47,6 +49,8 @@ pub struct MotionOutput {
     pub faults: Faults,
     /// One bit a motor that is stalled, to be taken out of use
     pub stalled: u8,
+    /// One bit a motor of which a phase is open, to be taken out of use
+    pub open_phase: u8,
     /// True: latched faults are to be forgotten
     pub clear: bool,
     /// What the robot is doing
@@ -81,6 +85,7 @@ pub struct Motion {
     commands: u32,
     silence: Silence,
     stall_detector: StallDetector,
+    open_phase_detector: OpenPhaseDetector,
     prober: Prober,
     disabled: u8,
     /// Bus voltage when the robot was ready for the first time [V]
@@ -115,6 +120,7 @@ impl Motion {
             self.follow(feedback, inbox.twist, &mut output);
         } else {
             self.stall_detector = StallDetector::default();
+            self.open_phase_detector = OpenPhaseDetector::default();
             if let Some(drive) = &mut self.drive {
                 drive.reset();
             }
@@ -243,7 +249,9 @@ impl Motion {
             closed: drive.controls_current(),
             enabled: drive.motors() & !self.disabled,
         };
-        let edge = self.hello.map_or(0.0, |hello| hello.calibration.edge_angle(hello.gear_ratio));
+        let Some(Hello { calibration, gear_ratio, .. }) = self.hello else { return };
+        output.open_phase = self.open_phase_detector.tick(feedback, calibration.amps_per_count, drive.current_limit());
+        let edge = calibration.edge_angle(gear_ratio);
         let others = drive.told_by_others(&feedback.wheel_speed);
         let limits = StallLimits { others, current: drive.current_limit(), edge };
         output.stalled = self.stall_detector.tick(feedback, &drive_output, &limits);

@@ -73,6 +73,9 @@ impl Windings {
         for j in (0..MOTORS).filter(|j| output.stalled >> j & 1 != 0) {
             self.protection.disable_motor(Fault::Stall, j, self.config.wheels);
         }
+        for j in (0..MOTORS).filter(|j| output.open_phase >> j & 1 != 0) {
+            self.protection.disable_motor(Fault::OpenPhase, j, self.config.wheels);
+        }
     }
 
     /// Takes other parameters; motors that come or go begin anew.

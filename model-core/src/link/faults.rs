@@ -34,11 +34,13 @@ pub enum Fault {
     Watchdog,
     /// The three currents of a motor did not add up to zero.
     CurrentSum,
+    /// A phase of a motor carries nothing while the others do.
+    OpenPhase,
 }
 
 impl Fault {
     /// All of them, in the order of their codes.
-    pub const ALL: [Fault; 13] = [
+    pub const ALL: [Fault; 14] = [
         Fault::OverCurrent,
         Fault::OverVoltage,
         Fault::UnderVoltage,
@@ -52,6 +54,7 @@ impl Fault {
         Fault::BadBlock,
         Fault::Watchdog,
         Fault::CurrentSum,
+        Fault::OpenPhase,
     ];
 
     /// Its number on the wire, from 1.
@@ -85,13 +88,14 @@ impl Fault {
             Fault::BadBlock => "the stored parameter block is not sound",
             Fault::Watchdog => "the watchdog restarted the processor",
             Fault::CurrentSum => "the three currents of a motor did not add up to zero: a sensor is wrong",
+            Fault::OpenPhase => "a phase of a motor carried nothing while the others did: a wire or its bridge is open",
         }
     }
 
     /// True if it concerns one motor alone, so that three of four wheels can still drive. An over-current does not: what
     /// a short has hurt besides is not known.
     pub const fn one_motor(self) -> bool {
-        matches!(self, Fault::HallCode | Fault::Stall | Fault::OffsetCalibration | Fault::CurrentSum)
+        matches!(self, Fault::HallCode | Fault::Stall | Fault::OffsetCalibration | Fault::CurrentSum | Fault::OpenPhase)
     }
 }
 

@@ -90,6 +90,9 @@ const STALLED: u32 = 12_000;
 /// Two electrical turns at the speed of the drive, and three periods: a crest of every phase.
 const SUMMED: u32 = 410;
 
+/// Motion turns in which the rotor comes through all its sectors: 50 ms.
+const OPENED: u32 = 1000;
+
 /// Idle turns that last longer than a period, and longer than a motion turn.
 const LONG: u16 = 1_000;
 const LONGER: u16 = 20_000;
@@ -118,13 +121,20 @@ const TURNED: FaultCase = case(
     SUMMED,
 );
 
+const OPEN: FaultCase = case(
+    "phase c of motor 1 is open, on the way",
+    Fault::OpenPhase,
+    FaultCause::Board(Broken::OpenPhase { motor: 1, phase: 2 }),
+    OPENED,
+);
+
 /// True if the length of a turn is the event: only a processor, or its emulator, has that.
 pub const fn is_timed(cause: &FaultCause) -> bool {
     matches!(cause, FaultCause::LongTurn(_) | FaultCause::LongMotion(_))
 }
 
 /// All cases, by the codes of their faults.
-pub const CASES: [FaultCase; 28] = [
+pub const CASES: [FaultCase; 30] = [
     case("short in motor 0, phase a", Fault::OverCurrent, FaultCause::Board(Broken::Short { motor: 0, phase: 0 }), 0),
     on_three(case(
         "short in motor 2, phase c",
@@ -166,6 +176,8 @@ pub const CASES: [FaultCase; 28] = [
         FaultCause::Board(Broken::StuckAmplifier { motor: 0, phase: 0, code: 2048 }),
         SUMMED,
     )),
+    costs(1, OPEN),
+    on_three(OPEN),
     case("fault line of the gate drivers pulled", Fault::DriverLine, FaultCause::Board(Broken::DriverLine), 0),
     costs(2, OFFSET),
     on_three(OFFSET),
