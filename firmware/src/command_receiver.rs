@@ -1,9 +1,10 @@
 //! # Command receiver: bytes from the link, made commands and parameters
 //!
 //! A parameter block comes in chunks and is looked at as a whole when it is committed; nothing of it is used before, and
-//! where it is refused the parameters in use stay. One that is taken is also there to be stored. A frame that is damaged is not answered: its sender hears no reply.
+//! where it is refused the parameters in use stay. One that is taken is also there to be stored. A frame that is damaged is not
+//! answered: its sender hears no reply.
 
-use model_core::geometry::frames::BodyTwist;
+use model_core::control::interpolator::TwistRamp;
 use model_core::link::block::MAX_BYTES;
 use model_core::link::command::{Command, Reply};
 use model_core::link::framing::{Frame, FrameDecoder, FrameKind};
@@ -21,7 +22,7 @@ pub enum ReceivedCommand {
         /// One more than in the command before
         sequence: u16,
         /// How
-        twist: BodyTwist,
+        ramp: TwistRamp,
     },
     /// Put a voltage on one motor
     Probe(Probe),
@@ -96,7 +97,10 @@ impl CommandReceiver {
             Err(why) => return Some(ReceivedCommand::BadCommand(answer(false, why.code()))),
         };
         match command {
-            Command::Drive { sequence, twist } => Some(ReceivedCommand::Drive { sequence, twist }),
+            Command::Drive { sequence, twist } => {
+                Some(ReceivedCommand::Drive { sequence, ramp: TwistRamp::steady(twist) })
+            }
+            Command::DriveRamp { sequence, ramp } => Some(ReceivedCommand::Drive { sequence, ramp }),
             Command::Probe(probe) => Some(ReceivedCommand::Probe(probe)),
             Command::Open => Some(ReceivedCommand::Open),
             Command::Clear => Some(ReceivedCommand::Clear(answer(true, 0))),

@@ -1,6 +1,6 @@
 //! # Inbox: what the link has brought for the motion turn
 
-use model_core::geometry::frames::BodyTwist;
+use model_core::control::interpolator::Interpolator;
 use model_core::link::command::Reply;
 use model_core::link::probe::Probe;
 
@@ -10,8 +10,8 @@ use crate::configured_robot::ConfiguredRobot;
 /// What has come and was not taken yet.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Inbox {
-    /// The motion that was commanded last
-    pub twist: BodyTwist,
+    /// The motion that was commanded last, from its turn on
+    pub wanted: Interpolator,
     /// How many commands have come; wraps
     pub commands: u32,
     /// The number of the last one
@@ -42,9 +42,9 @@ impl Inbox {
         match command {
             // the same command once more, from a relay that has lost its host, keeps no robot going
             ReceivedCommand::Drive { sequence, .. } if self.sequence == Some(sequence) => {}
-            ReceivedCommand::Drive { sequence, twist } => {
+            ReceivedCommand::Drive { sequence, ramp } => {
                 self.sequence = Some(sequence);
-                self.twist = twist;
+                self.wanted = Interpolator::new(ramp);
                 self.open = false;
                 self.commands = self.commands.wrapping_add(1);
             }

@@ -19,6 +19,7 @@
 
 use model_core::control::calibration::Calibration;
 use model_core::control::drive::RobotDrive;
+use model_core::control::interpolator::Interpolator;
 use model_core::control::observer;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::command::{CommandError, Reply};
@@ -29,6 +30,7 @@ use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
 use model_core::link::probe::Probe;
 use model_core::link::record::OperatingState;
 
+use crate::codes::TICK_SECONDS;
 use crate::configured_robot::ConfiguredRobot;
 use crate::inbox::Inbox;
 use crate::open_phase::OpenPhaseDetector;
@@ -117,7 +119,7 @@ impl Motion {
         output.state = self.state;
         self.watch_motors(feedback, &mut output);
         if self.state == OperatingState::Driving {
-            self.follow(feedback, inbox.twist, &mut output);
+            self.follow(feedback, &mut inbox.wanted, &mut output);
         } else {
             self.stall_detector = StallDetector::default();
             self.open_phase_detector = OpenPhaseDetector::default();
@@ -227,7 +229,7 @@ impl Motion {
     }
 
     /// Follows a wanted motion, or brakes where nobody commands one.
-    fn follow(&mut self, feedback: &WindingFeedback, twist: BodyTwist, output: &mut MotionOutput) {
+    fn follow(&mut self, feedback: &WindingFeedback, wanted: &mut Interpolator, output: &mut MotionOutput) {
         let Some(drive) = &mut self.drive else { return };
         let wheels = core::array::from_fn(|j| observer::HallReading {
             edges: feedback.edges[j],
@@ -235,7 +237,7 @@ impl Motion {
             speed: feedback.wheel_speed[j],
         });
         drive.stop_hard(self.silence.lasts());
-        let want = if self.silence.lasts() { BodyTwist::default() } else { twist };
+        let want = if self.silence.lasts() { BodyTwist::default() } else { wanted.tick(TICK_SECONDS) };
         let drive_output = drive.tick(&wheels, feedback.bus, want);
         self.silence.followed(drive_output.reference);
         output.reference = drive_output.reference;

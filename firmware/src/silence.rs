@@ -65,7 +65,10 @@ impl Silence {
 
 #[cfg(test)]
 mod tests {
+    use model_core::link::command::LONGEST_HORIZON_MS;
+
     use super::*;
+    use crate::codes::TICK_SECONDS;
 
     const ROLLS: BodyTwist = BodyTwist { v: 0.1, vn: 0.0, w: 0.0 };
 
@@ -86,6 +89,11 @@ mod tests {
         // at rest when the silence begins
         assert_eq!(opens(0), Some(299));
         assert_eq!(opens(u16::MAX), Some(3200));
+    }
+
+    #[test]
+    fn no_command_changes_by_itself_beyond_the_silence() {
+        assert_eq!(u32::from(LONGEST_HORIZON_MS), u32::from(COMMAND_TIMEOUT_TICKS) * (1e3 * TICK_SECONDS) as u32);
     }
 
     #[test]

@@ -10,6 +10,7 @@ use firmware::winding_config::WindingConfig;
 use firmware::winding_signals::WindingFeedback;
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
+use model_core::control::interpolator::TwistRamp;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{BlockErrorKind, ControlMode, MAX_TRIP_COUNTS, Parameters};
 use model_core::link::command::{Command, Reply};
@@ -227,6 +228,27 @@ fn a_command_that_cannot_be_meant_is_a_fault_in_the_turn_that_hears_it() {
         }
         assert_eq!(program.period(&still()).enabled, 0, "{v}");
         assert!(program.records.last().is_some_and(|last| last.faults.has(Fault::BadCommand)));
+    }
+}
+
+#[test]
+fn between_commands_the_reference_follows_the_ramp_up_to_its_horizon() {
+    let mut program = Program::new();
+    program.send_block(&bytes(&four()));
+    program.ticks(60, &still());
+    let acceleration = BodyTwist { v: 2.0, vn: 0.0, w: 0.0 };
+    let ramp = TwistRamp { twist: BodyTwist::default(), acceleration, horizon_ms: 15 };
+    program.command(&Command::DriveRamp { sequence: 500, ramp });
+    // a turn tells the reference of its beginning
+    program.ticks(1, &still());
+    for turn in 1..=30_u16 {
+        if turn == 20 {
+            // the same number once more is no other command
+            program.command(&Command::DriveRamp { sequence: 500, ramp });
+        }
+        program.ticks(1, &still());
+        let wanted = 2e-3 * f32::from(turn.min(15));
+        assert!((program.output.reference.v - wanted).abs() < 1e-6, "turn {turn}: {:?}", program.output.reference);
     }
 }
 

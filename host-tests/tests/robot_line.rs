@@ -27,7 +27,7 @@ const AHEAD: BodyTwist<f32> = BodyTwist { v: 0.5, vn: 0.0, w: 0.0 };
 
 /// Straight on for so many seconds.
 fn ahead(seconds: u64) -> [Leg; 1] {
-    [Leg { twist: AHEAD, lasts: Duration::from_secs(seconds) }]
+    [Leg::steady(AHEAD, Duration::from_secs(seconds))]
 }
 
 /// A robot that was just switched on, the line to it, and where it stands once the line is dropped.

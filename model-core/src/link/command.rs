@@ -1,19 +1,22 @@
 //! # Command: what a robot may be told
 //!
 //! ```text
-//! kind    payload (little endian)
-//! Drive   sequence u16 · v f32 [m/s] · vn f32 [m/s] · ω f32 [rad/s]
-//! Open    nothing
-//! Clear   nothing
-//! Chunk   offset u16 · bytes, 1 to 128
-//! Commit  length u16
-//! Probe   as in [`probe`](crate::link::probe)
+//! kind       payload (little endian)
+//! Drive      sequence u16 · v f32 [m/s] · vn f32 [m/s] · ω f32 [rad/s]
+//! DriveRamp  as Drive · dv/dt f32 [m/s²] · dvn/dt f32 [m/s²] · dω/dt f32 [rad/s²] · horizon u16 [ms]
+//! Open       nothing
+//! Clear      nothing
+//! Chunk      offset u16 · bytes, 1 to 128
+//! Commit     length u16
+//! Probe      as in [`probe`](crate::link::probe)
 //! ```
 //!
 //! A command that is not of this form, or not finite, or faster than any robot of this size, is refused with a reason;
-//! what a robot can really do is for its limits to say. Clear, Commit and whatever is refused are answered by a
+//! what a robot can really do is for its limits to say. A Drive is a DriveRamp without acceleration; both count in one
+//! sequence. What a DriveRamp means from turn to turn says the [`interpolator`](crate::control::interpolator). Clear, Commit and whatever is refused are answered by a
 //! [`Reply`]; a probe that is taken is answered by its reports.
 
+use crate::control::interpolator::TwistRamp;
 use crate::geometry::frames::BodyTwist;
 use crate::link::bytes::{Reader, Writer};
 use crate::link::framing::{FrameKind, MAX_FRAME, MAX_PAYLOAD, encode_frame};
@@ -24,6 +27,15 @@ pub const FASTEST: f32 = 20.0;
 
 /// The fastest that a command may ask about the vertical axis [rad/s].
 pub const FASTEST_TURN: f32 = 100.0;
+
+/// The largest acceleration that a command may ask along v or vn [m/s²].
+pub const HARDEST: f32 = 100.0;
+
+/// The largest acceleration that a command may ask about the vertical axis [rad/s²].
+pub const HARDEST_TURN: f32 = 1000.0;
+
+/// The longest that a command may change by itself [ms]: nobody's word counts for longer, a silent host's robot brakes.
+pub const LONGEST_HORIZON_MS: u16 = 200;
 
 /// The most bytes of a parameter block in one chunk.
 pub const MAX_CHUNK: usize = 128;
@@ -37,6 +49,13 @@ pub enum Command<'a> {
         sequence: u16,
         /// Wanted twist [m/s, m/s, rad/s]
         twist: BodyTwist<f32>,
+    },
+    /// Move so, and change it so.
+    DriveRamp {
+        /// One more than in the command to move before, wrapping.
+        sequence: u16,
+        /// Wanted twist and how it changes
+        ramp: TwistRamp,
     },
     /// Stop and open the bridges.
     Open,
@@ -74,17 +93,23 @@ pub enum CommandError {
     NoSuchProbe,
     /// A probe while the bridges are not open and at rest.
     NotOpen,
+    /// A larger acceleration than any robot of this size has.
+    TooHard,
+    /// A horizon beyond that of silence.
+    TooLong,
 }
 
 impl CommandError {
     /// All reasons.
-    pub const ALL: [CommandError; 6] = [
+    pub const ALL: [CommandError; 8] = [
         CommandError::Kind,
         CommandError::Length,
         CommandError::NotFinite,
         CommandError::TooFast,
         CommandError::NoSuchProbe,
         CommandError::NotOpen,
+        CommandError::TooHard,
+        CommandError::TooLong,
     ];
 
     /// Its number in a [`Reply`].
@@ -97,10 +122,12 @@ impl CommandError {
         match self {
             CommandError::Kind => "there is no command of this kind",
             CommandError::Length => "the command is too short or too long for its kind",
-            CommandError::NotFinite => "a wanted speed is not a finite number",
+            CommandError::NotFinite => "a wanted speed or acceleration is not a finite number",
             CommandError::TooFast => "a wanted speed is above 20 m/s or 100 rad/s",
             CommandError::NoSuchProbe => "there is no such motor, it is out of use, or there are not so many periods",
             CommandError::NotOpen => "the bridges are not open and at rest",
+            CommandError::TooHard => "a wanted acceleration is above 100 m/s² or 1000 rad/s²",
+            CommandError::TooLong => "the horizon of a command is above 200 ms",
         }
     }
 }
@@ -114,6 +141,7 @@ impl<'a> Command<'a> {
         let mut reader = Reader::new(payload);
         let command = match FrameKind::from_code(kind) {
             Some(FrameKind::Drive) => drive(&mut reader)?,
+            Some(FrameKind::DriveRamp) => drive_ramp(&mut reader)?,
             Some(FrameKind::Open) => Command::Open,
             Some(FrameKind::Clear) => Command::Clear,
             Some(FrameKind::Chunk) => {
@@ -141,6 +169,7 @@ impl<'a> Command<'a> {
     pub const fn kind(&self) -> FrameKind {
         match self {
             Command::Drive { .. } => FrameKind::Drive,
+            Command::DriveRamp { .. } => FrameKind::DriveRamp,
             Command::Open => FrameKind::Open,
             Command::Clear => FrameKind::Clear,
             Command::Chunk { .. } => FrameKind::Chunk,
@@ -156,9 +185,13 @@ impl<'a> Command<'a> {
         match self {
             Command::Drive { sequence, twist } => {
                 writer.u16(*sequence);
-                writer.f32(twist.v);
-                writer.f32(twist.vn);
-                writer.f32(twist.w);
+                twist.to_array().into_iter().for_each(|x| writer.f32(x));
+            }
+            Command::DriveRamp { sequence, ramp } => {
+                writer.u16(*sequence);
+                ramp.twist.to_array().into_iter().for_each(|x| writer.f32(x));
+                ramp.acceleration.to_array().into_iter().for_each(|x| writer.f32(x));
+                writer.u16(ramp.horizon_ms);
             }
             Command::Open | Command::Clear => {}
             Command::Chunk { offset, bytes } => {
@@ -176,19 +209,42 @@ impl<'a> Command<'a> {
 }
 
 fn drive(reader: &mut Reader) -> Result<Command<'static>, CommandError> {
-    let mut read = || {
-        let sequence = reader.u16()?;
-        Some((sequence, reader.f32()?, reader.f32()?, reader.f32()?))
-    };
-    let (sequence, v, vn, w) = read().ok_or(CommandError::Length)?;
+    let sequence = reader.u16().ok_or(CommandError::Length)?;
+    let twist = three(reader)?;
+    checked(twist, [FASTEST, FASTEST_TURN], CommandError::TooFast)?;
+    Ok(Command::Drive { sequence, twist })
+}
+
+fn drive_ramp(reader: &mut Reader) -> Result<Command<'static>, CommandError> {
+    let sequence = reader.u16().ok_or(CommandError::Length)?;
+    let (twist, acceleration) = (three(reader)?, three(reader)?);
+    let horizon_ms = reader.u16().ok_or(CommandError::Length)?;
+    let ramp = TwistRamp { twist, acceleration, horizon_ms };
+    checked(acceleration, [HARDEST, HARDEST_TURN], CommandError::TooHard)?;
+    if horizon_ms > LONGEST_HORIZON_MS {
+        return Err(CommandError::TooLong);
+    }
+    // between its two ends it is slower than at one of them
+    for end in [twist, ramp.at(f32::INFINITY)] {
+        checked(end, [FASTEST, FASTEST_TURN], CommandError::TooFast)?;
+    }
+    Ok(Command::DriveRamp { sequence, ramp })
+}
+
+/// The next three numbers: along v, along vn, about the vertical.
+fn three(reader: &mut Reader) -> Result<BodyTwist, CommandError> {
+    let mut read = || Some(BodyTwist { v: reader.f32()?, vn: reader.f32()?, w: reader.f32()? });
+    read().ok_or(CommandError::Length)
+}
+
+/// Refuses what is not finite, and for `reason` what is beyond the most along v or vn, and about the vertical.
+fn checked(three: BodyTwist, [along, about]: [f32; 2], reason: CommandError) -> Result<(), CommandError> {
+    let BodyTwist { v, vn, w } = three;
     if !(v.is_finite() && vn.is_finite() && w.is_finite()) {
         return Err(CommandError::NotFinite);
     }
     let within = |x: f32, most: f32| -most <= x && x <= most;
-    if !(within(v, FASTEST) && within(vn, FASTEST) && within(w, FASTEST_TURN)) {
-        return Err(CommandError::TooFast);
-    }
-    Ok(Command::Drive { sequence, twist: BodyTwist { v, vn, w } })
+    if within(v, along) && within(vn, along) && within(w, about) { Ok(()) } else { Err(reason) }
 }
 
 /// An answer to a command.
@@ -225,108 +281,4 @@ impl Reply {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::link::framing::FrameDecoder;
-
-    const TWIST: BodyTwist<f32> = BodyTwist { v: 1.25, vn: -0.5, w: 3.0 };
-
-    #[test]
-    fn every_command_arrives_as_it_was_sent() {
-        let bytes = [0, 1, 2, 0xff, 0];
-        let all = [
-            Command::Drive { sequence: 0xfffe, twist: TWIST },
-            Command::Drive { sequence: 0, twist: BodyTwist { v: -20.0, vn: 20.0, w: -100.0 } },
-            Command::Open,
-            Command::Clear,
-            Command::Chunk { offset: 384, bytes: &bytes },
-            Command::Chunk { offset: 0, bytes: &[7; MAX_CHUNK] },
-            Command::Commit { length: 412 },
-            Command::Probe(Probe { sequence: 9, motor: 3, periods: 20, share: 0xffff, angle: 1, rate: 0x1234 }),
-        ];
-        let mut decoder = FrameDecoder::new();
-        for command in all {
-            let mut out = [0; MAX_FRAME];
-            let (end, before) = command.frame(&mut out).unwrap().split_last().unwrap();
-            assert!(before.iter().all(|byte| decoder.push(*byte).is_none()));
-            let frame = decoder.push(*end).unwrap();
-            assert_eq!(Command::decode(frame.kind, frame.payload), Ok(command));
-        }
-    }
-
-    /// The payload of a drive command.
-    fn driven(v: f32, vn: f32, w: f32) -> [u8; 14] {
-        let mut payload = [0; 14];
-        let mut writer = Writer::new(&mut payload);
-        writer.u16(5);
-        [v, vn, w].into_iter().for_each(|x| writer.f32(x));
-        payload
-    }
-
-    #[test]
-    fn speeds_that_nothing_can_mean_are_refused_with_their_reason() {
-        let decode = |payload: [u8; 14]| Command::decode(FrameKind::Drive.code(), &payload).map(|_| ());
-        for not_finite in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-            assert_eq!(decode(driven(not_finite, 0.0, 0.0)), Err(CommandError::NotFinite));
-            assert_eq!(decode(driven(0.0, not_finite, 0.0)), Err(CommandError::NotFinite));
-            assert_eq!(decode(driven(0.0, 0.0, not_finite)), Err(CommandError::NotFinite));
-        }
-        for sign in [1.0, -1.0] {
-            assert_eq!(decode(driven(sign * 20.001, 0.0, 0.0)), Err(CommandError::TooFast));
-            assert_eq!(decode(driven(0.0, sign * 20.001, 0.0)), Err(CommandError::TooFast));
-            assert_eq!(decode(driven(0.0, 0.0, sign * 100.01)), Err(CommandError::TooFast));
-            assert_eq!(decode(driven(sign * 20.0, -sign * 20.0, sign * 100.0)), Ok(()));
-        }
-    }
-
-    #[test]
-    fn every_other_length_and_every_other_kind_is_refused() {
-        // a probe of motor 1 for one period is possible
-        let long = [1; MAX_PAYLOAD];
-        for kind in 0..=u8::MAX {
-            for len in 0..=MAX_PAYLOAD {
-                let fits = match FrameKind::from_code(kind) {
-                    Some(FrameKind::Drive) => len == 14,
-                    Some(FrameKind::Open | FrameKind::Clear) => len == 0,
-                    Some(FrameKind::Chunk) => (3..=2 + MAX_CHUNK).contains(&len),
-                    Some(FrameKind::Commit) => len == 2,
-                    Some(FrameKind::Probe) => len == 10,
-                    _ => {
-                        assert_eq!(Command::decode(kind, &long[..len]), Err(CommandError::Kind));
-                        continue;
-                    }
-                };
-                assert_eq!(Command::decode(kind, &long[..len]).is_ok(), fits, "kind {kind}, {len} bytes");
-            }
-        }
-    }
-
-    #[test]
-    fn a_probe_of_a_motor_that_is_not_there_is_refused() {
-        let mut payload = [0, 0, 3, 20, 0, 1, 0, 1, 0, 1];
-        assert!(Command::decode(FrameKind::Probe.code(), &payload).is_ok());
-        for (at, value) in [(2, 4), (3, 0), (3, 21)] {
-            let before = core::mem::replace(&mut payload[at], value);
-            assert_eq!(Command::decode(FrameKind::Probe.code(), &payload), Err(CommandError::NoSuchProbe));
-            payload[at] = before;
-        }
-    }
-
-    #[test]
-    fn a_reply_is_read_as_it_was_written() {
-        for taken in [false, true] {
-            let reply = Reply { to: FrameKind::Commit.code(), taken, reason: 9 };
-            assert_eq!(Reply::from_bytes(&reply.to_bytes()), Some(reply));
-        }
-        assert_eq!(Reply::from_bytes(&[5, 2, 0]), None);
-        assert_eq!(Reply::from_bytes(&[5, 1]), None);
-    }
-
-    #[test]
-    fn reasons_have_codes_and_words_of_their_own() {
-        for (k, reason) in CommandError::ALL.into_iter().enumerate() {
-            assert_eq!(usize::from(reason.code()), k + 1);
-            assert!(CommandError::ALL.into_iter().skip(k + 1).all(|other| other.text() != reason.text()));
-        }
-    }
-}
+mod tests;

@@ -42,6 +42,8 @@ pub enum FrameKind {
     Commit = 0x05,
     /// Host to robot: a voltage on one motor, to find out how it is wired.
     Probe = 0x06,
+    /// Host to robot: a wanted body twist and how it is to change.
+    DriveRamp = 0x07,
     /// Robot to host: what a turn leaves behind.
     Record = 0x81,
     /// Robot to host: who the robot is and how to read its codes.
@@ -54,13 +56,14 @@ pub enum FrameKind {
 
 impl FrameKind {
     /// All of them.
-    pub const ALL: [FrameKind; 10] = [
+    pub const ALL: [FrameKind; 11] = [
         FrameKind::Drive,
         FrameKind::Open,
         FrameKind::Clear,
         FrameKind::Chunk,
         FrameKind::Commit,
         FrameKind::Probe,
+        FrameKind::DriveRamp,
         FrameKind::Record,
         FrameKind::Hello,
         FrameKind::Reply,

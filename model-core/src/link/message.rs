@@ -34,7 +34,8 @@ impl Message {
             | FrameKind::Clear
             | FrameKind::Chunk
             | FrameKind::Commit
-            | FrameKind::Probe => None,
+            | FrameKind::Probe
+            | FrameKind::DriveRamp => None,
         }
     }
 }

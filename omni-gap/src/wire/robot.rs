@@ -6,6 +6,7 @@
 
 use std::time::{Duration, Instant};
 
+use model_core::control::interpolator::TwistRamp;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::BlockErrorKind;
 use model_core::link::command::{Command, CommandError, MAX_CHUNK, Reply};
@@ -35,13 +36,45 @@ const EVERY: Duration = Duration::from_millis(20);
 /// How long a robot is asked to stand before its bridges are opened.
 const STANDS: Duration = Duration::from_millis(500);
 
-/// A part of a drive: what is asked of the robot [m/s, m/s, rad/s], and for how long.
+/// A part of a drive: what is asked of the robot, and for how long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
-    /// The twist.
+    /// The twist at its beginning [m/s, m/s, rad/s]
     pub twist: BodyTwist<f32>,
+    /// How it changes while the leg lasts [m/s², m/s², rad/s²]
+    pub acceleration: BodyTwist<f32>,
     /// How long it is asked for.
     pub lasts: Duration,
+}
+
+impl Leg {
+    /// A leg of one twist [m/s, m/s, rad/s].
+    pub fn steady(twist: BodyTwist<f32>, lasts: Duration) -> Self {
+        Self { twist, acceleration: BodyTwist::default(), lasts }
+    }
+
+    /// The twist at its end [m/s, m/s, rad/s].
+    pub fn end(&self) -> BodyTwist<f32> {
+        self.at(self.lasts)
+    }
+
+    /// The twist so long after its beginning [m/s, m/s, rad/s].
+    fn at(&self, since: Duration) -> BodyTwist<f32> {
+        let (x, a, t) = (self.twist, self.acceleration, since.as_secs_f32());
+        BodyTwist { v: x.v + t * a.v, vn: x.vn + t * a.vn, w: x.w + t * a.w }
+    }
+
+    /// What is sent so long after its beginning: the twist then and, where it changes, up to where it does until one more
+    /// command would be late.
+    fn command(&self, since: Duration, sequence: u16) -> Command<'static> {
+        if self.acceleration == BodyTwist::default() {
+            return Command::Drive { sequence, twist: self.twist };
+        }
+        let millis = |time: Duration| u16::try_from(time.as_millis()).unwrap_or(u16::MAX);
+        let horizon_ms = millis(self.lasts.saturating_sub(since).min(2 * EVERY));
+        let (twist, acceleration) = (self.at(since), self.acceleration);
+        Command::DriveRamp { sequence, ramp: TwistRamp { twist, acceleration, horizon_ms } }
+    }
 }
 
 /// What to do about a fault.
@@ -182,7 +215,7 @@ pub fn drive(line: &mut Line, legs: &[Leg], mut goes_on: impl FnMut(Look) -> boo
         }
     }
     if !matches!(ended, Ended::Faulted(_)) {
-        let rest = Leg { twist: BodyTwist::default(), lasts: STANDS };
+        let rest = Leg::steady(BodyTwist::default(), STANDS);
         let mut shown = |look: Look| {
             goes_on(look);
             true
@@ -205,12 +238,13 @@ struct Drive<'a> {
 }
 
 impl Drive<'_> {
-    /// Asks for one twist for as long as the leg lasts.
+    /// Asks for the leg's twist for as long as it lasts.
     fn leg(&mut self, leg: &Leg, goes_on: &mut impl FnMut(Look) -> bool) -> Result<Ended> {
-        let until = Instant::now() + leg.lasts;
+        let begins = Instant::now();
+        let until = begins + leg.lasts;
         while Instant::now() < until {
             self.sequence = self.sequence.wrapping_add(1);
-            self.line.send(&Command::Drive { sequence: self.sequence, twist: leg.twist })?;
+            self.line.send(&leg.command(begins.elapsed(), self.sequence))?;
             let seen = &mut self.seen;
             let fault = self.line.listen(until.min(Instant::now() + EVERY), |message| {
                 seen.take(message);
@@ -275,4 +309,25 @@ pub(super) fn refused(reply: Reply) -> &'static str {
     let block = block.filter(|_| reply.to == FrameKind::Commit.code());
     let command = || CommandError::ALL.into_iter().find(|kind| kind.code() == reply.reason).map(CommandError::text);
     block.or_else(command).unwrap_or("for a reason that this program does not know")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_leg_that_changes_is_sent_with_its_slope_and_ends_where_it_ends() {
+        let along = |v: f32| BodyTwist { v, vn: 0.0, w: 0.0 };
+        let leg = Leg { twist: along(0.5), acceleration: along(-1.0), lasts: Duration::from_millis(500) };
+        for (since, v, horizon_ms) in [(0, 0.5, 40), (100, 0.4, 40), (470, 0.03, 30), (500, 0.0, 0)] {
+            let Command::DriveRamp { sequence: 7, ramp } = leg.command(Duration::from_millis(since), 7) else {
+                panic!("{since} ms")
+            };
+            assert!((ramp.twist.v - v).abs() < 1e-6 && ramp.acceleration == leg.acceleration, "{since} ms: {ramp:?}");
+            assert_eq!(ramp.horizon_ms, horizon_ms, "{since} ms");
+        }
+        let steady = Leg::steady(along(0.5), leg.lasts);
+        let sent = steady.command(Duration::from_millis(100), 7);
+        assert_eq!(sent, Command::Drive { sequence: 7, twist: along(0.5) });
+    }
 }

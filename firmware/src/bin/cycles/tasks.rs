@@ -9,6 +9,7 @@ use firmware::motion::{Motion, MotionOutput};
 use firmware::tx_queue::{self, TxConsumer, TxProducer, TxStorage};
 use firmware::winding_signals::WindingFeedback;
 use firmware::windings::Windings;
+use model_core::control::interpolator::TwistRamp;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{MAX_BYTES, Parameters};
 use model_core::link::command::Command;
@@ -76,7 +77,8 @@ impl Driven {
     }
 
     fn command(&mut self, sequence: u16) {
-        self.inbox.put(ReceivedCommand::Drive { sequence, twist: BodyTwist { v: 0.02, vn: -0.01, w: 0.1 } });
+        let ramp = TwistRamp::steady(BodyTwist { v: 0.02, vn: -0.01, w: 0.1 });
+        self.inbox.put(ReceivedCommand::Drive { sequence, ramp });
     }
 
     fn receive_block(&mut self) {

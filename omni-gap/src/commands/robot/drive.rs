@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::command::{FASTEST, FASTEST_TURN};
+use model_core::link::command::{FASTEST, FASTEST_TURN, HARDEST, HARDEST_TURN};
 use model_core::link::faults::Faults;
 use omni_gap::Error;
 use omni_gap::api::{RobotFile, known_effects, record_kept};
@@ -24,8 +24,9 @@ use crate::commands::told_to_end::{Also, told_to_end};
 /// What to drive, and where to record it.
 #[derive(Debug, clap::Args)]
 pub struct Drive {
-    /// Speed forward [m/s], to the left [m/s], turning counterclockwise [rad/s], and for how long [s]; may be given several times
-    #[arg(long = "leg", value_name = "V,VN,W,SECONDS", required = true, allow_hyphen_values = true)]
+    /// Speed forward [m/s], to the left [m/s], turning counterclockwise [rad/s], and for how long [s]; where it is to change on the
+    /// way, by how much a second [m/s², m/s², rad/s²]; may be given several times
+    #[arg(long = "leg", value_name = "V,VN,W,SECONDS[,AV,AVN,AW]", required = true, allow_hyphen_values = true)]
     legs: Vec<AskedLeg>,
 
     /// Record the drive into this session: a new one, or one of this robot that gets another run
@@ -118,24 +119,37 @@ impl FromStr for AskedLeg {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let fields: Vec<&str> = text.split(',').map(str::trim).collect();
-        let [v, vn, w, seconds] = fields[..] else {
-            return Err(format!("found {} numbers, expected four: v,vn,w,seconds, such as 0.3,0,0,2", fields.len()));
+        let (asked, slope) = match fields[..] {
+            [v, vn, w, seconds] => ([v, vn, w, seconds], ["0"; 3]),
+            [v, vn, w, seconds, av, avn, aw] => ([v, vn, w, seconds], [av, avn, aw]),
+            _ => {
+                let found = fields.len();
+                return Err(format!(
+                    "found {found} numbers, expected four: v,vn,w,seconds, such as 0.3,0,0,2, or seven, with accelerations"
+                ));
+            }
         };
-        let twist = BodyTwist {
-            v: within(v, FASTEST, "m/s")?,
-            vn: within(vn, FASTEST, "m/s")?,
-            w: within(w, FASTEST_TURN, "rad/s")?,
-        };
+        let [v, vn, w, seconds] = asked;
+        let speed = |text| within(text, FASTEST, "a speed", "m/s");
+        let twist = BodyTwist { v: speed(v)?, vn: speed(vn)?, w: within(w, FASTEST_TURN, "a speed", "rad/s")? };
+        let [av, avn, aw] = slope;
+        let along = |text| within(text, HARDEST, "an acceleration", "m/s²");
+        let about = within(aw, HARDEST_TURN, "an acceleration", "rad/s²")?;
+        let acceleration = BodyTwist { v: along(av)?, vn: along(avn)?, w: about };
         let lasts = seconds.parse::<f64>().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         let lasts = lasts.filter(|lasts| !lasts.is_zero());
         let lasts = lasts.ok_or_else(|| format!("found {seconds} for the time, expected seconds above zero"))?;
-        Ok(Self(Leg { twist, lasts }))
+        let leg = Leg { twist, acceleration, lasts };
+        let [v, vn, w] = leg.end().to_array();
+        let fits = v.abs() <= FASTEST && vn.abs() <= FASTEST && w.abs() <= FASTEST_TURN;
+        let slow = "a leg that ends within what a robot may be asked";
+        if fits { Ok(Self(leg)) } else { Err(format!("it ends with {v},{vn},{w}, expected {slow}")) }
     }
 }
 
-fn within(text: &str, most: f32, unit: &str) -> Result<f32, String> {
+fn within(text: &str, most: f32, what: &str, unit: &str) -> Result<f32, String> {
     let number = text.parse::<f32>().ok().filter(|x| x.abs() <= most);
-    number.ok_or_else(|| format!("found {text}, expected a speed from -{most} to {most} {unit}"))
+    number.ok_or_else(|| format!("found {text}, expected {what} from -{most} to {most} {unit}"))
 }
 
 #[cfg(test)]
@@ -143,11 +157,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_leg_is_four_numbers_within_what_a_command_may_ask() {
+    fn a_leg_is_four_or_seven_numbers_within_what_a_command_may_ask() {
         let AskedLeg(leg) = "0.3, -0.1,2,1.5".parse().unwrap();
         assert_eq!((leg.twist, leg.lasts), (BodyTwist { v: 0.3, vn: -0.1, w: 2.0 }, Duration::from_millis(1500)));
+        let AskedLeg(leg) = "0,0,0,2,0.5,0,-3".parse().unwrap();
+        assert_eq!(
+            (leg.acceleration, leg.end()),
+            (BodyTwist { v: 0.5, vn: 0.0, w: -3.0 }, BodyTwist { v: 1.0, vn: 0.0, w: -6.0 })
+        );
         for (text, says) in [
             ("0.3,0,2", "found 3 numbers"),
+            ("0.3,0,2,1,0", "found 5 numbers"),
+            ("0,0,0,1,101,0,0", "from -100 to 100 m/s²"),
+            ("0,0,0,5,5,0,0", "it ends with 25,0,0"),
             ("30,0,0,1", "from -20 to 20 m/s"),
             ("0,0,-200,1", "from -100 to 100 rad/s"),
             ("0,nan,0,1", "found nan"),
