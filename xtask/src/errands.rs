@@ -117,6 +117,7 @@ pub const ERRANDS: &[Errand] = &[
         does: "play every ride and fault in QEMU with instructions 8 and 16 times as slow (BLESS=1: rewrite)",
         run: margin,
     },
+    Errand { name: "modern", takes: "", does: "ride a modern robot on 64 seeds (BLESS=1: rewrite)", run: modern },
     Errand {
         name: "morning",
         takes: "",
@@ -306,6 +307,11 @@ fn commission(_: &[OsString]) -> Result<(), String> {
 fn margin(_: &[OsString]) -> Result<(), String> {
     emulated_images()?;
     Line::of(steps::MARGIN).announced()
+}
+
+fn modern(_: &[OsString]) -> Result<(), String> {
+    emulated_images()?;
+    Line::of(steps::MODERN).announced()
 }
 
 fn morning(_: &[OsString]) -> Result<(), String> {

@@ -50,6 +50,10 @@ pub const IN_LOOP: [&str; 3] = [
 pub const MARGIN: &str =
     "cargo run --release -p host-tests --bin margin -- target/thumbv7em-none-eabihf/firmware/firmware";
 
+/// Many seeds in software, a modern robot among them, and some rides of it in the image.
+pub const MODERN: &str =
+    "cargo run --release -p host-tests --bin modern -- target/thumbv7em-none-eabihf/firmware/firmware";
+
 /// A robot without a board: the image on a network address.
 pub const ROBOT: &str =
     "cargo run --release -p host-tests --bin robot -- target/thumbv7em-none-eabihf/firmware/firmware";

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use host_tests::emulator::{Qemu, RunError};
 use host_tests::golden;
+use host_tests::in_loop::figure_eight::{TrackingError, WAYS};
 use host_tests::in_loop::page::{Emulated, Promise, Robot, differences, page};
 use host_tests::in_loop::robots::ToParameters;
 use host_tests::in_loop::saturation;
@@ -25,9 +26,10 @@ const PATIENCE: Duration = Duration::from_secs(20);
 
 /// What the image plays, the longest first: on how many wheels, and whether it is compared with itself. Three wheels
 /// take the axis on which they differ most from four.
-const IN_EMULATOR: [(usize, Scenario, bool); 11] = [
-    (4, Scenario::FigureEight, false),
-    (3, Scenario::FigureEight, false),
+const IN_EMULATOR: [(usize, Scenario, bool); 12] = [
+    (4, Scenario::FigureEight(0), false),
+    (3, Scenario::FigureEight(0), false),
+    (4, Scenario::FigureEight(5), false),
     (4, Scenario::Ramps(0), false),
     (4, Scenario::Ramps(1), false),
     (4, Scenario::Ramps(2), false),
@@ -107,10 +109,17 @@ where
         }
         robot.ramps.push(ramps);
         if let (Outcome::FigureEight(with), Outcome::FigureEight(without)) =
-            (of(Scenario::FigureEight, seed), of(Scenario::FigureEightFeedbackOnly, seed))
+            (of(Scenario::FigureEight(0), seed), of(Scenario::FigureEightFeedbackOnly, seed))
         {
             robot.eights.push([with, without]);
         }
+        let ways: Vec<TrackingError> = (0..WAYS.len())
+            .filter_map(|way| match of(Scenario::FigureEight(way), seed) {
+                Outcome::FigureEight(error) => Some(error),
+                _ => None,
+            })
+            .collect();
+        robot.ways.push(ways);
         if let Outcome::Saturation(scaled) = of(Scenario::Saturation, seed) {
             let clipped = saturation::clipped(&believed.host, &truth, &believed.block());
             robot.saturations.push([scaled, clipped]);

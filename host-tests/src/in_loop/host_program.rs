@@ -16,6 +16,7 @@ use firmware::tx_queue::{self, TxConsumer, TxProducer, TxStorage};
 use firmware::windings::Windings;
 use model_core::link::faults::Faults;
 
+use super::wheel_pi::WheelPi;
 use crate::emulator::{BoardProgram, RunError};
 
 /// The robot's program on the host.
@@ -32,6 +33,8 @@ pub struct HostProgram {
     out: VecDeque<u8>,
     inward: VecDeque<u8>,
     next: UpFrame,
+    /// What drives the wheels in place of the firmware's law
+    wheel_pi: Option<WheelPi>,
 }
 
 impl Default for HostProgram {
@@ -50,6 +53,7 @@ impl Default for HostProgram {
             out: VecDeque::new(),
             inward: VecDeque::new(),
             next: UpFrame::default(),
+            wheel_pi: None,
         }
     }
 }
@@ -64,6 +68,11 @@ impl fmt::Debug for HostProgram {
 }
 
 impl HostProgram {
+    /// The same with wheels that a law of their own drives.
+    pub fn with_wheel_pi(law: WheelPi) -> Self {
+        Self { wheel_pi: Some(law), ..Self::default() }
+    }
+
     /// The program as it starts with this in its flash.
     pub fn with_stored(block: &[u8]) -> Self {
         let mut program = Self { stored: block.to_vec(), ..Self::default() };
@@ -116,7 +125,10 @@ impl BoardProgram for HostProgram {
         self.next.enabled = command.enabled;
         if self.windings.motion_is_due() {
             let feedback = self.windings.feedback();
-            let output = self.motion.tick(&feedback, &mut self.inbox);
+            let mut output = self.motion.tick(&feedback, &mut self.inbox);
+            if let Some(law) = &mut self.wheel_pi {
+                law.turn(&feedback, &mut output);
+            }
             self.windings.apply(&output);
             // nothing is timed here
             self.tx_producer.enqueue_tick(&feedback, &output, (0, 0));

@@ -55,7 +55,7 @@ pub enum Ride {
 impl Ride {
     /// All that asks nothing of a robot but to drive on, the longest first.
     pub const ALL: [Self; 7] = [
-        Self::Scenario(Scenario::FigureEight),
+        Self::Scenario(Scenario::FigureEight(0)),
         Self::Scenario(Scenario::Ramps(0)),
         Self::Scenario(Scenario::Ramps(1)),
         Self::Scenario(Scenario::Ramps(2)),

@@ -17,6 +17,7 @@
 //! - [`commissioned`] and [`commissioned_page`]: boards that are wired wrong, found out and then driven;
 //! - [`served`]: one that listens at a network address;
 //! - [`supply_plug`]: what a person may pull at it;
+//! - [`modern`]: a robot of today with all that robots have, on many seeds, beside a [`wheel_pi`] controller;
 //! - [`gap`] and [`gap_page`]: drive, record, diagnose, correct, drive again.
 
 mod closed_loop_run;
@@ -28,7 +29,9 @@ pub mod figure_eight;
 pub mod gap;
 pub mod gap_page;
 mod host_program;
+mod link_jitter;
 pub mod margin;
+pub mod modern;
 pub mod page;
 #[cfg(test)]
 mod push;
@@ -43,6 +46,7 @@ mod shadow;
 mod storing;
 pub mod study;
 pub mod supply_plug;
+pub mod wheel_pi;
 
 pub use closed_loop_run::{ClosedLoopRun, RunLog, TruthSample};
 pub use host_program::HostProgram;

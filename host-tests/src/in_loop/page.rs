@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::command_timeout::CommandTimeout;
-use super::figure_eight::TrackingError;
+use super::figure_eight::{Commands, TrackingError, WAYS};
 use super::ramps::{LEVELS, Ramp};
 use super::robots;
 use super::saturation::DirectionError;
@@ -14,6 +14,10 @@ pub const ACCELERATION: f64 = 0.03;
 
 /// Largest error of the figure-eight over that of feedback alone [1]
 pub const RATIO: f64 = 0.25;
+
+/// Largest velocity error of the figure-eight by commands with acceleration and a quick integral, over that of the first way, the radius
+/// of the wheels apart in both [1]
+pub const BY_RAMPS: f64 = 0.5;
 
 /// Longest time from the end of 200 ms of silence to rest, from 1 m/s [s]
 pub const RESTS: f64 = 0.6;
@@ -36,6 +40,8 @@ pub struct Robot {
     pub ramps: Vec<Vec<Ramp>>,
     /// Figure-eights with the model and by feedback alone, seed by seed
     pub eights: Vec<[TrackingError; 2]>,
+    /// Figure-eights in each of their ways, seed by seed
+    pub ways: Vec<Vec<TrackingError>>,
     /// Saturations with headroom, and with each wheel clipped by itself, seed by seed
     pub saturations: Vec<[DirectionError; 2]>,
     /// Silences, seed by seed
@@ -75,6 +81,12 @@ impl Robot {
         [0, 1].map(|k| [rms(self.eights.iter().map(|e| e[k].velocity)), rms(self.eights.iter().map(|e| e[k].position))])
     }
 
+    /// Root mean square over the seeds of a figure-eight in one of its ways: velocity, the same without the radius [m/s], position [m].
+    fn way(&self, way: usize) -> [f64; 3] {
+        let of = |what: fn(&TrackingError) -> f64| rms(self.ways.iter().filter_map(|ways| ways.get(way)).map(what));
+        [of(|e| e.velocity), of(|e| e.apart), of(|e| e.position)]
+    }
+
     /// The mean error of ramps [1], and the worst by size.
     fn error(&self, axis: usize, level: usize, braking: bool) -> [f64; 2] {
         let is = |r: &&Ramp| r.axis == axis && r.level == level && r.braking == braking;
@@ -97,6 +109,10 @@ impl Robot {
             let ratio = with[k] / without[k];
             promise(ratio <= RATIO, format!("figure-eight, {of}: {ratio:.3} of the error of feedback alone"));
         }
+        let ([_, before, _], [_, after, _]) = (self.way(0), self.way(WAYS.len() - 1));
+        let what =
+            format!("figure-eight by ramps, velocity, radius apart: {:.1} of {:.1} mm/s", 1e3 * after, 1e3 * before);
+        promise(after <= BY_RAMPS * before, what);
         for (k, [scaled, clipped]) in self.saturations.iter().enumerate() {
             let bites = scaled.time > 0.05 && clipped.time > 0.05;
             promise(bites, format!("saturation, seed {}: {scaled:?} and {clipped:?} for a while", k + 1));
@@ -144,6 +160,19 @@ impl Robot {
             eight((k + 1).to_string(), e.map(|e| [e.velocity, e.position]));
         }
         eight("all".into(), self.eight());
+        line("\nThe same over all seeds, in other ways: what commands tell, the largest acceleration, and k_i. *Apart* is the velocity error".into());
+        line("without what wheels of another radius than believed do to the speed.\n".into());
+        line(
+            "| commands | largest acceleration [m/s²] | k_i [A/rad] | velocity [mm/s] | apart [mm/s] | position [mm] |"
+                .into(),
+        );
+        line("|---|---|---|---|---|---|".into());
+        for (k, way) in WAYS.iter().enumerate() {
+            let commands = if way.commands == Commands::Twist { "twist" } else { "twist and acceleration" };
+            let [velocity, apart, position] = self.way(k).map(|x| 1e3 * x);
+            let set = format!("{} | {}", way.acceleration, way.integral);
+            line(format!("| {commands} | {set} | {velocity:.1} | {apart:.1} | {position:.1} |"));
+        }
         line(
             "\nDiagonal into saturation: angle between true and wanted acceleration while not all of it fits [°].\n"
                 .into(),
@@ -184,7 +213,7 @@ pub fn page(robots: &[Robot], emulated: &[Emulated]) -> String {
          switches sit up to {:.0}° (electrical)\noff their places and are all that tells of speeds, and duties act a period \
          late. Gains: {} A·s/rad, {} A/rad, currents {} rad/s.\n\n\
          Promised: every acceleration within ±{:.0} %; the figure-eight, over all seeds, with at most {} of the error of the same \
-         loop\nwithout the model's feedforward; in saturation, over all seeds, less than half the angle of wheels clipped by \
+         loop\nwithout the model's feedforward, and by commands with acceleration and a quick integral with at most {} of its velocity error, the\nradius of the wheels apart; in saturation, over all seeds, less than half the angle of wheels clipped by \
          themselves;\nfrom 1 m/s at rest {:.0} ms after the end of 200 ms without a command at the latest, and bridges open {:.0} ms after the \
          last\ncommand. Accelerations are slopes of the true speed over the middle half of a ramp; those about the vertical are \
          meant at\nthe wheels' rims.\n",
@@ -195,6 +224,7 @@ pub fn page(robots: &[Robot], emulated: &[Emulated]) -> String {
         robots::BANDWIDTH,
         100.0 * ACCELERATION,
         RATIO,
+        BY_RAMPS,
         1e3 * RESTS,
         1e3 * OPENS,
     );

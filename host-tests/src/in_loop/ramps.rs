@@ -35,6 +35,14 @@ impl Ramp {
     pub fn error(&self) -> f64 {
         self.measured / self.wanted - 1.0
     }
+
+    /// The same without what wheels of another radius, and about the vertical of another distance, than believed do to it [1]; both
+    /// true over believed.
+    pub fn error_apart(&self, [radius, distance]: [f64; 2]) -> f64 {
+        // v = r·ω_w,  ω = r/d·ω_w; what is wanted about the vertical is meant at the rim that is believed
+        let carried = if self.axis == 2 { radius / distance } else { radius };
+        self.measured / (carried * self.wanted) - 1.0
+    }
 }
 
 /// Time from the one command to the other beyond the ramp itself [s]

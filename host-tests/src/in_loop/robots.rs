@@ -117,6 +117,12 @@ pub fn perturbed<const N: usize>(believed: &Robot<N, f64>, seed: u64) -> Robot<N
     robot
 }
 
+/// Radius and distance of the wheels, true over believed [1].
+pub fn geometry<const N: usize>(believed: &Robot<N, f64>, truth: &Robot<N, f64>) -> [f64; 2] {
+    let [here, there] = [truth, believed].map(|robot| robot.wheels.wheels()[0]);
+    [here.radius / there.radius, here.distance / there.distance]
+}
+
 /// A board with a robot that is off, on a battery that sags.
 pub fn board<const N: usize>(believed: &Robot<N, f64>, seed: u64) -> BoardSetup<N> {
     let mut besides = Effects::default();

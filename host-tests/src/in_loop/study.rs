@@ -9,7 +9,7 @@ use model_core::link::record::{OperatingState, TelemetryRecord};
 use model_core::plant::robot::Robot;
 
 use super::command_timeout::{self, CommandTimeout};
-use super::figure_eight::{self, FigureEight, TrackingError};
+use super::figure_eight::{FigureEight, TrackingError, WAYS, Way};
 use super::ramps::{self, Ramp};
 use super::robots::{self, ToParameters};
 use super::saturation::{self, DirectionError};
@@ -25,8 +25,8 @@ pub const SEEDS: [u64; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
 pub enum Scenario {
     /// Ramps on one axis
     Ramps(usize),
-    /// The figure-eight
-    FigureEight,
+    /// The figure-eight in one of its [`WAYS`]
+    FigureEight(usize),
     /// The same without the model's feedforward
     FigureEightFeedbackOnly,
     /// A diagonal acceleration that does not fit
@@ -37,15 +37,25 @@ pub enum Scenario {
 
 impl Scenario {
     /// All of them, the longest first.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 12] = [
         Self::Ramps(0),
         Self::Ramps(1),
         Self::Ramps(2),
         Self::FigureEightFeedbackOnly,
-        Self::FigureEight,
+        Self::FigureEight(0),
+        Self::FigureEight(1),
+        Self::FigureEight(2),
+        Self::FigureEight(3),
+        Self::FigureEight(4),
+        Self::FigureEight(5),
         Self::CommandTimeout,
         Self::Saturation,
     ];
+
+    /// Which of its ways a figure-eight is driven in; the first where nothing else is said.
+    fn way(self) -> usize {
+        if let Self::FigureEight(way) = self { way } else { 0 }
+    }
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -53,7 +63,8 @@ impl Scenario {
             Self::Ramps(0) => "ramps along v",
             Self::Ramps(1) => "ramps along vn",
             Self::Ramps(_) => "ramps about the vertical",
-            Self::FigureEight => "figure-eight",
+            Self::FigureEight(0) => "figure-eight",
+            Self::FigureEight(_) => "figure-eight, set otherwise",
             Self::FigureEightFeedbackOnly => "figure-eight, feedback alone",
             Self::Saturation => "diagonal into saturation",
             Self::CommandTimeout => "commands end",
@@ -122,12 +133,15 @@ where
         let came = match scenario {
             Scenario::Ramps(axis) => Outcome::Ramps(ramps::measure(&mut run, &block, axis)?),
             Scenario::Saturation => Outcome::Saturation(saturation::measure(&mut run, &block)?),
-            Scenario::FigureEight | Scenario::FigureEightFeedbackOnly => {
-                block.feedforward = scenario == Scenario::FigureEight;
-                block.limits.acceleration = [figure_eight::ACCELERATION, figure_eight::ACCELERATION, 30.0];
+            Scenario::FigureEight(_) | Scenario::FigureEightFeedbackOnly => {
+                block.feedforward = scenario != Scenario::FigureEightFeedbackOnly;
+                let Way { commands, acceleration, integral } = WAYS[scenario.way()];
+                block.limits.acceleration = [acceleration, acceleration, 30.0];
+                block.feedback_integral = integral;
                 run.send_block(&block.parameters());
                 run.wait(0.15)?;
-                Outcome::FigureEight(FigureEight::default().track(&mut run)?)
+                let [radius, _] = robots::geometry(&self.host, &self.board(seed).robot);
+                Outcome::FigureEight(FigureEight::default().track(&mut run, commands, radius)?)
             }
             Scenario::CommandTimeout => {
                 run.send_block(&block.parameters());

@@ -8,6 +8,7 @@
 //! | drive (`dead_time`) | the legs of the bridge |
 //! | winding (`motor_mismatch`) | K_v and R of that motor's machine; K_t in the plant |
 //! | sense (`current_sensor_offset`) | the codes of the phase currents |
+//! | shaft (`backlash`) | the plant; windings and halls are on the rotor |
 //! | gear, contact, body | the plant |
 //!
 //! `actuation_delay` is refused: on this board nothing stands between command and bridge, a late command is late on the
@@ -131,7 +132,7 @@ impl<const N: usize> VirtualBoard<N> {
             capacitor.period(&self.battery, self.drawn, PERIOD);
         }
         self.bus = self.bus_now();
-        let speeds = self.wheel_speeds();
+        let speeds = self.rotor_speeds();
         let mut codes = self.resting();
         let Instants { sample, halls } = self.setup.instants;
         for (j, motor) in self.motors.iter_mut().enumerate() {
@@ -147,7 +148,7 @@ impl<const N: usize> VirtualBoard<N> {
             let magnet = RotorFlux { angle: motor.angle, speed };
             motor.period(&legs, magnet, sample);
             motor.angle = magnet.after(PERIOD).angle.rem_euclid(std::f64::consts::TAU);
-            codes.halls[j] = motor.hall_code(magnet.after((sample + halls) * PERIOD).angle);
+            codes.halls[j] = motor.hall_code(magnet.after((sample + halls) * PERIOD).angle, &mut self.rng);
             codes.phases[j] = motor.codes(magnet.after(sample * PERIOD).angle, &mut self.rng);
         }
         codes.bus = AdcCode(self.bus_channel.code(self.bus, &mut self.rng));
@@ -269,6 +270,17 @@ impl<const N: usize> VirtualBoard<N> {
             self.setup.robot.wheels.wheel_speeds(self.state.twist)
         } else {
             self.state.wheel_speed
+        }
+    }
+
+    /// Speed of each rotor, counted at its wheel's shaft [rad/s]: that of its wheel, unless the shaft between them yields.
+    fn rotor_speeds(&self) -> [f64; N] {
+        let yields =
+            |effect: &OnBoard| matches!(effect, OnBoard::Effect(Effect::Backlash(_) | Effect::ShaftElasticity(_)));
+        if self.setup.stand.is_none() && self.plant_effects.iter().any(|active| yields(&active.effect)) {
+            self.state.rotor_speed
+        } else {
+            self.wheel_speeds()
         }
     }
 

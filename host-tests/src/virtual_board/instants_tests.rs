@@ -85,7 +85,7 @@ impl Rig {
         Seen {
             angle,
             codes: self.motor.codes(angle, &mut self.rng),
-            halls: self.motor.hall_code(magnet.after((sample + halls) * PERIOD).angle),
+            halls: self.motor.hall_code(magnet.after((sample + halls) * PERIOD).angle, &mut self.rng),
             current: [equivalent.re, equivalent.im],
         }
     }

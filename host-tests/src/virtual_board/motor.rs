@@ -19,6 +19,8 @@ pub struct BoardMotor {
     pub machine: Machine,
     pub channels: [AdcChannel; 3],
     pub halls: HallSwitches,
+    /// How far from its edge a switch is undecided [rad, electrical]
+    hall_chatter: f64,
     /// o of `current_sensor_offset` [A, DC-equivalent]
     sensor_offset: f64,
     /// Which of its leads is soldered where
@@ -58,12 +60,25 @@ impl BoardMotor {
         let angle = within(std::f64::consts::PI).rem_euclid(std::f64::consts::TAU);
         let (current, outcome) = (Vector::default(), PeriodResult::default());
         let wiring = setup.wirings[j];
-        Self { machine, channels, halls, sensor_offset, wiring, current, sampled: [0.0; 3], angle, outcome }
+        let hall_chatter = setup.hall_chatter;
+        Self {
+            machine,
+            channels,
+            halls,
+            hall_chatter,
+            sensor_offset,
+            wiring,
+            current,
+            sampled: [0.0; 3],
+            angle,
+            outcome,
+        }
     }
 
-    /// What its hall lines read at an electrical angle [rad].
-    pub fn hall_code(&self, angle: f64) -> HallCode {
-        HallCode(self.wiring.lines(self.halls.code(angle)))
+    /// What its hall lines read at an electrical angle [rad]: within the chatter of an edge now this, now that.
+    pub fn hall_code(&self, angle: f64, rng: &mut ChaCha8Rng) -> HallCode {
+        let off = if self.hall_chatter > 0.0 { self.hall_chatter * rng.random_range(-1.0..=1.0) } else { 0.0 };
+        HallCode(self.wiring.lines(self.halls.code(angle + off)))
     }
 
     /// A period whose currents are sampled when a `sample` of it is over [1].

@@ -30,6 +30,8 @@ pub struct BoardSetup<const N: usize> {
     pub noise: f64,
     /// How far the hall switches sit from their places, at most [rad, electrical]
     pub hall_spread: f64,
+    /// How far from its edge a hall switch is undecided, reading by reading [rad, electrical]
+    pub hall_chatter: f64,
     /// When currents are sampled and halls are read
     pub instants: Instants,
     /// Which leads of the motors are soldered where
@@ -54,6 +56,7 @@ impl<const N: usize> BoardSetup<N> {
             offset_spread: 12.0,
             noise: 1.5,
             hall_spread: 0.0,
+            hall_chatter: 0.0,
             instants: Instants::default(),
             wirings: [BoardWiring::default(); N],
             stand: None,
@@ -63,6 +66,6 @@ impl<const N: usize> BoardSetup<N> {
 
     /// The same with converters and switches that are as they should be.
     pub fn ideal(self) -> Self {
-        Self { offset_spread: 0.0, noise: 0.0, hall_spread: 0.0, ..self }
+        Self { offset_spread: 0.0, noise: 0.0, hall_spread: 0.0, hall_chatter: 0.0, ..self }
     }
 }
