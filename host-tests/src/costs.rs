@@ -31,8 +31,7 @@ pub fn page(costs: &[Cost]) -> String {
     let mut text = "# What the control path costs\n\n\
         Instructions of one call on a Cortex-M4F, counted in QEMU with `-icount` by `cargo xtask emulate`; the callee is not\n\
         inlined, its inputs are not constant, the loop around it is taken off. Instructions are not cycles: loads, branches and\n\
-        flash wait states cost more on a chip. Of the motion tick, turns in which an effect is undone or something does not fit\n\
-        are compiled for size, as in the firmware.\n\n\
+        flash wait states cost more on a chip.\n\n\
         | part | instructions |\n|---|---|\n"
         .to_owned();
     for cost in costs {

@@ -14,6 +14,7 @@
 //! How to get the numbers: `omni-gap diagnose`, which writes them into `corrected_robot.toml`.
 
 use crate::effects::active::MOST_UNDONE;
+use crate::effects::undoing::Wheels;
 use crate::effects::{Effect, EffectKind};
 use crate::number::scalar::Real;
 
@@ -22,16 +23,8 @@ use crate::number::scalar::Real;
 pub struct Undo<T = f32> {
     /// Which, with its parameters.
     pub effect: Effect<T>,
-    /// The only wheel that has it; `None`: all, or the robot.
-    pub wheel: Option<u8>,
-}
-
-impl<T> Undo<T> {
-    /// True if it acts on this wheel.
-    #[inline]
-    pub fn on(&self, wheel: usize) -> bool {
-        self.wheel.is_none_or(|w| usize::from(w) == wheel)
-    }
+    /// Where it sits: all wheels of an effect of the robot.
+    pub wheels: Wheels,
 }
 
 /// The effects that the controller undoes; [`Compensation::none`] undoes nothing.
@@ -90,13 +83,13 @@ impl<const N: usize, T: Real> Compensation<N, T> {
         if !kind.scope().admits(wheel, N) {
             return Err(NotCompensable::Wheel);
         }
-        let wheel = wheel.map(|wheel| wheel as u8);
-        let meets = |other: &Undo<T>| other.wheel.is_none() || wheel.is_none() || other.wheel == wheel;
+        let wheels = Wheels(wheel.map(|wheel| wheel as u8));
+        let meets = |other: &Undo<T>| (0..N).any(|j| other.wheels.contain(j) && wheels.contain(j));
         if self.iter().any(|other| other.effect.kind() == kind && meets(other)) {
             return Err(NotCompensable::Twice);
         }
         let room = self.items.iter_mut().find(|item| item.is_none()).ok_or(NotCompensable::Full)?;
-        *room = Some(Undo { effect, wheel });
+        *room = Some(Undo { effect, wheels });
         Ok(())
     }
 
@@ -109,7 +102,20 @@ impl<const N: usize, T: Real> Compensation<N, T> {
     /// Those that act on a wheel.
     #[inline]
     pub fn on(&self, wheel: usize) -> impl Iterator<Item = &Undo<T>> {
-        self.iter().filter(move |undo| undo.on(wheel))
+        self.iter().filter(move |undo| undo.wheels.contain(wheel))
+    }
+
+    /// Those of a mask, whose bit k is the effect that was added k-th, in that order.
+    #[inline(always)]
+    pub fn of(&self, mut mask: u32) -> impl Iterator<Item = &Undo<T>> {
+        core::iter::from_fn(move || {
+            if mask == 0 {
+                return None;
+            }
+            let k = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            self.items.get(k)?.as_ref()
+        })
     }
 }
 

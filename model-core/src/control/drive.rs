@@ -10,7 +10,7 @@
 use crate::control::braking::BrakingBand;
 use crate::control::calibration::Calibration;
 use crate::control::compensation::Compensation;
-use crate::control::motion_controller::{Controller, Measurement, Memory, Output, Settings};
+use crate::control::motion_controller::{Controller, Measurement, Memory, Settings};
 use crate::control::observer::{HallReading, SpeedObserver, WheelEstimate};
 use crate::control::thermal::{Heat, ThermalLimit};
 use crate::geometry::frames::BodyTwist;
@@ -129,33 +129,19 @@ impl RobotDrive {
     #[inline]
     pub fn tick(&mut self, halls: &[HallReading; MOTORS], bus: f32, want: BodyTwist) -> DriveOutput {
         self.observe(halls);
-        let quick = match self {
-            RobotDrive::Three(drive) => drive.tick(bus, want, Controller::tick_within_limits),
-            RobotDrive::Four(drive) => drive.tick(bus, want, Controller::tick_within_limits),
-        };
-        match quick {
-            Some(output) => output,
-            None => self.tick_slow(bus, want),
+        match self {
+            RobotDrive::Three(drive) => drive.tick(bus, want),
+            RobotDrive::Four(drive) => drive.tick(bus, want),
         }
     }
 
     /// Takes in what the halls tell.
-    #[inline(never)]
+    #[inline]
     fn observe(&mut self, halls: &[HallReading; MOTORS]) {
         match self {
             RobotDrive::Three(drive) => drive.observe(halls),
             RobotDrive::Four(drive) => drive.observe(halls),
         }
-    }
-
-    /// A turn in which an effect is undone or something does not fit. By itself, and compiled where small code is wanted.
-    #[inline(never)]
-    fn tick_slow(&mut self, bus: f32, want: BodyTwist) -> DriveOutput {
-        let output = match self {
-            RobotDrive::Three(drive) => drive.tick(bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
-            RobotDrive::Four(drive) => drive.tick(bus, want, |c, m, s, w| Some(c.tick(m, s, w))),
-        };
-        output.unwrap_or_default()
     }
 
     /// True if the currents are to be controlled.
@@ -176,7 +162,7 @@ impl RobotDrive {
 
     /// A turn in which the motors' currents were these [A]: each one's largest current follows from how warm it is. True if
     /// one of them is folded back.
-    #[inline(never)]
+    #[inline]
     pub fn heat(&mut self, current: &[f32; MOTORS]) -> bool {
         match self {
             RobotDrive::Three(drive) => drive.heat(current),
@@ -186,7 +172,7 @@ impl RobotDrive {
 
     /// How fast each wheel turns by what the others do [rad/s], all as measured: of four wheels what a rigid motion of the
     /// body makes of the other three, with sign; of three, or of those that are left, the fastest of the others.
-    #[inline(never)]
+    #[inline]
     pub fn told_by_others(&self, measured: &[f32; MOTORS]) -> [f32; MOTORS] {
         match self {
             RobotDrive::Three(drive) => drive.told_by_others(measured),
@@ -320,16 +306,11 @@ impl<const N: usize> WheeledDrive<N> {
     }
 
     #[inline]
-    fn tick(
-        &mut self,
-        bus: f32,
-        want: BodyTwist,
-        tick: impl Fn(&Controller<N>, &mut Memory, &Measurement<N>, BodyTwist) -> Option<Output<N>>,
-    ) -> Option<DriveOutput> {
+    fn tick(&mut self, bus: f32, want: BodyTwist) -> DriveOutput {
         let measured = Measurement { wheel_speed: self.wheels.map(|wheel| wheel.speed), bus };
         let want = self.limit_speed(want);
         let reference = self.memory.reference;
-        let motors = tick(&self.controller, &mut self.memory, &measured, want)?;
+        let motors = self.controller.tick(&mut self.memory, &measured, want);
         if self.memory.reference == BodyTwist::default() {
             self.memory.integral = self.memory.integral.map(|force| INTEGRAL_DECAY * force);
         }
@@ -342,7 +323,7 @@ impl<const N: usize> WheeledDrive<N> {
                 if self.controls_current { self.settings.robot.motor.resistance * motors.current[j] } else { 0.0 };
             output.voltage[j] = motors.voltage[j] - ahead;
         }
-        Some(output)
+        output
     }
 }
 

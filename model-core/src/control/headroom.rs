@@ -12,10 +12,10 @@
 //!
 //! | symbol | code | unit | meaning |
 //! |---|---|---|---|
-//! | p | [`SplitDemand::steady`] | A | current of each wheel that holds the motion: friction, feedback, effects |
-//! | q | [`SplitDemand::accelerating`] | A | current of each wheel that changes the motion |
-//! | e | [`SplitDemand::emf`] | V | voltage of each wheel that its speed takes |
-//! | ω | [`SplitDemand::speed`] | rad/s | of each wheel as it is measured; its sign tells what brakes
+//! | p + q | [`SplitDemand::current`] | A | current wanted of each wheel |
+//! | q | [`SplitDemand::accelerating`] | A | what of it changes the motion; the rest holds it: friction, feedback, effects |
+//! | e | `emf` | V | voltage of each wheel that its speed takes |
+//! | ω | [`SplitDemand::speed`] | rad/s | of each wheel as it is measured; its sign tells what brakes |
 //! | R | [`SplitDemand::resistance`] | Ω | of each winding |
 //! | I | [`MotorLimits::current`] | A | most current in each motor |
 //! | b | [`MotorLimits::braking`] | 1 | share of a braking current that the supply takes ([`braking`](crate::control::braking)) |
@@ -35,6 +35,8 @@
 //! Neglects: the inductance's voltage while the current rises. Fails when: the bus falls with the currents asked for (see
 //! the effect `supply_sag`): the bus measured in this turn is that of the last turn's currents.
 
+use core::array;
+
 use crate::number::scalar::Real;
 
 /// What a motor may be asked for.
@@ -42,23 +44,21 @@ use crate::number::scalar::Real;
 pub struct MotorLimits<'a, const N: usize, T = f32> {
     /// I, most current of each motor either way [A]
     pub current: &'a [T; N],
-    /// The least of them [A]
-    pub least_current: T,
     /// b, share of a braking current that may flow, 0 … 1 [1]
     pub braking: T,
     /// U, most voltage either way [V]
     pub voltage: T,
 }
 
-/// What is asked of the motors, by its two reasons.
+/// What is asked of the motors, and what of it accelerates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitDemand<const N: usize, T = f32> {
-    /// p, currents that hold the motion [A]
-    pub steady: [T; N],
-    /// q, currents that change it [A]
+    /// p + q, currents wanted [A]
+    pub current: [T; N],
+    /// R·(p + q) + e, voltages wanted [V]
+    pub voltage: [T; N],
+    /// q, what of the currents changes the motion [A]
     pub accelerating: [T; N],
-    /// e, back-EMF [V]
-    pub emf: [T; N],
     /// ω̂, measured [rad/s]
     pub speed: [T; N],
     /// R [Ω]
@@ -85,51 +85,58 @@ pub struct LimitedDemand<const N: usize, T = f32> {
     pub scaling: Scaling<T>,
 }
 
-impl<const N: usize, T: Real> MotorLimits<'_, N, T> {
-    /// True if no current is beyond the least of the limits and no voltage beyond its own; braking is not looked at.
-    #[inline(always)]
-    pub fn admits(&self, current: &[T; N], voltage: &[T; N]) -> bool {
-        for j in 0..N {
-            if current[j].exceeds(self.least_current) || voltage[j].exceeds(self.voltage) {
-                return false;
-            }
+/// True if no current is beyond `most_current` [A] and no voltage beyond `most_voltage` [V]; braking is not looked at.
+#[inline(always)]
+pub fn admits<const N: usize, T: Real>(most_current: T, most_voltage: T, current: &[T; N], voltage: &[T; N]) -> bool {
+    for j in 0..N {
+        if current[j].exceeds(most_current) || voltage[j].exceeds(most_voltage) {
+            return false;
         }
-        true
     }
+    true
+}
 
+impl<const N: usize, T: Real> MotorLimits<'_, N, T> {
     /// As much of a wish as there is room for.
-    pub fn limit(&self, demand: &SplitDemand<N, T>) -> LimitedDemand<N, T> {
+    #[inline]
+    pub fn limit(&self, wish: &SplitDemand<N, T>) -> LimitedDemand<N, T> {
         let (zero, one) = (T::zero(), T::one());
-        let SplitDemand { steady, accelerating, emf, speed, resistance } = demand;
+        let SplitDemand { current: wanted, voltage: needed, accelerating, speed, resistance } = wish;
         let mut s = one;
         for j in 0..N {
-            let wanted = steady[j] + accelerating[j];
-            let brakes = wanted * speed[j] < zero && accelerating[j] * speed[j] < zero;
-            let most = if brakes { self.braking_of(wanted, j) } else { self.current[j] };
-            s = s.min(largest_factor(steady[j], accelerating[j], most));
-            // u = R·(p + s·q) + e
-            s = s.min(largest_factor(
-                resistance[j] * steady[j] + emf[j],
-                resistance[j] * accelerating[j],
-                self.voltage,
-            ));
+            let (i, q) = (wanted[j], accelerating[j]);
+            let brakes = self.braking < one && i * speed[j] < zero && q * speed[j] < zero;
+            let most = if brakes { self.braking_of(i, j) } else { self.current[j] };
+            s = share_within(s, i, q, most);
+            s = share_within(s, needed[j], resistance[j] * q, self.voltage);
         }
-        let s = s.max(zero);
-        let wanted: [T; N] = core::array::from_fn(|j| steady[j] + s * accelerating[j]);
-        // k_i = min(1, min I/|i|)
-        let by_current = (0..N).fold(one, |most, j| most.min(factor_within(&[wanted[j]], self.current[j])));
-        let wanted: [T; N] = core::array::from_fn(|j| {
-            let held = by_current * wanted[j];
-            let braking = self.braking_of(steady[j].abs().max((steady[j] + accelerating[j]).abs()), j);
-            let held = if held * speed[j] < zero { held.clamp(-braking, braking) } else { held };
-            resistance[j] * held + emf[j]
-        });
+        let less = one - s;
+        let mut current: [T; N] = array::from_fn(|j| wanted[j] - less * accelerating[j]);
+        let mut voltage: [T; N] = array::from_fn(|j| needed[j] - less * (resistance[j] * accelerating[j]));
+        let by_current = (0..N).fold(one, |k, j| k.min(factor_within(current[j], self.current[j])));
+        let emf = |j: usize| needed[j] - resistance[j] * wanted[j];
+        if by_current < one || self.braking < one {
+            for j in 0..N {
+                let steady = wanted[j] - accelerating[j];
+                let braking = self.braking_of(steady.abs().max(wanted[j].abs()), j);
+                let held = by_current * current[j];
+                current[j] = if held * speed[j] < zero { held.clamp(-braking, braking) } else { held };
+                voltage[j] = resistance[j] * current[j] + emf(j);
+            }
+        }
         // k_u = min(1, U/max|u|)
-        let by_voltage = factor_within(&wanted, self.voltage);
-        // the limit itself, where rounding would go beyond it
-        let voltage = wanted.map(|u| (by_voltage * u).clamp(-self.voltage, self.voltage));
-        // i = (u − e)/R
-        let current = core::array::from_fn(|j| (voltage[j] - emf[j]) / resistance[j]);
+        let by_voltage = voltage.iter().fold(one, |k, u| k.min(factor_within(*u, self.voltage)));
+        for j in 0..N {
+            if by_voltage < one {
+                voltage[j] = by_voltage * voltage[j];
+                // i = (u − e)/R
+                current[j] = (voltage[j] - emf(j)) / resistance[j];
+            }
+            // the limit itself, where rounding would go beyond it
+            if voltage[j].exceeds(self.voltage) {
+                voltage[j] = self.voltage.copysign(voltage[j]);
+            }
+        }
         LimitedDemand { current, voltage, scaling: Scaling { acceleration: s, steady: by_current * by_voltage } }
     }
 
@@ -141,31 +148,38 @@ impl<const N: usize, T: Real> MotorLimits<'_, N, T> {
     }
 }
 
-/// The largest factor on `q` that keeps p + s·q below the limit on the side to which q pushes; 1 where q is nothing.
-#[inline]
-fn largest_factor<T: Real>(p: T, q: T, limit: T) -> T {
-    let push = q.abs();
-    // (L − sign(q)·p)/|q|, asked without the quotient first: L may be infinite
-    let left = if q < T::zero() { limit + p } else { limit - p };
-    if push > T::zero() && left < push { left / push } else { T::one() }
+/// Not more than the share `s` of `q`, and so little that `x` with that much of it is within the limit on the side to which
+/// q pushes; 0 where none of it fits.
+#[inline(always)]
+fn share_within<T: Real>(s: T, x: T, q: T, limit: T) -> T {
+    if !x.exceeds(limit) {
+        return s;
+    }
+    let push = if x < T::zero() { -q } else { q };
+    // (L − sign(q)·p)/|q|, p = x − q
+    let left = push - (x.abs() - limit);
+    if push > T::zero() && left < s * push { (left / push).max(T::zero()) } else { s }
 }
 
-/// The factor that brings the largest of these within the limit; 1 where it is.
-#[inline]
-fn factor_within<const N: usize, T: Real>(x: &[T; N], limit: T) -> T {
-    let largest = x.iter().fold(T::zero(), |most, x| most.max(x.abs()));
-    if largest > limit { limit / largest } else { T::one() }
+/// What rounding may go beyond a limit by, over the limit [1].
+const ROUNDING: f64 = 1e-6;
+
+/// The factor that brings this within the limit; 1 where it is.
+#[inline(always)]
+fn factor_within<T: Real>(x: T, limit: T) -> T {
+    if x.exceeds(T::lit(1.0 + ROUNDING) * limit) { limit / x.abs() } else { T::one() }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const LIMITS: MotorLimits<'_, 2, f64> =
-        MotorLimits { current: &[3.0; 2], least_current: 3.0, braking: 1.0, voltage: 10.0 };
+    const LIMITS: MotorLimits<'_, 2, f64> = MotorLimits { current: &[3.0; 2], braking: 1.0, voltage: 10.0 };
 
     fn demand(steady: [f64; 2], accelerating: [f64; 2], emf: [f64; 2]) -> SplitDemand<2, f64> {
-        SplitDemand { steady, accelerating, emf, speed: emf, resistance: [2.0, 2.0] }
+        let current = [0, 1].map(|j| steady[j] + accelerating[j]);
+        let voltage = [0, 1].map(|j| 2.0 * current[j] + emf[j]);
+        SplitDemand { current, voltage, accelerating, speed: emf, resistance: [2.0, 2.0] }
     }
 
     #[test]

@@ -3,12 +3,13 @@
 //! ```text
 //! δ = limited(want − x),  a = δ/Δt                           reference
 //! ω_j = G_j·x/r_j                                            wanted wheel speeds
-//! F = M·a + B·x + C·sign(x⁺)                                 (eq. 10–12, turned round)
 //! E = Σ_j G_j/r_j·(ω_j − ω̂_j)                               what the wheels miss, seen from the body
-//! F ← F + l·K_t·k_p·E + I,   I ← I + l·K_t·k_i·Δt·E          feedback
-//! i_j = r_j/(l·K_t)·((GᵀG)⁻¹·G_j)·F                          (eq. 16–17, 22)
+//! F_a = M·a                                                  what accelerates
+//! F_s = B·x + C·sign(x⁺) + I + l·K_t·k_p·E                   what holds the motion (eq. 10–12, turned round) and feedback
+//! i_j = r_j/(l·K_t)·((GᵀG)⁻¹·G_j)·(F_s + F_a)                (eq. 16–17, 22)
 //! u_j = R·i_j + l·K_v·ω_j                                    (eq. 21)
-//! s = what fits,  x ← x + s·δ                                headroom
+//! s, k = how much of F_a and of F_s fits                     headroom: 1 where all of it does
+//! x ← x + s·δ,   I ← I + l·K_t·k_i·Δt·E
 //! ```
 //!
 //! | symbol | code | unit | meaning |
@@ -49,7 +50,7 @@ use core::array;
 
 use crate::control::braking::BrakingBand;
 use crate::control::compensation::Compensation;
-use crate::control::headroom::{MotorLimits, SplitDemand};
+use crate::control::headroom::{MotorLimits, Scaling, SplitDemand, admits};
 use crate::control::reference::AccelerationLimiter;
 use crate::geometry::frames::BodyTwist;
 use crate::number::linalg::{add_scaled, dot, scaled};
@@ -138,6 +139,22 @@ struct WheelMap<T> {
     row: [T; 3],
     /// r_j/(l·K_t)·((GᵀG)⁻¹·G_j): current over body force [A/N, A/N, A/(N·m)]
     share: [T; 3],
+    /// R [Ω]
+    resistance: T,
+    /// l·K_v [V·s]
+    emf: T,
+    /// True speed of the shaft over the speed that is read [1]
+    per_reading: T,
+}
+
+/// What a wanted motion and the feedback ask of the motors, before it is known whether that fits.
+#[derive(Clone, Copy, Debug)]
+struct Wish<const N: usize, T> {
+    demand: Demand<N, T>,
+    /// Current over the share of a force, where gears and windings lose something [1]
+    ratio: Option<[T; N]>,
+    /// E [1/s]
+    missing: [T; 3],
 }
 
 /// A motion controller, folded from its [`Settings`]; it never changes.
@@ -152,8 +169,6 @@ pub struct Controller<const N: usize, T = f32> {
     rate: T,
     /// (M, M, J), what turns with the wheels included [kg, kg, kg·m²]
     mass: [T; 3],
-    /// The same over Δt: force over change of the reference in a turn [N·s/m, N·s/m, N·m·s]
-    push: [T; 3],
     /// (B_v, B_vn, B_ω) [N·s/m, N·s/m, N·m·s]
     viscous: [T; 3],
     /// (C_v, C_vn, C_ω) [N, N, N·m]
@@ -166,11 +181,9 @@ pub struct Controller<const N: usize, T = f32> {
     current_limit: [T; N],
     least_current: T,
     braking: BrakingBand<T>,
+    /// Most voltage of a motor over the bus voltage [1], and what is kept free of it for what the bridges lose [V]
     max_duty: T,
-    /// R [Ω]
-    resistance: T,
-    /// l·K_v [V·s]
-    emf: T,
+    kept: T,
     wheels: [WheelMap<T>; N],
     compensation: CompensationTerms<N, T>,
 }
@@ -179,205 +192,148 @@ impl<const N: usize, T: Real> Controller<N, T> {
     /// One turn: sees, remembers, decides. Finite in, finite out.
     #[inline]
     pub fn tick(&self, memory: &mut Memory<T>, measured: &Measurement<N, T>, want: BodyTwist<T>) -> Output<N, T> {
-        self.tick_within_limits(memory, measured, want).unwrap_or_else(|| self.tick_compensated(memory, measured, want))
-    }
-
-    /// The turn of most turns, in which nothing is undone and everything fits; `None`, and nothing remembered, where it is
-    /// not one of these.
-    #[inline]
-    pub fn tick_within_limits(
-        &self,
-        memory: &mut Memory<T>,
-        measured: &Measurement<N, T>,
-        want: BodyTwist<T>,
-    ) -> Option<Output<N, T>> {
-        if self.flags == 0 { self.tick_unlimited::<false>(memory, measured, want) } else { None }
+        if self.flags & terms::IMMOBILE != 0 {
+            return tick_immobile(memory);
+        }
+        let one = T::one();
+        let x = memory.reference.to_array();
+        let change = self.limiter.change(memory.reference, want).to_array();
+        // x⁺ = x + δ,  a = δ/Δt
+        let (next, a) = (add_scaled(x, one, change), scaled(self.rate, change));
+        let feedback = Some((measured, memory.integral));
+        let Wish { demand, ratio, missing } = self.wish(&memory.reference, next, a, memory.heading, feedback);
+        let mut output = Output { current: demand.current, voltage: demand.voltage, headroom: one, steady: one };
+        let most = self.most_voltage(measured.bus);
+        if !self.braking.is_free(measured.bus) || !admits(self.least_current, most, &demand.current, &demand.voltage) {
+            self.limit(measured, a, ratio, &mut output);
+        }
+        let (s, k) = (output.headroom, output.steady);
+        // x ← x + s·δ
+        let after = if k < one { self.brought_back(x, k) } else { add_scaled(x, s, change) };
+        memory.reference = BodyTwist::from_array(after);
+        for (sum, missing) in memory.integral.iter_mut().zip(missing) {
+            // I ← I + l·K_t·k_i·Δt·E, which only shrinks where it has no room
+            if k >= one || *sum * missing < T::zero() {
+                *sum += self.integral_gain * missing;
+            }
+        }
+        self.advance_heading(memory, x[2]);
+        if self.flags & terms::LAST != 0 {
+            self.ask_bridges_and_sensors(&mut output.current, &mut output.voltage);
+        }
+        output
     }
 
     /// What the motors have to do so that the robot, moving with `twist`, accelerates as wanted, effects undone, with no
     /// feedback and no limit; `heading` [rad] matters to effects that are fixed in the world.
     #[inline]
     pub fn feedforward(&self, twist: BodyTwist<T>, acceleration: BodyTwist<T>, heading: T) -> Demand<N, T> {
-        let (x, a) = (twist.to_array(), acceleration.to_array());
+        let a = acceleration.to_array();
         // what follows next, so little later that it is x unless x is zero
-        let next = add_scaled(x, T::lit(AHEAD), a);
-        if self.flags == 0 {
-            self.demand::<false>(x, next, self.inertial(a), a, heading, None).0
-        } else {
-            let (mut demand, _) = self.demand::<true>(x, next, self.inertial(a), a, heading, None);
-            self.compensate_bridges_and_sensors(&mut demand.current, &mut demand.voltage);
-            demand
+        let next = add_scaled(twist.to_array(), T::lit(AHEAD), a);
+        let mut demand = self.wish(&twist, next, a, heading, None).demand;
+        if self.flags & terms::LAST != 0 {
+            self.ask_bridges_and_sensors(&mut demand.current, &mut demand.voltage);
         }
+        demand
     }
 
-    /// Any other turn. By itself, so that most stay short; where nothing is undone, undoing it changes nothing.
-    #[inline(never)]
-    fn tick_compensated(
-        &self,
-        memory: &mut Memory<T>,
-        measured: &Measurement<N, T>,
-        want: BodyTwist<T>,
-    ) -> Output<N, T> {
-        if self.flags & terms::IMMOBILE != 0 {
-            return tick_immobile(memory);
-        }
-        self.tick_unlimited::<true>(memory, measured, want).unwrap_or_else(|| self.tick_limited(memory, measured, want))
-    }
-
-    /// A turn in which everything fits, with or without effects undone.
+    /// What the motors have to do for a motion, from `twist` to `next` with the acceleration `a`, and for what the wheels that
+    /// are measured miss of it.
     #[inline(always)]
-    fn tick_unlimited<const COMPENSATE: bool>(
+    fn wish(
         &self,
-        memory: &mut Memory<T>,
-        measured: &Measurement<N, T>,
-        want: BodyTwist<T>,
-    ) -> Option<Output<N, T>> {
-        if !self.braking.is_free(measured.bus) {
-            return None;
-        }
-        let x = memory.reference;
-        let change = self.limiter.change(x, want);
-        // x⁺ = x + δ
-        let next = BodyTwist { v: x.v + change.v, vn: x.vn + change.vn, w: x.w + change.w };
-        let change = change.to_array();
-        // M·a = (M/Δt)·δ
-        let inertial = array::from_fn(|k| self.push[k] * change[k]);
-        let a = if COMPENSATE { scaled(self.rate, change) } else { change };
-        let feedback = Some((measured, memory.integral));
-        let (mut demand, missing) =
-            self.demand::<COMPENSATE>(x.to_array(), next.to_array(), inertial, a, memory.heading, feedback);
-        if !self.limits::<COMPENSATE>(measured).admits(&demand.current, &demand.voltage) {
-            return None;
-        }
-        memory.reference = next;
-        for (sum, missing) in memory.integral.iter_mut().zip(missing) {
-            // I ← I + l·K_t·k_i·Δt·E
-            *sum += self.integral_gain * missing;
-        }
-        if COMPENSATE {
-            self.advance_heading(memory, x.w);
-            self.compensate_bridges_and_sensors(&mut demand.current, &mut demand.voltage);
-        }
-        let Demand { current, voltage, .. } = demand;
-        Some(Output { current, voltage, headroom: T::one(), steady: T::one() })
-    }
-
-    /// M·a [N, N, N·m].
-    #[inline(always)]
-    fn inertial(&self, a: [T; 3]) -> [T; 3] {
-        array::from_fn(|k| self.mass[k] * a[k])
-    }
-
-    /// What the motors have to do, and what the wheels miss; `a` is looked at where effects are undone alone.
-    #[inline(always)]
-    fn demand<const COMPENSATE: bool>(
-        &self,
-        x: [T; 3],
+        twist: &BodyTwist<T>,
         next: [T; 3],
-        inertial: [T; 3],
         a: [T; 3],
         heading: T,
         feedback: Option<(&Measurement<N, T>, [T; 3])>,
-    ) -> (Demand<N, T>, [T; 3]) {
-        let mut force: [T; 3] = array::from_fn(|k| {
-            // F = C·sign(x⁺) + M·a + B·x
-            toward(self.coulomb[k], next[k]) + inertial[k] + self.viscous[k] * x[k]
-        });
-        let lead = if COMPENSATE { self.compensate_forces(x, a, heading, &mut force) } else { [T::zero(); N] };
-        let mut wheel_speed = [T::zero(); N];
+    ) -> Wish<N, T> {
+        let x = twist.to_array();
+        // F_s = C·sign(x⁺) + B·x,  F_a = M·a
+        let mut steady: [T; 3] = array::from_fn(|k| toward(self.coulomb[k], next[k]) + self.viscous[k] * x[k]);
+        if self.flags & terms::FORCES != 0 {
+            steady = add_scaled(steady, T::one(), self.undoing_force(twist, a, heading));
+        }
+        let accelerating = self.accelerating_force(a);
+        // ω_j = G_j·x/r_j
+        let mut wheel_speed: [T; N] = array::from_fn(|j| dot(self.wheels[j].row, x));
+        if self.flags & terms::CONTACT != 0 {
+            let force = add_scaled(steady, T::one(), accelerating);
+            wheel_speed = self.leading_speeds(a, force, wheel_speed);
+        }
         let mut missing = [T::zero(); 3];
-        for j in 0..N {
-            let row = self.wheels[j].row;
-            // ω_j = G_j·x/r_j
-            wheel_speed[j] = dot(row, x);
-            if COMPENSATE {
-                wheel_speed[j] += lead[j];
-            }
-            if let Some((measured, _)) = feedback {
-                // E = Σ_j G_j/r_j·(ω_j − ω̂_j)
-                let error = wheel_speed[j] - measured.wheel_speed[j];
-                missing = if j == 0 { scaled(error, row) } else { add_scaled(missing, error, row) };
-            }
-        }
-        if let Some((_, integral)) = feedback {
+        if let Some((measured, integral)) = feedback {
+            let error: [T; N] =
+                array::from_fn(|j| wheel_speed[j] - self.wheels[j].per_reading * measured.wheel_speed[j]);
+            // E = Σ_j G_j/r_j·(ω_j − ω̂_j)
+            let missed = |k: usize, j: usize| self.wheels[j].row[k] * error[j];
+            missing = array::from_fn(|k| (1..N).fold(missed(k, 0), |sum, j| sum + missed(k, j)));
             for k in 0..3 {
-                // F ← F + I + l·K_t·k_p·E
-                force[k] = force[k] + integral[k] + self.gain * missing[k];
+                // F_s ← F_s + I + l·K_t·k_p·E
+                steady[k] = steady[k] + integral[k] + self.gain * missing[k];
             }
         }
-        let mut current: [T; N] = array::from_fn(|j| dot(self.wheels[j].share, force));
-        if COMPENSATE {
-            self.compensate_gear_losses(&wheel_speed, &mut current);
+        let mut current = self.currents(add_scaled(steady, T::one(), accelerating));
+        let mut ratio = None;
+        if self.flags & terms::RATIO != 0 {
+            let ratios = self.current_ratios(wheel_speed, current);
+            current = array::from_fn(|j| ratios[j] * current[j]);
+            ratio = Some(ratios);
         }
-        let voltage = array::from_fn(|j| {
-            let (resistance, emf) = self.winding::<COMPENSATE>(j);
-            // u_j = R·i_j + l·K_v·ω_j
-            resistance * current[j] + emf * wheel_speed[j]
-        });
-        (Demand { wheel_speed, current, voltage }, missing)
+        // u_j = R·i_j + l·K_v·ω_j
+        let voltage = array::from_fn(|j| self.wheels[j].resistance * current[j] + self.wheels[j].emf * wheel_speed[j]);
+        Wish { demand: Demand { wheel_speed, current, voltage }, ratio, missing }
     }
 
-    /// R [Ω] and l·K_v [V·s] of a wheel's motor.
+    /// F_a = M·a [N, N, N·m].
     #[inline(always)]
-    fn winding<const COMPENSATE: bool>(&self, j: usize) -> (T, T) {
-        if COMPENSATE { self.compensation.winding[j] } else { (self.resistance, self.emf) }
+    fn accelerating_force(&self, a: [T; 3]) -> [T; 3] {
+        let force = array::from_fn(|k| self.mass[k] * a[k]);
+        if self.flags & terms::COUPLING == 0 { force } else { add_scaled(force, T::one(), self.coupling_force(a)) }
     }
 
-    /// What the motors may be asked for in this turn.
+    /// Currents for a force on the body, where nothing is lost on the way [A].
     #[inline(always)]
-    fn limits<const COMPENSATE: bool>(&self, measured: &Measurement<N, T>) -> MotorLimits<'_, N, T> {
-        let most = measured.bus * self.max_duty;
-        MotorLimits {
-            current: &self.current_limit,
-            least_current: self.least_current,
-            braking: self.braking.share(measured.bus),
-            voltage: if COMPENSATE { most - self.compensation.kept } else { most },
-        }
+    fn currents(&self, force: [T; 3]) -> [T; N] {
+        array::from_fn(|j| dot(self.wheels[j].share, force))
     }
 
-    /// A turn whose wish does not fit, from its beginning: one that fits then carries nothing for this one.
+    /// Most voltage of a motor [V].
+    #[inline(always)]
+    fn most_voltage(&self, bus: T) -> T {
+        (bus * self.max_duty - self.kept).max(T::zero())
+    }
+
+    /// Leaves of a wish that does not fit what does.
     #[cold]
     #[inline(never)]
-    fn tick_limited(&self, memory: &mut Memory<T>, measured: &Measurement<N, T>, want: BodyTwist<T>) -> Output<N, T> {
-        let zero = T::zero();
-        let x = memory.reference;
-        let change = self.limiter.change(x, want).to_array();
-        let (a, next) = (scaled(self.rate, change), add_scaled(x.to_array(), T::one(), change));
-        let feedback = Some((measured, memory.integral));
-        let (demand, missing) = self.demand::<true>(x.to_array(), next, self.inertial(a), a, memory.heading, feedback);
-        let limits = self.limits::<true>(measured);
-        let wheel_speed = demand.wheel_speed;
-        // q, what of the currents accelerates; p, the rest
-        let mut force = self.inertial(a);
-        self.compensate_coupling(a, &mut force);
-        let mut accelerating: [T; N] = array::from_fn(|j| dot(self.wheels[j].share, force));
-        self.compensate_gear_losses_as(&wheel_speed, &demand.current, &mut accelerating);
-        let limited = MotorLimits { voltage: limits.voltage.max(zero), ..limits }.limit(&SplitDemand {
-            steady: array::from_fn(|j| demand.current[j] - accelerating[j]),
-            accelerating,
-            emf: array::from_fn(|j| self.winding::<true>(j).1 * wheel_speed[j]),
-            speed: measured.wheel_speed,
-            resistance: array::from_fn(|j| self.winding::<true>(j).0),
-        });
-        let (mut current, mut voltage) = (limited.current, limited.voltage);
-        let (s, k) = (limited.scaling.acceleration, limited.scaling.steady);
-        let change = if k < T::one() {
-            // back towards what fits, k·x
-            self.limiter.change(x, BodyTwist { v: k * x.v, vn: k * x.vn, w: k * x.w })
-        } else {
-            // s·δ
-            BodyTwist::from_array(scaled(s, change))
-        };
-        memory.reference = BodyTwist { v: x.v + change.v, vn: x.vn + change.vn, w: x.w + change.w };
-        for (sum, missing) in memory.integral.iter_mut().zip(missing) {
-            // an integral that has no room only shrinks
-            if k >= T::one() || *sum * missing < zero {
-                *sum += self.integral_gain * missing;
-            }
+    fn limit(&self, measured: &Measurement<N, T>, a: [T; 3], ratio: Option<[T; N]>, wish: &mut Output<N, T>) {
+        let share = self.currents(self.accelerating_force(a));
+        // q, what of the currents accelerates
+        let accelerating: [T; N] = array::from_fn(|j| ratio.map_or(share[j], |ratio| ratio[j] * share[j]));
+        let limited = MotorLimits {
+            current: &self.current_limit,
+            braking: self.braking.share(measured.bus),
+            voltage: self.most_voltage(measured.bus),
         }
-        self.advance_heading(memory, x.w);
-        self.compensate_bridges_and_sensors(&mut current, &mut voltage);
-        Output { current, voltage, headroom: s, steady: k }
+        .limit(&SplitDemand {
+            current: wish.current,
+            voltage: wish.voltage,
+            accelerating,
+            speed: measured.wheel_speed,
+            resistance: self.wheels.map(|wheel| wheel.resistance),
+        });
+        let Scaling { acceleration: headroom, steady } = limited.scaling;
+        *wish = Output { current: limited.current, voltage: limited.voltage, headroom, steady };
+    }
+
+    /// The reference after a turn in which a share of the steady part fits: on its way, within its limits, to what does.
+    #[cold]
+    #[inline(never)]
+    fn brought_back(&self, x: [T; 3], share: T) -> [T; 3] {
+        let back = self.limiter.change(BodyTwist::from_array(x), BodyTwist::from_array(scaled(share, x)));
+        add_scaled(x, T::one(), back.to_array())
     }
 }
 

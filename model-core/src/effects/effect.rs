@@ -4,10 +4,10 @@ use core::fmt::Debug;
 
 use super::card::Card;
 use super::seams::{
-    Body, BodyMotion, Bridge, Contact, EffectContext, Gear, RimMotion, Sense, Shaft, SpeedDrive, StepOutcome, Supply,
-    Winding,
+    Body, Bridge, Contact, EffectContext, Gear, Sense, Shaft, SpeedDrive, StepOutcome, Supply, Winding,
 };
 use super::telegram::{Command, Delivery};
+use super::undoing::{BodyMotion, BridgeDemand, BridgeRoom, Place, RimMotion};
 use crate::number::scalar::Real;
 
 /// What the plant keeps up only while an effect looks at it. An effect that has not asked for it is told NaN, so that a law
@@ -87,6 +87,8 @@ pub trait Hooks<T: Real>: Copy + Debug {
     const SETTLES_CONTACT: bool = false;
     /// What it looks at that the plant keeps up only for effects that need it.
     const NEEDS: Needs = Needs::NOTHING;
+    /// Where a controller undoes it in every turn, with the hook of that place.
+    const UNDONE_AT: Option<Place> = None;
 
     /// Telegram: command that is sent → command that arrives; `delivery` is none where nothing new is sent. Asked once for
     /// every input, it may change what is remembered.
@@ -132,27 +134,33 @@ pub trait Hooks<T: Real>: Copy + Debug {
     // What a controller asks for in every turn so that the motion is as if the effect were not there. Everything follows
     // the motion that is wanted and never one that is measured: dry friction that did would chatter around standstill.
 
-    /// Force to give to the body.
+    /// [`Place::Body`]: force to give to the body.
     #[inline]
     fn undo_body(&self, motion: &BodyMotion<T>, force: &mut [T; 3]) {}
-    /// Torque to give to a wheel's shaft [N·m].
+    /// [`Place::Rollers`]: force to give to the body along a wheel's axle [N], whose contact moves that way with a speed in
+    /// the middle of the turn [m/s].
+    #[inline]
+    fn undo_rollers(&self, speed: T, force: &mut T) {}
+    /// [`Place::Shaft`]: torque to give to a wheel's shaft [N·m].
     #[inline]
     fn undo_shaft(&self, motion: &RimMotion<T>, torque: &mut T) {}
-    /// Motor torque over the torque wanted at the wheel [1], by the sign of the torque and the wheel's speed [rad/s].
-    #[inline]
-    fn undo_gear(&self, torque: T, wheel_speed: T, ratio: &mut T) {}
-    /// Speed by which the rim leads the floor [m/s], at a force on the floor [N].
+    /// [`Place::Contact`]: speed by which the rim leads the floor [m/s], at a force on the floor [N].
     #[inline]
     fn undo_contact(&self, traction: T, slip: &mut T) {}
-    /// Voltage to ask a bridge for [V], at a current [A].
+    /// [`Place::Gear`]: motor torque over the torque wanted at the wheel [1], by the sign of the torque and the wheel's
+    /// speed [rad/s].
     #[inline]
-    fn undo_bridge(&self, current: T, voltage: &mut T) {}
-    /// The most that [`Hooks::undo_bridge`] adds [V]; it is kept free.
+    fn undo_gear(&self, torque: T, wheel_speed: T, ratio: &mut T) {}
+    /// [`Place::Winding`]: current over the one that would do if all amperes gave the same torque [1], at that one [A].
     #[inline]
-    fn bridge_reserve(&self) -> T {
-        T::zero()
-    }
-    /// Current to ask a loop for that is closed on the sensor [A].
+    fn undo_winding(&self, current: T, ratio: &mut T) {}
+    /// [`Place::Bridge`]: voltage to ask a bridge for [V].
+    #[inline]
+    fn undo_bridge(&self, demand: &BridgeDemand<T>, voltage: &mut T) {}
+    /// What [`Hooks::undo_bridge`] needs of the voltage is kept free.
+    #[inline]
+    fn bridge_room(&self, room: &mut BridgeRoom<T>) {}
+    /// [`Place::Reading`]: current to ask a loop for that is closed on the sensor [A].
     #[inline]
     fn undo_reading(&self, current: &mut T) {}
 }

@@ -163,9 +163,9 @@ macro_rules! catalogue {
                 match self { $(EffectKind::$Name => const { $stage::$file::CARD.undone.possible() }),* }
             }
 
-            /// True if it undoes it in every turn.
-            pub const fn undone_by_turn(self) -> bool {
-                match self { $(EffectKind::$Name => const { matches!($stage::$file::CARD.undone, Undone::By(_)) }),* }
+            /// Where in every turn it undoes it.
+            pub const fn undone_at(self) -> Option<Place> {
+                match self { $(EffectKind::$Name => <$stage::$file::$Name<f32> as Hooks<f32>>::UNDONE_AT),* }
             }
 
             /// The effect with these parameters, in the card's order; `None` where they are not as many.
@@ -195,40 +195,68 @@ macro_rules! catalogue {
                 match self { $(Effect::$Name(e) => e.undo_body(motion, force)),* }
             }
 
-            /// [`Hooks::undo_shaft`]
+            /// [`Hooks::undo_rollers`] of all wheels that it sits on.
             #[inline]
-            pub fn undo_shaft(&self, motion: &RimMotion<T>, torque: &mut T) {
-                match self { $(Effect::$Name(e) => e.undo_shaft(motion, torque)),* }
+            pub fn undo_rollers<const N: usize>(&self, wheels: Wheels, speed: &[T; N], force: &mut [T; N]) {
+                match self { $(Effect::$Name(e) => wheels.each::<N>(|j| e.undo_rollers(speed[j], &mut force[j]))),* }
             }
 
-            /// [`Hooks::undo_gear`]
+            /// [`Hooks::undo_shaft`] of all wheels that it sits on.
             #[inline]
-            pub fn undo_gear(&self, torque: T, wheel_speed: T, ratio: &mut T) {
-                match self { $(Effect::$Name(e) => e.undo_gear(torque, wheel_speed, ratio)),* }
+            pub fn undo_shaft<const N: usize>(
+                &self,
+                wheels: Wheels,
+                motion: &[RimMotion<T>; N],
+                torque: &mut [T; N],
+            ) {
+                match self { $(Effect::$Name(e) => wheels.each::<N>(|j| e.undo_shaft(&motion[j], &mut torque[j]))),* }
             }
 
-            /// [`Hooks::undo_contact`]
+            /// [`Hooks::undo_contact`] of all wheels that it sits on.
             #[inline]
-            pub fn undo_contact(&self, traction: T, slip: &mut T) {
-                match self { $(Effect::$Name(e) => e.undo_contact(traction, slip)),* }
+            pub fn undo_contact<const N: usize>(&self, wheels: Wheels, traction: &[T; N], slip: &mut [T; N]) {
+                match self { $(Effect::$Name(e) => wheels.each::<N>(|j| e.undo_contact(traction[j], &mut slip[j]))),* }
             }
 
-            /// [`Hooks::undo_bridge`]
+            /// [`Hooks::undo_gear`] of all wheels that it sits on.
             #[inline]
-            pub fn undo_bridge(&self, current: T, voltage: &mut T) {
-                match self { $(Effect::$Name(e) => e.undo_bridge(current, voltage)),* }
+            pub fn undo_gear<const N: usize>(
+                &self,
+                wheels: Wheels,
+                torque: &[T; N],
+                wheel_speed: &[T; N],
+                ratio: &mut [T; N],
+            ) {
+                match self { $(Effect::$Name(e) => wheels.each::<N>(|j| e.undo_gear(torque[j], wheel_speed[j], &mut ratio[j]))),* }
             }
 
-            /// [`Hooks::bridge_reserve`]
+            /// [`Hooks::undo_winding`] of all wheels that it sits on.
             #[inline]
-            pub fn bridge_reserve(&self) -> T {
-                match self { $(Effect::$Name(e) => e.bridge_reserve()),* }
+            pub fn undo_winding<const N: usize>(&self, wheels: Wheels, current: &[T; N], ratio: &mut [T; N]) {
+                match self { $(Effect::$Name(e) => wheels.each::<N>(|j| e.undo_winding(current[j], &mut ratio[j]))),* }
             }
 
-            /// [`Hooks::undo_reading`]
+            /// [`Hooks::undo_bridge`] of all wheels that it sits on.
             #[inline]
-            pub fn undo_reading(&self, current: &mut T) {
-                match self { $(Effect::$Name(e) => e.undo_reading(current)),* }
+            pub fn undo_bridge<const N: usize>(
+                &self,
+                wheels: Wheels,
+                demand: &[BridgeDemand<T>; N],
+                voltage: &mut [T; N],
+            ) {
+                match self { $(Effect::$Name(e) => wheels.each::<N>(|j| e.undo_bridge(&demand[j], &mut voltage[j]))),* }
+            }
+
+            /// [`Hooks::bridge_room`]
+            #[inline]
+            pub fn bridge_room(&self, room: &mut BridgeRoom<T>) {
+                match self { $(Effect::$Name(e) => e.bridge_room(room)),* }
+            }
+
+            /// [`Hooks::undo_reading`] of all wheels that it sits on.
+            #[inline]
+            pub fn undo_reading<const N: usize>(&self, wheels: Wheels, current: &mut [T; N]) {
+                match self { $(Effect::$Name(e) => wheels.each::<N>(|j| e.undo_reading(&mut current[j]))),* }
             }
         }
 

@@ -14,6 +14,8 @@ pub mod shows;
 
 pub mod seams;
 
+pub mod undoing;
+
 mod changes;
 
 mod bridges;
@@ -105,8 +107,8 @@ pub mod sensing {
 }
 
 mod list {
-    use super::card::{Card, Scope, Seam, Undone};
-    use super::seams::{BodyMotion, RimMotion};
+    use super::card::{Card, Scope, Seam};
+    use super::undoing::{BodyMotion, BridgeDemand, BridgeRoom, Place, RimMotion, Wheels};
     use super::{Catalogued, Hooks, body, contact, drivetrain, electrical, sensing};
     use crate::number::scalar::Real;
 

@@ -362,39 +362,3 @@ pub struct StepOutcome<T> {
     /// Bus voltage [V]
     pub bus: T,
 }
-
-/// The motion that a controller asks for, as an effect on the body is undone along it.
-#[derive(Clone, Copy, Debug)]
-pub struct BodyMotion<T> {
-    /// Mass of the body alone [kg]
-    pub mass: T,
-    /// Velocity in the body frame
-    pub twist: BodyTwist<T>,
-    /// Heading in the middle of the turn [rad]
-    pub heading: T,
-}
-
-/// The same of one wheel, as an effect on its shaft is undone along it.
-#[derive(Clone, Copy, Debug)]
-pub struct RimMotion<T> {
-    /// This wheel's share of the body's Coulomb friction, as a torque [N·m]
-    pub coulomb_share: T,
-    /// Speed of the rim over the floor [m/s]
-    pub speed: T,
-    /// The same in the middle of the turn [m/s]
-    pub ahead: T,
-    /// 1/radius [1/m]
-    pub per_radius: T,
-}
-
-/// Nearer to standstill than this, a rim's friction has no direction to be undone in [m/s]: less than a turn adds, more
-/// than rounding.
-const STILL: f64 = 1e-5;
-
-impl<T: Real> RimMotion<T> {
-    /// Which way the rim goes, from −1 to 1; between them only where it all but stands still.
-    #[inline]
-    pub fn way(&self) -> T {
-        (self.ahead * T::lit(1.0 / STILL)).clamp(-T::one(), T::one())
-    }
-}

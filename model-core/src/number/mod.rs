@@ -8,6 +8,8 @@ pub mod scalar;
 
 pub mod trig;
 
+pub mod exponential;
+
 pub mod root;
 
 pub(crate) mod decay;

@@ -8,6 +8,7 @@ use core::cmp::Ordering;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use crate::number::exponential;
 use crate::number::root;
 use crate::number::trig;
 
@@ -209,13 +210,17 @@ impl Real for f32 {
     }
     #[inline]
     fn exp(self) -> Self {
-        libm::expf(self)
+        exponential::exp_f32(self)
     }
     #[inline]
     fn pow(self, y: Self) -> Self {
-        // xʸ = e^(y·ln x): a third of the code of `powf`, to 10⁻⁶ where it is used, |y·ln x| < 10
-        if self > 0.0 {
-            libm::expf(y * libm::logf(self))
+        // xʸ = e^(y·ln x), to 10⁻⁶ where it is used, |y·ln x| < 10; the powers that laws have need neither
+        if y == 2.0 {
+            self * self
+        } else if y == 1.0 {
+            self
+        } else if self > 0.0 {
+            exponential::exp_f32(y * exponential::ln_f32(self))
         } else if y == 0.0 {
             1.0
         } else {

@@ -1,13 +1,15 @@
 //! From settings to a controller: everything that does not change from turn to turn, worked out once.
 
+use core::array;
+
 use super::terms::{self, CompensationTerms};
 use super::{Controller, Settings, WheelMap};
 use crate::control::braking::BrakingBand;
 use crate::control::compensation::Compensation;
 use crate::control::reference::AccelerationLimiter;
 use crate::effects::EffectSet;
-use crate::effects::card::Seam;
 use crate::effects::seams::{EffectContext, Shaft, Winding};
+use crate::effects::undoing::{BridgeRoom, Place};
 use crate::geometry::kinematics::{Wheel, Wheels};
 use crate::number::linalg::accumulate_outer;
 use crate::number::scalar::Real;
@@ -67,7 +69,6 @@ impl<const N: usize, T: Real> Controller<N, T> {
         let mut all_rows = [[zero; 3]; N];
         let mut push = [zero; N];
         let mut spin = [zero; N];
-        let mut windings = [(zero, zero); N];
         let mut turning = [[zero; 3]; 3];
         for j in 0..N {
             let rim = robot.wheels.wheels()[j].rim();
@@ -77,8 +78,10 @@ impl<const N: usize, T: Real> Controller<N, T> {
             drives[j] = WheelMap {
                 row: if settings.working[j] { all_rows[j] } else { [zero; 3] },
                 share: rows[j].map(|share| rim.wheel_torque(share) / winding.torque_constant),
+                resistance: winding.resistance,
+                emf: winding.emf_constant * on,
+                per_reading: one,
             };
-            windings[j] = (winding.resistance, winding.emf_constant * on);
             push[j] = rim.force(winding.torque_constant);
             spin[j] = rim.force(inertia);
             // M → M + Σ J_w/r²·G_jᵀ·G_j: a lost wheel turns along
@@ -94,13 +97,14 @@ impl<const N: usize, T: Real> Controller<N, T> {
             on * (robot.mass + turning[1][1]),
             on * (robot.inertia + turning[2][2]),
         ];
+        let room = bridge_room(compensation);
+        let places = places(compensation);
         let mut controller = Self {
-            flags: flags(settings, moves, coupled),
+            flags: flags(&places, settings.feedforward, moves, coupled),
             limiter: AccelerationLimiter::new([zero; 3], dt),
             reduced: [plane, turn],
             rate: one / dt,
             mass,
-            push: mass.map(|m| m / dt),
             viscous: robot.friction.viscous.map(|b| on * b),
             coulomb: robot.friction.coulomb.map(|c| on * c),
             gain: kt * settings.feedback,
@@ -108,21 +112,20 @@ impl<const N: usize, T: Real> Controller<N, T> {
             current_limit: [settings.current_limit; N],
             least_current: settings.current_limit,
             braking: settings.braking,
-            max_duty: settings.max_duty,
-            resistance: robot.motor.resistance,
-            emf: robot.motor.wheel_emf_constant() * on,
+            max_duty: room.share * settings.max_duty,
+            kept: room.kept,
             wheels: drives,
             compensation: CompensationTerms {
                 effects: *compensation,
-                winding: windings,
+                places,
                 mass: robot.mass,
                 half: T::lit(0.5) * dt,
                 coulomb_share: robot.coulomb_shares(),
                 rows: all_rows,
+                axles: array::from_fn(|_| [zero; 3]),
                 radius: robot.wheels.wheels().map(|wheel| wheel.radius),
                 per_radius: robot.wheels.wheels().map(|wheel| one / wheel.radius),
-                turning,
-                kept: (0..N).fold(zero, |most, j| most.max(bridge_reserve(compensation, j))),
+                coupling: array::from_fn(|i| array::from_fn(|k| if i == k { zero } else { turning[i][k] })),
                 push,
                 spin,
             },
@@ -179,22 +182,35 @@ fn undone_wheel<const N: usize, T: Real>(settings: &Settings<N, T>, j: usize) ->
     (winding, shaft.inertia)
 }
 
-/// The most that the bridge of a wheel is asked for besides [V].
-fn bridge_reserve<const N: usize, T: Real>(compensation: &Compensation<N, T>, j: usize) -> T {
-    compensation.on(j).fold(T::zero(), |sum, undo| sum + undo.effect.bridge_reserve())
+/// What the bridges leave of the voltage, each wheel's own added up, and the least of them.
+fn bridge_room<const N: usize, T: Real>(compensation: &Compensation<N, T>) -> BridgeRoom<T> {
+    let whole = BridgeRoom { share: T::one(), kept: T::zero() };
+    (0..N).fold(whole, |least, j| {
+        let mut room = whole;
+        compensation.on(j).for_each(|undo| undo.effect.bridge_room(&mut room));
+        BridgeRoom { share: least.share.min(room.share), kept: least.kept.max(room.kept) }
+    })
+}
+
+/// Which effects are undone where.
+fn places<const N: usize, T: Real>(compensation: &Compensation<N, T>) -> [u32; Place::COUNT] {
+    let mut places = [0; Place::COUNT];
+    for (k, undo) in compensation.iter().enumerate() {
+        if let Some(place) = undo.effect.kind().undone_at() {
+            places[place as usize] |= 1 << k;
+        }
+    }
+    places
 }
 
 /// Which parts of a turn's `compensation` there is something to do in.
-fn flags<const N: usize, T: Real>(settings: &Settings<N, T>, moves: bool, coupled: bool) -> u32 {
-    let kinds = || settings.compensation.iter().map(|undo| undo.effect.kind());
-    let at = |seam: Seam| kinds().any(|kind| kind.undone_by_turn() && kind.home() == seam);
-    let motion = settings.feedforward;
+fn flags(places: &[u32; Place::COUNT], motion: bool, moves: bool, coupled: bool) -> u32 {
+    let undone = |at: &[Place]| at.iter().any(|place| places[*place as usize] != 0);
     let bit = |there: bool, bit: u32| if there { bit } else { 0 };
     bit(!moves, terms::IMMOBILE)
-        | bit(motion && (at(Seam::Gear) || at(Seam::Body)), terms::FORCES)
+        | bit(motion && undone(&[Place::Body, Place::Rollers, Place::Shaft]), terms::FORCES)
         | bit(motion && coupled, terms::COUPLING)
-        | bit(at(Seam::Gear), terms::GEAR)
-        | bit(motion && at(Seam::Contact), terms::CONTACT)
-        | bit(kinds().any(|kind| kind.home() == Seam::Winding), terms::WINDINGS)
-        | bit(at(Seam::Bridge) || at(Seam::Sense), terms::LAST)
+        | bit(motion && undone(&[Place::Contact]), terms::CONTACT)
+        | bit(undone(&[Place::Gear, Place::Winding]), terms::RATIO)
+        | bit(undone(&[Place::Bridge, Place::Reading]), terms::LAST)
 }

@@ -1,32 +1,29 @@
 //! What is folded of the effects that a controller undoes.
-//!
-//! One word of flags says at which places there is anything to undo.
 
 use crate::control::compensation::Compensation;
+use crate::effects::undoing::Place;
 use crate::number::linalg::Mat3;
 
 /// The robot cannot move.
 pub(super) const IMMOBILE: u32 = 1;
-/// Forces on the body or torques at the wheels' shafts are given.
+/// Forces on the body are given.
 pub(super) const FORCES: u32 = 1 << 1;
-/// What turns with the wheels couples the axes; where it does not, it is in the mass.
+/// What moves couples the axes; where it does not, it is in the mass.
 pub(super) const COUPLING: u32 = 1 << 2;
-/// Gears lose a share of the torque.
-pub(super) const GEAR: u32 = 1 << 3;
 /// Contacts give way.
-pub(super) const CONTACT: u32 = 1 << 4;
-/// The windings are not alike.
-pub(super) const WINDINGS: u32 = 1 << 5;
+pub(super) const CONTACT: u32 = 1 << 3;
+/// Gears lose a share of the torque, or windings of theirs.
+pub(super) const RATIO: u32 = 1 << 4;
 /// Bridges lose a voltage, or sensors read another current: undone last.
-pub(super) const LAST: u32 = 1 << 6;
+pub(super) const LAST: u32 = 1 << 5;
 
 /// The effects that are undone, and what they are given of the robot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CompensationTerms<const N: usize, T> {
     /// The effects
     pub effects: Compensation<N, T>,
-    /// R [Ω] and l·K_v [V·s] of each motor
-    pub winding: [(T, T); N],
+    /// Which of them are undone at each place: bit k is the effect that was added k-th
+    pub places: [u32; Place::COUNT],
     /// M of the body alone, which forces on the body are counted on [kg]
     pub mass: T,
     /// Half a turn [s]
@@ -35,14 +32,14 @@ pub(super) struct CompensationTerms<const N: usize, T> {
     pub coulomb_share: [T; N],
     /// G_j/r_j of every wheel, a lost one too [1/m, 1/m, 1]
     pub rows: [[T; 3]; N],
+    /// Speed of each contact along its axle over body twist [1, 1, m]
+    pub axles: [[T; 3]; N],
     /// r [m]
     pub radius: [T; N],
     /// 1/r [1/m]
     pub per_radius: [T; N],
-    /// What turns with the wheels, as a mass matrix of the body
-    pub turning: Mat3<T>,
-    /// Voltage that is kept free for what the bridges lose [V]
-    pub kept: T,
+    /// What couples the axes, as a mass matrix of the body; its diagonal is in the mass
+    pub coupling: Mat3<T>,
     /// Force on the floor over current, l·K_t/r [N/A]
     pub push: [T; N],
     /// What of it turns the wheel, over the wheel's acceleration, J_w/r [N/(rad/s²)]

@@ -29,8 +29,9 @@
 //! only; sizes: estimated, a tenth to a half of the rolling friction on carpet.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{Body, BodyMotion, EffectContext};
+use crate::effects::seams::{Body, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{BodyMotion, Place};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -141,6 +142,7 @@ impl<T: Copy> Catalogued<T> for CarpetNap<T> {
 
 impl<T: Real> Hooks<T> for CarpetNap<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Body);
 
     fn body(&self, _: &(), at: &EffectContext<T>, x: &mut Body<T>) {
         let Nap { force, rate } = self.at(at.pose.theta, [at.twist.v, at.twist.vn]);

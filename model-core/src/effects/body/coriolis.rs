@@ -24,8 +24,9 @@
 //! derivation for the mass that turns.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{Body, BodyMotion, EffectContext};
+use crate::effects::seams::{Body, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{BodyMotion, Place};
 use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
@@ -90,6 +91,7 @@ impl<T: Copy> Catalogued<T> for Coriolis<T> {
 
 impl<T: Real> Hooks<T> for Coriolis<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Body);
 
     fn body(&self, _: &(), at: &EffectContext<T>, x: &mut Body<T>) {
         let Self { factor } = *self;

@@ -26,8 +26,9 @@
 //! Source: Gravity on an inclined plane; sizes: estimated for floors of rooms and halls, 0.2 to 2°.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{Body, BodyMotion, EffectContext, STANDARD_GRAVITY};
+use crate::effects::seams::{Body, EffectContext, STANDARD_GRAVITY};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{BodyMotion, Place};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -125,6 +126,7 @@ impl<T: Copy> Catalogued<T> for FloorTilt<T> {
 
 impl<T: Real> Hooks<T> for FloorTilt<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Body);
 
     fn body(&self, _: &(), at: &EffectContext<T>, x: &mut Body<T>) {
         let Self { tilt, direction } = *self;

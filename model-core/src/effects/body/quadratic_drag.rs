@@ -22,8 +22,9 @@
 //! 0.05 m² air makes 0.013 to 0.033 N·s²/m², what drags on the floor is estimated to add as much.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{Body, BodyMotion, EffectContext};
+use crate::effects::seams::{Body, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{BodyMotion, Place};
 use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
@@ -101,6 +102,7 @@ impl<T: Copy> Catalogued<T> for QuadraticDrag<T> {
 
 impl<T: Real> Hooks<T> for QuadraticDrag<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Body);
 
     fn body(&self, _: &(), at: &EffectContext<T>, x: &mut Body<T>) {
         x.push(force(self.drag, at.twist), rate(self.drag, at.twist));

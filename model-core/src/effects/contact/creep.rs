@@ -21,6 +21,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::Place;
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -78,6 +79,7 @@ impl<T: Copy> Catalogued<T> for Creep<T> {
 impl<T: Real> Hooks<T> for Creep<T> {
     type State = ();
     const SETTLES_CONTACT: bool = true;
+    const UNDONE_AT: Option<Place> = Some(Place::Contact);
 
     fn contact(&self, _: &(), _: &EffectContext<T>, x: &mut Contact<T>) {
         let Self { creep } = *self;

@@ -24,8 +24,9 @@
 //! third of the dry friction of a small gear, 0.005 to 0.05 N·m.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{EffectContext, Gear, RimMotion};
+use crate::effects::seams::{EffectContext, Gear};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{Place, RimMotion, way};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -97,6 +98,7 @@ impl<T: Copy> Catalogued<T> for AsymmetricFriction<T> {
 
 impl<T: Real> Hooks<T> for AsymmetricFriction<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Shaft);
 
     fn gear(&self, _: &(), _: &EffectContext<T>, x: &mut Gear<T>) {
         let (budget, bias) = budget_and_bias(self.torque);
@@ -105,7 +107,7 @@ impl<T: Real> Hooks<T> for AsymmetricFriction<T> {
     }
 
     fn undo_shaft(&self, motion: &RimMotion<T>, torque: &mut T) {
-        *torque += taken(self.torque, motion.way());
+        *torque += taken(self.torque, way(motion.speed));
     }
 }
 

@@ -26,6 +26,7 @@
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Gear};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::Place;
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -98,6 +99,7 @@ impl<T: Copy> Catalogued<T> for GearEfficiency<T> {
 
 impl<T: Real> Hooks<T> for GearEfficiency<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Gear);
 
     fn gear(&self, _: &(), at: &EffectContext<T>, x: &mut Gear<T>) {
         let Self { efficiency } = *self;

@@ -22,8 +22,9 @@
 //! Wear 82, 1982; sizes: Armstrong-Hélouvry, Dupont, Canudas de Wit, Automatica 30, 1994.
 
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{EffectContext, Gear, RimMotion};
+use crate::effects::seams::{EffectContext, Gear};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{Place, RimMotion, way};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -107,6 +108,7 @@ impl<T: Copy> Catalogued<T> for Stribeck<T> {
 
 impl<T: Real> Hooks<T> for Stribeck<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Shaft);
 
     fn gear(&self, _: &(), at: &EffectContext<T>, x: &mut Gear<T>) {
         let Self { static_excess, stribeck_speed, exponent } = *self;
@@ -116,7 +118,7 @@ impl<T: Real> Hooks<T> for Stribeck<T> {
     fn undo_shaft(&self, motion: &RimMotion<T>, torque: &mut T) {
         let left = left(self.stribeck_speed, self.exponent, motion.speed);
         // τ = e·τ_C·exp(−(|v|/v_s)^a)·sign(v)
-        *torque += self.static_excess * motion.coulomb_share * left * motion.way();
+        *torque += self.static_excess * motion.coulomb_share * left * way(motion.speed);
     }
 }
 

@@ -23,8 +23,9 @@
 //! compensation, European Journal of Control 4, 1998; sizes: estimated, 0.005 to 0.1 N·m and up to 1e-3 N·m·s.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{EffectContext, Gear, RimMotion};
+use crate::effects::seams::{EffectContext, Gear};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{Place, RimMotion, way};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -99,6 +100,7 @@ impl<T: Copy> Catalogued<T> for WheelFriction<T> {
 
 impl<T: Real> Hooks<T> for WheelFriction<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Shaft);
 
     fn gear(&self, _: &(), _: &EffectContext<T>, x: &mut Gear<T>) {
         let Self { torque, damping } = *self;
@@ -107,8 +109,7 @@ impl<T: Real> Hooks<T> for WheelFriction<T> {
     }
 
     fn undo_shaft(&self, motion: &RimMotion<T>, torque: &mut T) {
-        // ω = v/r
-        *torque += taken(self.torque, self.damping, motion.way(), motion.ahead * motion.per_radius);
+        *torque += taken(self.torque, self.damping, way(motion.speed), motion.wheel_speed);
     }
 }
 
@@ -157,11 +158,11 @@ mod tests {
     #[test]
     fn what_undoes_it_is_what_the_gear_takes_and_nothing_at_rest() {
         let friction = WheelFriction { torque: 0.02, damping: 3e-4 };
-        for (ahead, expected) in [(0.65, 0.026), (-0.65, -0.026), (0.0, 0.0)] {
-            let motion = RimMotion { coulomb_share: 0.0, speed: ahead, ahead, per_radius: 1.0 / 0.0325 };
+        for (speed, expected) in [(0.65, 0.026), (-0.65, -0.026), (0.0, 0.0)] {
+            let motion = RimMotion { coulomb_share: 0.0, speed, wheel_speed: speed / 0.0325 };
             let mut torque = 0.0;
             friction.undo_shaft(&motion, &mut torque);
-            assert!((torque - expected).abs() < 1e-15, "{ahead} m/s: {torque}");
+            assert!((torque - expected).abs() < 1e-15, "{speed} m/s: {torque}");
         }
     }
 }

@@ -23,6 +23,7 @@ use crate::effects::bridges;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{BridgeDemand, BridgeRoom, Place};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -94,6 +95,7 @@ impl<T: Copy> Catalogued<T> for DeadTime<T> {
 
 impl<T: Real> Hooks<T> for DeadTime<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Bridge);
 
     fn bridge(&self, _: &(), _: &EffectContext<T>, x: &mut Bridge<T>) {
         let Self { voltage_loss, smoothing_current } = *self;
@@ -101,12 +103,12 @@ impl<T: Real> Hooks<T> for DeadTime<T> {
         x.drop_current = x.drop_current.max(smoothing_current);
     }
 
-    fn undo_bridge(&self, current: T, voltage: &mut T) {
-        *voltage += loss(self.voltage_loss, self.smoothing_current, current);
+    fn undo_bridge(&self, demand: &BridgeDemand<T>, voltage: &mut T) {
+        *voltage += loss(self.voltage_loss, self.smoothing_current, demand.current);
     }
 
-    fn bridge_reserve(&self) -> T {
-        self.voltage_loss
+    fn bridge_room(&self, room: &mut BridgeRoom<T>) {
+        room.kept += self.voltage_loss;
     }
 }
 

@@ -21,6 +21,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::Place;
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -87,6 +88,7 @@ impl<T: Copy> Catalogued<T> for CurrentSensorGain<T> {
 
 impl<T: Real> Hooks<T> for CurrentSensorGain<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Reading);
 
     fn sense(&self, _: &(), _: &EffectContext<T>, x: &mut Sense<T>) {
         x.current = reading(self.gain_error, x.current);

@@ -18,6 +18,7 @@
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Sense};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::Place;
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -75,6 +76,7 @@ impl<T: Copy> Catalogued<T> for CurrentSensorOffset<T> {
 
 impl<T: Real> Hooks<T> for CurrentSensorOffset<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Reading);
 
     fn sense(&self, _: &(), _: &EffectContext<T>, x: &mut Sense<T>) {
         let Self { offset } = *self;

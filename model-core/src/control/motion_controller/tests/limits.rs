@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::effects::card::{Param, Scope};
+use crate::effects::undoing::BridgeRoom;
 
 /// Force on the body of these currents [N, N, N·m].
 fn body_force<const N: usize>(robot: &Robot<N, f64>, current: [f64; N]) -> [f64; 3] {
@@ -159,6 +160,13 @@ fn all_undone<const N: usize>(end: impl Fn(&Param) -> f64) -> Compensation<N> {
     compensation
 }
 
+/// The most that bridges may be asked for beyond what the bus gives [V].
+fn kept<const N: usize>(compensation: &Compensation<N>) -> f32 {
+    let mut room = BridgeRoom { share: 1.0, kept: 0.0 };
+    compensation.iter().for_each(|undo| undo.effect.bridge_room(&mut room));
+    room.kept
+}
+
 fn finite_everywhere<const N: usize>(robot: Robot<N, f32>) {
     // farthest from where the effect is absent
     let large = |p: &Param| if p.within.1 - p.absent > p.absent - p.within.0 { p.within.1 } else { p.within.0 };
@@ -184,7 +192,7 @@ fn finite_everywhere<const N: usize>(robot: Robot<N, f32>) {
             assert!(finite, "{d:?} {memory:?}");
             assert!((0.0..=1.0).contains(&d.headroom) && (0.0..=1.0).contains(&d.steady));
             assert!(memory.heading.abs() < 3.2);
-            let kept: f32 = compensation.iter().map(|undo| undo.effect.bridge_reserve()).sum();
+            let kept = kept(&compensation);
             let most = (0.95 * bus).max(0.0) + kept;
             assert!(d.voltage.iter().all(|u| u.abs() <= most * 1.000_001), "{d:?} {bus}");
         }
