@@ -13,6 +13,8 @@
 //!
 //! How to get the numbers: `omni-gap diagnose`, which writes them into `corrected_robot.toml`.
 
+mod own_wheels;
+
 use crate::effects::active::MOST_UNDONE;
 use crate::effects::undoing::Wheels;
 use crate::effects::{Effect, EffectKind};
@@ -105,7 +107,36 @@ impl<const N: usize, T: Real> Compensation<N, T> {
         self.iter().filter(move |undo| undo.wheels.contain(wheel))
     }
 
-    /// Those of a mask, whose bit k is the effect that was added k-th, in that order.
+    /// The same in signal order, which is that in which effects act at a place that they share.
+    #[must_use]
+    pub fn in_signal_order(&self) -> Self {
+        let mut sorted = *self;
+        let rank = |item: &Option<Undo<T>>| item.map_or(usize::MAX, |undo| undo.effect.kind() as usize);
+        // the few that there are, each put before those that come after it
+        for k in 1..MOST_UNDONE {
+            let mut place = k;
+            while place > 0 && rank(&sorted.items[place - 1]) > rank(&sorted.items[place]) {
+                sorted.items.swap(place - 1, place);
+                place -= 1;
+            }
+        }
+        sorted
+    }
+
+    /// Those of a mask, whose bit k is the effect that was added k-th, the last one first: the way back.
+    #[inline(always)]
+    pub fn back_of(&self, mut mask: u32) -> impl Iterator<Item = &Undo<T>> {
+        core::iter::from_fn(move || {
+            if mask == 0 {
+                return None;
+            }
+            let k = u32::BITS - 1 - mask.leading_zeros();
+            mask &= !(1 << k);
+            self.items.get(k as usize)?.as_ref()
+        })
+    }
+
+    /// Those of a mask, in the order in which they were added.
     #[inline(always)]
     pub fn of(&self, mut mask: u32) -> impl Iterator<Item = &Undo<T>> {
         core::iter::from_fn(move || {

@@ -14,6 +14,7 @@ use crate::control::motion_controller::{Controller, Measurement, Memory, Setting
 use crate::control::observer::{HallReading, SpeedObserver, WheelEstimate};
 use crate::control::thermal::{Heat, ThermalLimit};
 use crate::geometry::frames::BodyTwist;
+use crate::geometry::kinematics::Wheels;
 use crate::link::block::{Block, ControlMode, Parameters};
 use crate::link::record::MOTORS;
 use crate::number::scalar::Real;
@@ -63,6 +64,8 @@ pub struct WheeledDrive<const N: usize> {
     over_voltage: f32,
     /// n of four wheels; zeros of three
     parity: [f32; N],
+    /// The wheels as they are, the effects of their geometry counted in
+    own_wheels: Wheels<N>,
 }
 
 /// Acceleration that a robot stops with where nobody commands it, if its block allows less [m/s²]: at rest from 1 m/s after
@@ -83,8 +86,8 @@ impl RobotDrive {
         match parameters {
             Parameters::Three(block) => RobotDrive::Three(WheeledDrive::new(block, max_duty, dt)),
             Parameters::Four(block) => {
-                let parity = block.robot.wheels.parity_vector();
-                RobotDrive::Four(WheeledDrive { parity, ..WheeledDrive::new(block, max_duty, dt) })
+                let drive = WheeledDrive::new(block, max_duty, dt);
+                RobotDrive::Four(WheeledDrive { parity: drive.own_wheels.parity_vector(), ..drive })
             }
         }
     }
@@ -232,11 +235,12 @@ impl<const N: usize> WheeledDrive<N> {
             heat: [Heat::default(); N],
             over_voltage: block.limits.over_voltage,
             parity: [0.0; N],
+            own_wheels: compensation.own_wheels(&block.robot.wheels),
         }
     }
 
     fn observe(&mut self, halls: &[HallReading; MOTORS]) {
-        let wanted = self.settings.robot.wheels.wheel_speeds(self.memory.reference);
+        let wanted = self.own_wheels.wheel_speeds(self.memory.reference);
         for j in 0..N {
             self.observer.update(&mut self.wheels[j], halls[j], wanted[j] - self.wanted[j], wanted[j]);
         }
@@ -258,7 +262,7 @@ impl<const N: usize> WheeledDrive<N> {
     }
 
     fn told_by_others(&self, measured: &[f32; MOTORS]) -> [f32; MOTORS] {
-        let wheels = self.settings.robot.wheels.wheels();
+        let wheels = self.own_wheels.wheels();
         let working = &self.settings.working;
         // n·v
         let parity = (0..N).fold(0.0, |sum, j| sum + self.parity[j] * wheels[j].radius * measured[j]);

@@ -56,6 +56,8 @@ impl Wheels {
 pub struct BodyMotion<T> {
     /// Mass of the body alone [kg]
     pub mass: T,
+    /// Torque about the centre over what accelerates every part of the body alike along (v, vn) [kg·m]
+    pub moment: [T; 2],
     /// Velocity in the body frame
     pub twist: BodyTwist<T>,
     /// Heading in the middle of the turn [rad]

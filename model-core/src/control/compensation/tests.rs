@@ -1,6 +1,6 @@
 use super::*;
 use crate::effects::active::MOST_UNDONE;
-use crate::effects::card::Scope;
+use crate::effects::card::{Scope, Undone};
 use crate::effects::contact::creep::Creep;
 use crate::effects::drivetrain::gear_efficiency::GearEfficiency;
 
@@ -38,6 +38,7 @@ fn every_effect_is_undone_as_its_card_says_or_refused_with_its_cards_reason() {
 fn what_a_card_says_of_an_effect_is_what_a_robot_knows_without_it() {
     for kind in EffectKind::ALL {
         let card = kind.card();
+        assert_eq!(kind.undone_at().is_some(), matches!(card.undone, Undone::By(_)), "{}", card.id);
         assert_eq!((kind.scope(), kind.home(), kind.undone()), (card.scope, card.seams[0], card.undone.possible()));
     }
 }

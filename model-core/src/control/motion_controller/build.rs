@@ -8,11 +8,12 @@ use crate::control::braking::BrakingBand;
 use crate::control::compensation::Compensation;
 use crate::control::reference::AccelerationLimiter;
 use crate::effects::EffectSet;
-use crate::effects::seams::{EffectContext, Shaft, Winding};
+use crate::effects::seams::{Body, EffectContext, Sense, Shaft, Winding};
 use crate::effects::undoing::{BridgeRoom, Place};
 use crate::geometry::kinematics::{Wheel, Wheels};
-use crate::number::linalg::accumulate_outer;
+use crate::number::linalg::{Mat3, accumulate_outer, add_scaled};
 use crate::number::scalar::Real;
+use crate::plant::robot::Robot;
 
 /// How the wheels that work share a body force, and by how much less they can do than all together.
 struct Shares<const N: usize, T> {
@@ -57,8 +58,10 @@ impl<const N: usize, T: Real> Controller<N, T> {
     /// A robot that has lost more than its wheels allow gets one that stays: see [`Controller::moves`].
     pub fn new(settings: &Settings<N, T>) -> Self {
         let (zero, one) = (T::zero(), T::one());
-        let Settings { robot, compensation, dt, .. } = settings;
+        let Settings { robot: nominal, compensation, dt, .. } = settings;
         let dt = *dt;
+        let contacts = compensation.contacts(&nominal.wheels);
+        let robot = Robot { wheels: compensation.own_wheels(&nominal.wheels), ..*nominal };
         let shares = shares(&robot.wheels, &settings.working);
         let moves = shares.is_some();
         let Shares { rows, plane, turn } = shares.unwrap_or(Shares { rows: [[zero; 3]; N], plane: zero, turn: zero });
@@ -80,12 +83,16 @@ impl<const N: usize, T: Real> Controller<N, T> {
                 share: rows[j].map(|share| rim.wheel_torque(share) / winding.torque_constant),
                 resistance: winding.resistance,
                 emf: winding.emf_constant * on,
-                per_reading: one,
+                per_reading: true_speed(compensation, j),
             };
             push[j] = rim.force(winding.torque_constant);
             spin[j] = rim.force(inertia);
             // M → M + Σ J_w/r²·G_jᵀ·G_j: a lost wheel turns along
             accumulate_outer(&mut turning, rim.mass(inertia), row);
+        }
+        let added = added_mass(compensation, nominal);
+        for (sum, row) in turning.iter_mut().zip(added) {
+            *sum = add_scaled(*sum, one, row);
         }
         let couples = |i: usize, k: usize| {
             let bound = T::lit(1e-12) * turning[i][i] * turning[k][k];
@@ -98,7 +105,8 @@ impl<const N: usize, T: Real> Controller<N, T> {
             on * (robot.inertia + turning[2][2]),
         ];
         let room = bridge_room(compensation);
-        let places = places(compensation);
+        let effects = compensation.in_signal_order();
+        let places = places(&effects);
         let mut controller = Self {
             flags: flags(&places, settings.feedforward, moves, coupled),
             limiter: AccelerationLimiter::new([zero; 3], dt),
@@ -116,13 +124,14 @@ impl<const N: usize, T: Real> Controller<N, T> {
             kept: room.kept,
             wheels: drives,
             compensation: CompensationTerms {
-                effects: *compensation,
+                effects,
                 places,
                 mass: robot.mass,
+                moment: [added[2][0], added[2][1]],
                 half: T::lit(0.5) * dt,
-                coulomb_share: robot.coulomb_shares(),
+                coulomb_share: nominal.coulomb_shares(),
                 rows: all_rows,
-                axles: array::from_fn(|_| [zero; 3]),
+                axles: contacts.map(|contact| contact.axle_row()),
                 radius: robot.wheels.wheels().map(|wheel| wheel.radius),
                 per_radius: robot.wheels.wheels().map(|wheel| one / wheel.radius),
                 coupling: array::from_fn(|i| array::from_fn(|k| if i == k { zero } else { turning[i][k] })),
@@ -180,6 +189,22 @@ fn undone_wheel<const N: usize, T: Real>(settings: &Settings<N, T>, j: usize) ->
         undo.effect.shaft(&[], &at, &mut shaft);
     }
     (winding, shaft.inertia)
+}
+
+/// What effects on the body add to its mass matrix.
+fn added_mass<const N: usize, T: Real>(compensation: &Compensation<N, T>, robot: &Robot<N, T>) -> Mat3<T> {
+    let zero = T::zero();
+    let own = [[robot.mass, zero, zero], [zero, robot.mass, zero], [zero, zero, robot.inertia]];
+    let mut body = Body { mass: own, ..Body::default() };
+    compensation.iter().for_each(|undo| undo.effect.body(&[], &EffectContext::default(), &mut body));
+    array::from_fn(|i| array::from_fn(|k| body.mass[i][k] - own[i][k]))
+}
+
+/// True speed of a wheel over the one that is read [1].
+fn true_speed<const N: usize, T: Real>(compensation: &Compensation<N, T>, j: usize) -> T {
+    let mut read = Sense { wheel_speed: T::one(), ..Sense::default() };
+    compensation.on(j).for_each(|undo| undo.effect.invert_sensing(&EffectContext::default(), &mut read));
+    read.wheel_speed
 }
 
 /// What the bridges leave of the voltage, each wheel's own added up, and the least of them.

@@ -29,7 +29,7 @@ impl<const N: usize, T: Real> Controller<N, T> {
         // x + ½·a·Δt, in the middle of the turn
         let ahead = add_scaled(twist.to_array(), u.half, a);
         let heading = heading + u.half * twist.w;
-        let body = BodyMotion { mass: u.mass, twist: *twist, heading, coulomb: self.coulomb, ahead };
+        let body = BodyMotion { mass: u.mass, moment: u.moment, twist: *twist, heading, coulomb: self.coulomb, ahead };
         let mut force = [T::zero(); 3];
         self.undone(Place::Body).for_each(|undo| undo.effect.undo_body(&body, &mut force));
         if u.places[Place::Rollers as usize] != 0 {
@@ -101,7 +101,10 @@ impl<const N: usize, T: Real> Controller<N, T> {
                 // e = u − R·i
                 emf: voltage[j] - self.wheels[j].resistance * current[j],
             });
-            self.undone(Place::Bridge).for_each(|undo| undo.effect.undo_bridge(undo.wheels, &demand, voltage));
+            let u = &self.compensation;
+            // back through the bridge
+            let effects = u.effects.back_of(u.places[Place::Bridge as usize]);
+            effects.for_each(|undo| undo.effect.undo_bridge(undo.wheels, &demand, voltage));
         }
         self.undone(Place::Reading).for_each(|undo| undo.effect.undo_reading(undo.wheels, current));
     }

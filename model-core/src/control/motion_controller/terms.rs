@@ -26,6 +26,8 @@ pub(super) struct CompensationTerms<const N: usize, T> {
     pub places: [u32; Place::COUNT],
     /// M of the body alone, which forces on the body are counted on [kg]
     pub mass: T,
+    /// Torque about the centre over what accelerates every part of it alike along (v, vn) [kg·m]
+    pub moment: [T; 2],
     /// Half a turn [s]
     pub half: T,
     /// Each wheel's share of the body's Coulomb friction [N·m]

@@ -33,6 +33,7 @@
 use crate::effects::card::{Card, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{BodyMotion, Place};
 use crate::effects::{Catalogued, Hooks};
 use crate::geometry::frames::BodyTwist;
 use crate::number::scalar::Real;
@@ -76,8 +77,8 @@ pub const CARD: Card = Card {
     signature: "the robot turns while it speeds up, the other way while it brakes; in a curve it is turned by ω times its speed, and on the spot v and vn drift with ω²",
     look_alikes: &[],
     code: 20,
-    undone: Undone::No(
-        "most of it goes with the acceleration; on the body the robot undoes what goes with speed and heading",
+    undone: Undone::By(
+        "the mass is counted about its own centre, and the force of turning at the reference is taken away",
     ),
     physics: Physics {
         // it does no work, but lets energy pass between turning and moving on
@@ -121,6 +122,7 @@ impl<T: Copy> Catalogued<T> for CogOffset<T> {
 
 impl<T: Real> Hooks<T> for CogOffset<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Body);
 
     fn body(&self, _: &(), at: &EffectContext<T>, x: &mut Body<T>) {
         let (offset, mass) = ([self.offset_v, self.offset_vn], x.total_mass());
@@ -143,6 +145,12 @@ impl<T: Real> Hooks<T> for CogOffset<T> {
         add(&mut x.rate[2][0], p_v * w);
         add(&mut x.rate[2][1], p_vn * w);
         add(&mut x.rate[2][2], p_v * v + p_vn * vn);
+    }
+
+    fn undo_body(&self, motion: &BodyMotion<T>, needed: &mut [T; 3]) {
+        for (sum, a) in needed.iter_mut().zip(force([self.offset_v, self.offset_vn], motion.mass, motion.twist)) {
+            *sum -= a;
+        }
     }
 }
 

@@ -142,6 +142,7 @@ impl<T: Real> Hooks<T> for FloorTilt<T> {
         let [v, vn] = pull(self.tilt, self.direction - motion.heading);
         needed[0] -= motion.mass * v;
         needed[1] -= motion.mass * vn;
+        needed[2] -= motion.moment[0] * v + motion.moment[1] * vn;
     }
 }
 

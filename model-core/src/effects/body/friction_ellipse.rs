@@ -32,6 +32,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Body, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{BodyMotion, Place, way};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -64,9 +65,7 @@ pub const CARD: Card = Card {
         settled_by: "pull the robot slowly with a spring scale along an axis and along the diagonal: the same force both ways is the ellipse, √2 times as much aslant is friction of each axis by itself",
     }],
     code: 43,
-    undone: Undone::No(
-        "the controller counts friction along each axis by itself; the feedback takes off what is too much",
-    ),
+    undone: Undone::By("dry friction is given as far as it stands against the velocity of the reference"),
     physics: Physics::PASSIVE,
 };
 
@@ -97,12 +96,21 @@ impl<T: Copy> Catalogued<T> for FrictionEllipse<T> {
 
 impl<T: Real> Hooks<T> for FrictionEllipse<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Body);
 
     fn body(&self, _: &(), at: &EffectContext<T>, x: &mut Body<T>) {
         let shares = shares(self.still_speed, [at.twist.v, at.twist.vn]);
         for (budget, q) in x.budget.iter_mut().zip(shares) {
             // b·(1 − s·(1 − q))
             *budget *= T::one() - self.share * (T::one() - q);
+        }
+    }
+
+    fn undo_body(&self, motion: &BodyMotion<T>, needed: &mut [T; 3]) {
+        let shares = shares(self.still_speed, [motion.twist.v, motion.twist.vn]);
+        for (k, q) in shares.into_iter().enumerate() {
+            // of C·sign(v), which is given already, s·(1 − q) is too much
+            needed[k] -= self.share * (T::one() - q) * motion.coulomb[k] * way(motion.ahead[k]);
         }
     }
 }

@@ -29,6 +29,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{Place, way};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -69,9 +70,7 @@ pub const CARD: Card = Card {
         settled_by: "lift the robot and pull a thread off one roller with a spring scale: that is friction of the rollers alone",
     }],
     code: 17,
-    undone: Undone::No(
-        "the robot's turn knows along which line a wheel rolls and not where its contact slides sideways",
-    ),
+    undone: Undone::By("what each wheel's rollers take along its axle at the velocity of the reference is given"),
     physics: Physics::DRY_AT_WHEELS,
 };
 
@@ -101,10 +100,16 @@ pub fn rubbing<T: Real>(friction: T, damping: T, x: Contact<T>) -> Contact<T> {
 impl<T: Real> Hooks<T> for RollerFriction<T> {
     type State = ();
     const SETTLES_CONTACT: bool = true;
+    const UNDONE_AT: Option<Place> = Some(Place::Rollers);
 
     fn contact(&self, _: &(), _: &EffectContext<T>, x: &mut Contact<T>) {
         let Self { friction, damping } = *self;
         *x = rubbing(friction, damping, *x);
+    }
+
+    fn undo_rollers(&self, speed: T, force: &mut T) {
+        // f = F·sign(u) + b·u
+        *force += self.friction * way(speed) + self.damping * speed;
     }
 }
 

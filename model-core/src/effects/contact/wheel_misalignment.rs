@@ -54,7 +54,7 @@ pub const CARD: Card = Card {
     signature: "one wheel turns while the robot moves along that wheel's axle, and its force pushes the robot that way",
     look_alikes: &[],
     code: 19,
-    undone: Undone::No("the robot file has an angle and a distance for each wheel: write α + e and d·cos e there"),
+    undone: Undone::Folded("the wheel is counted with α + e and the lever arm that goes with it"),
     physics: Physics { mirrored: &[0], ..Physics::PASSIVE },
 };
 

@@ -53,7 +53,7 @@ pub const CARD: Card = Card {
         settled_by: "turn the robot on the spot by hand: a wheel of another radius turns by another angle than the others, an odd motor does not",
     }],
     code: 18,
-    undone: Undone::No("the robot file has a radius for each wheel: write this wheel's own there"),
+    undone: Undone::Folded("the wheel is counted with its own radius"),
     physics: Physics::PASSIVE,
 };
 

@@ -27,6 +27,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{BridgeDemand, BridgeRoom, Place};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -67,9 +68,7 @@ pub const CARD: Card = Card {
         settled_by: "measure the voltage across the odd motor: a wrong gain shows there, another motor does not",
     }],
     code: 14,
-    undone: Undone::No(
-        "what is short grows with the voltage, and the controller keeps only a fixed voltage free; calibrate the bridge",
-    ),
+    undone: Undone::By("the bridge is asked for (u − o)/(1 + g), and so much less voltage is counted on"),
     physics: Physics {
         // an offset drives a motor that is commanded to rest, and pulls the other way in a mirror
         passive: false,
@@ -103,11 +102,22 @@ impl<T: Copy> Catalogued<T> for DriveGain<T> {
 
 impl<T: Real> Hooks<T> for DriveGain<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Bridge);
 
     fn bridge(&self, _: &(), _: &EffectContext<T>, x: &mut Bridge<T>) {
         let Self { gain_error, offset } = *self;
         x.voltage = given(gain_error, offset, x.voltage);
         x.sampled = given(gain_error, offset, x.sampled);
+    }
+
+    fn undo_bridge(&self, _: &BridgeDemand<T>, voltage: &mut T) {
+        // u = (u_eff − o)/(1 + g)
+        *voltage = (*voltage - self.offset) / (T::one() + self.gain_error);
+    }
+
+    fn bridge_room(&self, room: &mut BridgeRoom<T>) {
+        room.share = room.share * (T::one() + self.gain_error);
+        room.kept += self.offset.abs();
     }
 }
 

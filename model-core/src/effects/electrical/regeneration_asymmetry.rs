@@ -26,6 +26,7 @@ use crate::effects::bridges;
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Bridge, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::{BridgeDemand, BridgeRoom, Place};
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -58,9 +59,7 @@ pub const CARD: Card = Card {
         settled_by: "accelerate and brake a lifted wheel with the same change of voltage: dead time takes the same from both currents, diodes only from the one that brakes",
     }],
     code: 33,
-    undone: Undone::No(
-        "what is to be added depends on whether a wheel brakes, and the controller asks a bridge by the current alone",
-    ),
+    undone: Undone::By("the voltage lost is added while current and speed of the reference are against each other"),
     physics: Physics::PASSIVE,
 };
 
@@ -82,11 +81,25 @@ impl<T: Copy> Catalogued<T> for RegenerationAsymmetry<T> {
 
 impl<T: Real> Hooks<T> for RegenerationAsymmetry<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Bridge);
 
     fn bridge(&self, _: &(), _: &EffectContext<T>, x: &mut Bridge<T>) {
         let Self { braking_loss, smoothing_current } = *self;
         x.braking_drop += braking_loss;
         x.drop_current = x.drop_current.max(smoothing_current);
+    }
+
+    fn undo_bridge(&self, demand: &BridgeDemand<T>, voltage: &mut T) {
+        let BridgeDemand { current, emf } = *demand;
+        if current * emf < T::zero() {
+            // Δu = min(V_b, K_v·|ω|)·sat(i / i₀)
+            let share = (current / self.smoothing_current).clamp(-T::one(), T::one());
+            *voltage += self.braking_loss.min(emf.abs()) * share;
+        }
+    }
+
+    fn bridge_room(&self, room: &mut BridgeRoom<T>) {
+        room.kept += self.braking_loss;
     }
 }
 

@@ -24,6 +24,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{EffectContext, Winding};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
+use crate::effects::undoing::Place;
 use crate::effects::{Catalogued, Hooks};
 use crate::number::scalar::Real;
 
@@ -58,7 +59,9 @@ pub const CARD: Card = Card {
         settled_by: "hold a wheel with a spring balance at a small and at a large current: a wrong constant is wrong by the same share at both, saturation only at the large one",
     }],
     code: 31,
-    undone: Undone::No("the controller counts with one torque per ampere, whatever the current"),
+    undone: Undone::By(
+        "the current is raised to c/√(1 − 2·k·c²), c being the one that would do without saturation; to four times as much at the most",
+    ),
     physics: Physics::PASSIVE,
 };
 
@@ -89,12 +92,19 @@ impl<T: Copy> Catalogued<T> for TorqueSaturation<T> {
 
 impl<T: Real> Hooks<T> for TorqueSaturation<T> {
     type State = ();
+    const UNDONE_AT: Option<Place> = Some(Place::Winding);
 
     fn winding(&self, _: &(), _: &EffectContext<T>, x: &mut Winding<T>) {
         let (left, slope) = left(self.saturation, x.current);
         // ∂(K_t·left)/∂i
         x.torque_bend = x.torque_bend * left + x.torque_constant * slope;
         x.torque_constant *= left;
+    }
+
+    fn undo_winding(&self, current: T, ratio: &mut T) {
+        // c = i/√(1 + 2·k·i²), turned round: i = c/√(1 − 2·k·c²)
+        let room = T::one() - (self.saturation + self.saturation) * current * current;
+        *ratio = *ratio / room.max(T::lit(1.0 / 16.0)).sqrt();
     }
 }
 

@@ -45,9 +45,7 @@ pub const CARD: Card = Card {
     signature: "speed of one wheel wrong in step with itself; the other wheels right",
     look_alikes: &[],
     code: 24,
-    undone: Undone::No(
-        "the controller takes each wheel's speed as it is read; set the counts per turn of that encoder",
-    ),
+    undone: Undone::Folded("the wheel's speed is counted as w_read/(1 + s)"),
     physics: Physics::PASSIVE,
 };
 

@@ -4,9 +4,10 @@ use super::*;
 use crate::effects::Effect;
 use crate::effects::body::coriolis::Coriolis;
 use crate::effects::body::floor_tilt::FloorTilt;
-use crate::effects::card::Seam;
+use crate::effects::card::{Scope, Seam};
 use crate::effects::sensing::current_sensor_gain::CurrentSensorGain;
 use crate::effects::sensing::current_sensor_offset::CurrentSensorOffset;
+use crate::effects::sensing::encoder_scale::EncoderScale;
 
 /// Shorter than anything that happens [s].
 const MOMENT: f64 = 1e-6;
@@ -32,7 +33,7 @@ fn every_effect_that_is_undone_is_tried() {
     assert!(EffectKind::ALL.iter().filter(|kind| kind.undone()).all(tried));
 }
 
-const CASES: [Case; 16] = [
+const CASES: [Case; 25] = [
     Case { id: "coriolis", wheel: None, params: &[1.0], by_current: true },
     Case { id: "floor_tilt", wheel: None, params: &[0.0175, 0.5], by_current: true },
     Case { id: "stribeck", wheel: None, params: &[0.5, 0.5, 2.0], by_current: true },
@@ -49,6 +50,15 @@ const CASES: [Case; 16] = [
     Case { id: "asymmetric_friction", wheel: Some(2), params: &[-0.06], by_current: true },
     Case { id: "quadratic_drag", wheel: None, params: &[0.5], by_current: true },
     Case { id: "carpet_nap", wheel: None, params: &[0.4, 0.5, 0.05], by_current: true },
+    Case { id: "cog_offset", wheel: None, params: &[0.03, -0.02], by_current: true },
+    Case { id: "friction_ellipse", wheel: None, params: &[0.9, 0.01], by_current: true },
+    Case { id: "roller_friction", wheel: None, params: &[0.4, 0.5], by_current: true },
+    Case { id: "roller_friction", wheel: Some(2), params: &[0.4, 0.5], by_current: true },
+    Case { id: "wheel_misalignment", wheel: Some(1), params: &[0.1], by_current: true },
+    Case { id: "wheel_radius_error", wheel: Some(2), params: &[-0.08], by_current: true },
+    Case { id: "torque_saturation", wheel: None, params: &[0.05], by_current: true },
+    Case { id: "drive_gain", wheel: Some(1), params: &[-0.1, 0.2], by_current: false },
+    Case { id: "regeneration_asymmetry", wheel: None, params: &[0.6, 0.05], by_current: false },
 ];
 
 /// The worst error of the body's acceleration over random motions, undone and not [m/s², with rad/s² a tenth].
@@ -58,9 +68,12 @@ fn errors<const N: usize>(robot: Robot<N, f64>, cases: &[&Case], by_current: boo
     let mut effects = Effects::default();
     let mut compensation = Compensation::none();
     for case in cases {
-        effects.put(case.effect(), case.wheel).unwrap();
         compensation.add(case.effect(), case.wheel).unwrap();
     }
+    // a plant's effects stand in signal order
+    let mut in_order = cases.to_vec();
+    in_order.sort_by_key(|case| case.effect().kind() as usize);
+    in_order.iter().for_each(|case| effects.put(case.effect(), case.wheel).unwrap());
     let plant = Plant::new(robot, effects);
     assert_eq!(plant.memory_len(), 0, "what is undone here remembers nothing");
     [compensation, Compensation::none()].map(|compensation| {
@@ -208,6 +221,52 @@ fn a_loop_closed_on_a_sensor_with_an_error_gives_the_current_wanted() {
         let reading = plant.step(&mut state, &mut [], &Input::Current(plain.current), MOMENT);
         assert!(gap(reading.current, demand.current) < 1e-15 && gap(demand.current, plain.current) > 0.19);
         assert_eq!(demand.voltage, plain.voltage);
+    }
+}
+
+#[test]
+fn an_encoder_with_another_scale_is_read_as_what_it_measures() {
+    let robot = odd(paper::four_wheels::<f64>());
+    let mut compensation = Compensation::none();
+    compensation.add(EncoderScale { scale_error: 0.1 }.into(), Some(2)).unwrap();
+    let with_feedback =
+        |compensation| Settings { compensation, feedback: 0.2, feedback_integral: 2.0, ..settings(robot) };
+    let (own, plain) =
+        (Controller::new(&with_feedback(compensation)), Controller::new(&with_feedback(Compensation::none())));
+    let mut draw = Draw(12);
+    for _ in 0..50 {
+        let start = Memory { reference: draw.twist([1.0, 1.0, 5.0]), ..Memory::default() };
+        let want = draw.twist([1.0, 1.0, 5.0]);
+        let wheel_speed: [f64; 4] = array::from_fn(|_| 30.0 * draw.next());
+        let mut read = wheel_speed;
+        read[2] *= 1.1;
+        let a = own.tick(&mut start.clone(), &Measurement { wheel_speed: read, bus: 24.0 }, want);
+        let b = plain.tick(&mut start.clone(), &Measurement { wheel_speed, bus: 24.0 }, want);
+        assert!(gap(a.current, b.current) < 1e-12 && gap(a.voltage, b.voltage) < 1e-12, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn an_effect_that_is_absent_changes_nothing() {
+    for kind in EffectKind::ALL.into_iter().filter(|kind| kind.undone()) {
+        let card = kind.card();
+        let mut params = [0.0; 8];
+        params.iter_mut().zip(card.params).for_each(|(x, param)| *x = param.absent);
+        let effect = kind.with(&params[..card.params.len()]).expect("as many as on the card");
+        let mut compensation = Compensation::none();
+        compensation.add(effect, (card.scope == Scope::OneWheel).then_some(1)).unwrap();
+        let robot = odd(paper::four_wheels::<f64>());
+        let own = Controller::new(&Settings { compensation, feedback: 0.1, ..settings(robot) });
+        let plain = Controller::new(&Settings { feedback: 0.1, ..settings(robot) });
+        let mut draw = Draw(13);
+        for _ in 0..20 {
+            let start = Memory { reference: draw.twist([1.0, 1.0, 5.0]), heading: 0.4, ..Memory::default() };
+            let want = draw.twist([1.0, 1.0, 5.0]);
+            let measured = Measurement { wheel_speed: array::from_fn(|_| 30.0 * draw.next()), bus: 24.0 };
+            let a = own.tick(&mut start.clone(), &measured, want);
+            let b = plain.tick(&mut start.clone(), &measured, want);
+            assert_eq!((a.current, a.voltage), (b.current, b.voltage), "{}", card.id);
+        }
     }
 }
 

@@ -164,7 +164,7 @@ fn all_undone<const N: usize>(end: impl Fn(&Param) -> f64) -> Compensation<N> {
 fn kept<const N: usize>(compensation: &Compensation<N>) -> f32 {
     let mut room = BridgeRoom { share: 1.0, kept: 0.0 };
     compensation.iter().for_each(|undo| undo.effect.bridge_room(&mut room));
-    room.kept
+    room.kept / room.share.min(1.0)
 }
 
 fn finite_everywhere<const N: usize>(robot: Robot<N, f32>) {
