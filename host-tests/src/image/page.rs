@@ -12,8 +12,9 @@ use super::fail_safe::{MOST, instructions_to_open};
 use super::names::{allocates, double_precision, panics};
 use crate::golden;
 
-/// Flash that the image may fill, of the 128 KiB of sectors 0 to 4 [bytes].
-pub const MOST_FLASH: u64 = 112 * 1024;
+/// Flash that the image may fill [bytes]: sectors 0 to 5 of the ten before the store. Less would force code compiled for
+/// speed, and the effects that are undone, back to code compiled for size.
+pub const MOST_FLASH: u64 = 256 * 1024;
 
 /// RAM that the image may take before it runs [bytes].
 pub const MOST_RAM: u64 = 16 * 1024;
@@ -170,7 +171,7 @@ impl ImageMeasurement {
         let room = CHIP_RAM.saturating_sub(self.ram);
         vec![
             Promise {
-                what: "flash, at most 114,688 bytes",
+                what: "flash, at most 262,144 bytes",
                 found: grouped(self.flash),
                 kept: self.flash <= MOST_FLASH,
             },

@@ -1,4 +1,4 @@
-//! # Flash store: the parameter block in flash sectors 5 and 6
+//! # Flash store: the parameter block in flash sectors 10 and 11, the last two
 //!
 //! The chip has one flash bank: while a sector is erased (up to 4 s) the core stands still at its next fetch, and
 //! neither controls nor feeds. So a block is only stored while all bridges are open, and the watchdog gets a long
@@ -16,8 +16,8 @@ use crate::drivers::flash_slots::{self, Slot};
 const FLASH_AT: usize = 0x0800_0000;
 /// Its length [bytes].
 const FLASH_LEN: usize = 1 << 20;
-/// Sectors 5 and 6, 128 KiB each; the image is in front of them (`memory.x`).
-const SLOTS: [Slot; 2] = [Slot { from: 0x2_0000, to: 0x4_0000 }, Slot { from: 0x4_0000, to: 0x6_0000 }];
+/// Sectors 10 and 11, 128 KiB each; the image is in front of them (`memory.x`).
+const SLOTS: [Slot; 2] = [Slot { from: 0xC_0000, to: 0xE_0000 }, Slot { from: 0xE_0000, to: 0x10_0000 }];
 
 /// Where the parameter block is stored.
 pub struct FlashStore {
