@@ -6,7 +6,7 @@ use std::ffi::OsString;
 
 use crate::line::Line;
 use crate::python::Environment;
-use crate::{browser, invented, mjcf, real, steps, tool};
+use crate::{browser, images, invented, mjcf, real, steps, tool};
 
 /// One thing to ask for.
 #[derive(Clone, Copy, Debug)]
@@ -97,13 +97,13 @@ pub const ERRANDS: &[Errand] = &[
         name: "pil",
         takes: "",
         does: "build the image and run it in QEMU in the loop with a robot: scenarios, faults, the gap (BLESS=1: rewrite)",
-        run: pil,
+        run: images::pil,
     },
     Errand {
         name: "robot",
         takes: "[HOST:PORT|pty]",
         does: "a robot without a board at tcp:127.0.0.1:7000: the image in QEMU, with a virtual board; until Ctrl-C",
-        run: robot,
+        run: images::robot,
     },
     Errand {
         name: "commission",
@@ -115,26 +115,37 @@ pub const ERRANDS: &[Errand] = &[
         name: "margin",
         takes: "",
         does: "play every ride and fault in QEMU with instructions 8 and 16 times as slow (BLESS=1: rewrite)",
-        run: margin,
+        run: images::margin,
     },
-    Errand { name: "modern", takes: "", does: "ride a modern robot on 64 seeds (BLESS=1: rewrite)", run: modern },
+    Errand {
+        name: "modern",
+        takes: "",
+        does: "ride a modern robot on 64 seeds (BLESS=1: rewrite)",
+        run: images::modern,
+    },
     Errand {
         name: "morning",
         takes: "",
         does: "type what HARDWARE.md has for the first morning, at the image in QEMU",
-        run: morning,
+        run: images::morning,
     },
     Errand {
         name: "emulate",
         takes: "",
         does: "build the images and compare their bits and instructions (BLESS=1: rewrite)",
-        run: emulate,
+        run: images::emulate,
     },
     Errand {
         name: "image",
         takes: "",
         does: "build the board's image and check its sizes, symbols and stack (BLESS=1: rewrite)",
-        run: image,
+        run: images::image,
+    },
+    Errand {
+        name: "chip",
+        takes: "",
+        does: "run the board's image on a model of its chip (BLESS=1: rewrite)",
+        run: images::chip,
     },
     Errand {
         name: "real",
@@ -227,6 +238,7 @@ fn test(_: &[OsString]) -> Result<(), String> {
 }
 
 fn bless(_: &[OsString]) -> Result<(), String> {
+    tool::ensure(tool::TOOLS)?;
     Line::of("cargo test --workspace").env("BLESS", "1").announced()?;
     println!("golden pages rewritten where they differed; read the difference before you commit it: git diff");
     Ok(())
@@ -284,50 +296,8 @@ fn peers(_: &[OsString]) -> Result<(), String> {
     tests.fold(Line::of("").word(python), Line::word).env("PYTHONPATH", "host-tests").announced()
 }
 
-/// The emulator, and the images for it.
-fn emulated_images() -> Result<(), String> {
-    tool::ensure(tool::TOOLS)?;
-    Line::of(steps::EMULATED_IMAGES).announced()
-}
-
-fn pil(_: &[OsString]) -> Result<(), String> {
-    emulated_images()?;
-    steps::IN_LOOP.into_iter().try_for_each(|command| Line::of(command).announced())
-}
-
-fn robot(address: &[OsString]) -> Result<(), String> {
-    emulated_images()?;
-    address.iter().fold(Line::of(steps::ROBOT), Line::word).announced()
-}
-
 fn commission(_: &[OsString]) -> Result<(), String> {
     Line::of("cargo run --release -p host-tests --bin commission").announced()
-}
-
-fn margin(_: &[OsString]) -> Result<(), String> {
-    emulated_images()?;
-    Line::of(steps::MARGIN).announced()
-}
-
-fn modern(_: &[OsString]) -> Result<(), String> {
-    emulated_images()?;
-    Line::of(steps::MODERN).announced()
-}
-
-fn morning(_: &[OsString]) -> Result<(), String> {
-    emulated_images()?;
-    steps::MORNING.iter().try_for_each(|command| Line::of(command).announced())
-}
-
-fn emulate(_: &[OsString]) -> Result<(), String> {
-    emulated_images()?;
-    Line::of(steps::EMULATE).announced()
-}
-
-fn image(_: &[OsString]) -> Result<(), String> {
-    tool::ensure(tool::TOOLS)?;
-    Line::of(steps::BOARD_IMAGE).announced()?;
-    Line::of(steps::CHECK_IMAGE).announced()
 }
 
 fn on_recordings(given: &[OsString]) -> Result<(), String> {

@@ -4,6 +4,7 @@
 
 mod browser;
 mod errands;
+mod images;
 mod install;
 mod invented;
 mod line;

@@ -30,6 +30,14 @@ pub const BOARD_IMAGE: &str = "cargo build --profile firmware -p firmware --bin 
 pub const CHECK_IMAGE: &str =
     "cargo run -p host-tests --bin image -- target/f405/thumbv7em-none-eabihf/firmware/firmware";
 
+/// The tests for a board, compiled: their runner is a probe, and the model of the chip.
+pub const BOARD_TESTS: &str = "cargo test --no-run --profile firmware -p firmware --test hil --test hil_parity --test by_hand \
+                               --features f405 --target thumbv7em-none-eabihf --target-dir target/f405";
+
+/// The image of the board, executed on a model of its chip.
+pub const CHIP: &str = "cargo run -p chip --bin chip -- target/f405/thumbv7em-none-eabihf/firmware/firmware \
+                        target/f405/thumbv7em-none-eabihf/firmware/deps";
+
 /// Bits and instructions, told by two images.
 pub const EMULATE: &str = "cargo run -p host-tests --bin emulated -- target/thumbv7em-none-eabihf/firmware";
 
@@ -78,13 +86,9 @@ pub const STEPS: &[Step] = &[
     Step { name: "withheld", command: "cargo run --release -p host-tests --bin bench -- check", env: &[] },
     Step { name: "emulated images", command: EMULATED_IMAGES, env: &[] },
     Step { name: "board image", command: BOARD_IMAGE, env: &[] },
-    Step {
-        name: "board tests",
-        command: "cargo test --no-run --profile firmware -p firmware --test hil --test hil_parity --test by_hand \
-                  --features f405 --target thumbv7em-none-eabihf --target-dir target/f405",
-        env: &[],
-    },
+    Step { name: "board tests", command: BOARD_TESTS, env: &[] },
     Step { name: "image", command: CHECK_IMAGE, env: &[] },
+    Step { name: "chip", command: CHIP, env: &[] },
     Step { name: "emulator", command: EMULATE, env: &[] },
     Step { name: "in the loop", command: IN_LOOP[0], env: &[] },
     Step { name: "faults", command: IN_LOOP[1], env: &[] },

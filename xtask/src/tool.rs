@@ -38,6 +38,9 @@ pub const TOOLS: &[Tool] = &[
         installs: Install::Rustup("component add clippy"),
     },
     Tool { name: "a C linker (cc)", probe: LINKER, installs: Install::Apt("gcc libc6-dev") },
+    // what the emulator of the core is built with
+    Tool { name: "cmake", probe: Probe("cmake --version", "cmake"), installs: Install::Apt("cmake") },
+    Tool { name: "make", probe: Probe("make --version", "Make"), installs: Install::Apt("make") },
     Tool {
         name: "the chip's target (thumbv7em-none-eabihf)",
         probe: Probe("rustup target list --installed", "thumbv7em-none-eabihf"),
