@@ -4,7 +4,7 @@
 //! is modelled register by register ([`peripherals`]), as far as this image uses them. Behaviour is that of the reference
 //! manual RM0090; each file names its sections.
 //!
-//! **Time** is the count of core cycles at 168 MHz. An instruction takes [`core::CYCLES_X4`] quarter cycles, whichever it is:
+//! **Time** is the count of core cycles at 168 MHz. How many an instruction takes is the [pace](core::pace): one and a half, whichever it is, or what the manuals say at most;
 //! when an instruction comes is known as well as that is. What the peripherals do among themselves does not hang on it.
 //!
 //! In reading order: what happened ([`events`]), the registers ([`peripherals`]), the core ([`core`]), an ELF and its lines

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use crate::core::profile::Spent;
 use crate::pac::{Decoded, Pac};
 use crate::peripherals::bus::{Bus, Written};
 use crate::scenarios::{Promise, Seen};
@@ -63,7 +64,7 @@ pub fn page(seen: &Seen, pac: &Pac) -> String {
     let mut text = String::from(
         "# The board's image on a model of its chip\n\nMade by `BLESS=1 cargo xtask chip`. The ELF that is flashed runs on an emulated \
          Cortex-M4F (Unicorn, the translator of QEMU) with a register-level model of what it uses of the STM32F405 \
-         (`host-tests/chip`), and drives the virtual board through it. An instruction takes 1.5 cycles there, whichever it is. \
+         (`host-tests/chip`), and drives the virtual board through it. An instruction takes 1.5 cycles there, whichever it is, unless something else is said. \
          Nothing here was seen on a board.\n",
     );
     text += "\n## Order within a period\n\nIn core cycles of 168 MHz from TIM1's top; one count of TIM3 and TIM4 is two. Worked out by \
@@ -87,9 +88,36 @@ pub fn page(seen: &Seen, pac: &Pac) -> String {
              before it is stable, locked registers, a stream with old flags): ";
     text +=
         &if seen.forbidden.is_empty() { "nothing was seen.\n".to_owned() } else { seen.forbidden.join("; ") + "\n" };
+    cycles(&mut text, seen);
     lines(&mut text, seen);
     registers(&mut text, seen, pac);
     text
+}
+
+/// Interrupts by their numbers in the vector table, and what they do.
+const EXCEPTIONS: [(u16, &str); 5] = [
+    (34, "`ADC`: the current turn"),
+    (62, "`TIM8_CC`: the latch of duties"),
+    (22, "`EXTI0`: the motion turn"),
+    (23, "`EXTI1`: the link's bytes, a parameter block with them"),
+    (24, "`EXTI2`: records"),
+];
+
+/// Core cycles of a current period.
+const PERIOD: f64 = 8_400.0;
+
+fn cycles(text: &mut String, seen: &Seen) {
+    *text += "\n## Cycles at most\n\nA drive with other parameters and a wheel lost on the way, every instruction as long as the manuals say at most: \
+             tables 3-1 and 7-1 of the Cortex-M4's technical reference manual with the largest number of each range, three cycles for every refill of the \
+             pipeline, five for every line of the flash that its 64 + 8 lines do not hold (no prefetch), six and twelve for an access to APB2 \
+             and APB1. The longest of each interrupt from entry to return, what interrupted it taken off.\n\n\
+             | interrupt | instructions | cycles at most | cycles an instruction | of a period |\n|---|---|---|---|---|\n";
+    for (number, what) in EXCEPTIONS {
+        let Some(Spent { cycles, instructions }) = seen.longest.get(&number) else { continue };
+        let (cycles, each) = (*cycles as f64, *cycles as f64 / *instructions as f64);
+        let _ =
+            writeln!(text, "| {what} | {instructions} | {cycles:.0} | {each:.2} | {:.1} % |", 100.0 * cycles / PERIOD);
+    }
 }
 
 fn lines(text: &mut String, seen: &Seen) {

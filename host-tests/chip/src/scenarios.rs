@@ -3,18 +3,21 @@
 //! The robot is the virtual board of the other runs; its codes come out of the modelled converters, and the duties are what
 //! stands in the compare registers.
 
+use std::collections::BTreeMap;
+
 use host_tests::emulator::RunError;
 use host_tests::in_loop::{ClosedLoopRun, robots};
 use host_tests::virtual_board::{BoardSetup, InjectedFault, VirtualBoard};
 use model_core::effects::active::Effects;
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::Parameters;
+use model_core::link::block::{Block, Parameters};
 use model_core::link::faults::Fault;
 use model_core::link::record::OperatingState;
 use model_core::plant::paper::four_wheels;
 
 use crate::board::ChipBoard;
-use crate::core::{CYCLES_X4, Chip, ChipError};
+use crate::core::profile::Spent;
+use crate::core::{Chip, ChipError, Pace};
 use crate::image::{Coverage, Image};
 use crate::order::{self, Instant};
 use crate::peripherals::bus::Written;
@@ -35,6 +38,8 @@ pub struct Seen {
     pub promises: Vec<Promise>,
     /// The instants of a period
     pub instants: Vec<Instant>,
+    /// How long each exception took at the most, by its number, with the manuals' longest instructions
+    pub longest: BTreeMap<u16, Spent>,
     /// Lines that were executed
     pub coverage: Coverage,
     /// Every word that was written
@@ -65,15 +70,24 @@ impl Seen {
 
 type Run = ClosedLoopRun<ChipBoard, 4>;
 
+/// From a block on its way to a robot that has stored it [s]: erasing takes four seconds at most.
+const STORED: f64 = 4.5;
+
 /// Cycles within which a failing program opens the bridges: 3 µs.
 const OPENS_WITHIN: u64 = 500;
 
 /// A robot that has its parameters and has measured its zeros.
 fn ready(image: &Image) -> Result<Run, Failed> {
+    ready_at(image, Pace::USUAL)
+}
+
+/// The same with a core of another pace.
+fn ready_at(image: &Image, pace: Pace) -> Result<Run, Failed> {
     let board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), 1));
-    let mut run = ClosedLoopRun::new(ChipBoard::new(Chip::new(&image.bytes, CYCLES_X4)?), board);
+    let mut run = ClosedLoopRun::new(ChipBoard::new(Chip::new(&image.bytes, pace)?), board);
     run.send_block(&Parameters::Four(robots::block(four_wheels())));
-    run.wait(0.15)?;
+    // its zeros, and then a sector is erased for the parameters
+    run.wait(STORED)?;
     Ok(run)
 }
 
@@ -113,10 +127,31 @@ fn forward(run: &mut Run, seconds: f64) -> Result<(), Failed> {
 pub fn play(image: &Image) -> Result<Seen, Failed> {
     let mut seen = Seen::default();
     drives(image, &mut seen)?;
+    takes_its_time(image, &mut seen)?;
     for failure in Failure::ALL {
         fails(image, failure, &mut seen)?;
     }
     Ok(seen)
+}
+
+/// A drive with other parameters on the way and a wheel that is lost, every instruction as long as it can be.
+fn takes_its_time(image: &Image, seen: &mut Seen) -> Result<(), Failed> {
+    let mut run = ready_at(image, Pace::manual())?;
+    forward(&mut run, 0.3)?;
+    let softer = Block { feedback: 0.2, ..robots::block(four_wheels()) };
+    run.send_block(&Parameters::Four(softer));
+    forward(&mut run, 0.2)?;
+    let taken = run.log.replies.iter().filter(|reply| reply.taken).count() == 2;
+    run.lockstep.board.inject(InjectedFault::Halls { motor: 1, code: 7 });
+    forward(&mut run, 0.2)?;
+    let in_time = !has_fault(&run, Fault::TurnOverrun) && state(&run) == Some(OperatingState::Driving);
+    seen.promise(
+        "with every instruction as long as the manuals say at most, other parameters and a wheel lost on the way: no turn is late",
+        taken && in_time,
+    );
+    let machine = run.lockstep.program.chip.machine();
+    seen.longest = machine.profile.longest.clone();
+    Ok(())
 }
 
 fn drives(image: &Image, seen: &mut Seen) -> Result<(), Failed> {
@@ -231,7 +266,7 @@ fn fails(image: &Image, failure: Failure, seen: &mut Seen) -> Result<(), Failed>
 /// [`Failed`] where one could not be run.
 pub fn board_tests(image: &Image, seen: &mut Seen) -> Result<(), Failed> {
     for (name, address) in &image.tests {
-        let mut chip = Chip::new(&image.bytes, CYCLES_X4)?;
+        let mut chip = Chip::new(&image.bytes, Pace::USUAL)?;
         chip.machine_mut().command_line = format!("run_addr {address}");
         chip.machine_mut().bus.log.keep = false;
         // the longest erases two sectors, 4 s each

@@ -50,6 +50,8 @@ pub fn enter(unicorn: &mut Unicorn<'static, Machine>, exception: u16) -> Result<
     let machine = unicorn.get_data_mut();
     machine.conditional = 0;
     machine.nvic.begin(exception);
+    let now = machine.spent();
+    machine.profile.enter(exception, now);
     machine.bus.log.note(machine.time / 4, Event::Exception { number: exception });
     machine.time += 4 * LATENCY;
     Ok(())
@@ -79,5 +81,7 @@ pub fn leave(unicorn: &mut Unicorn<'static, Machine>) -> Result<(), ChipError> {
     let machine = unicorn.get_data_mut();
     machine.nvic.end();
     machine.time += 4 * LATENCY;
+    let now = machine.spent();
+    machine.profile.leave(now);
     Ok(())
 }

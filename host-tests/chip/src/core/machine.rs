@@ -1,6 +1,9 @@
 //! # Machine: what the core meets before each instruction
 
+use super::cycles::is_long;
 use super::nvic::Nvic;
+use super::pace::Pace;
+use super::profile::{Profile, Spent};
 use crate::peripherals::bus::Bus;
 use crate::peripherals::map::RCC;
 
@@ -42,7 +45,11 @@ pub struct Machine {
     pub(super) conditional: u32,
     pub(super) stop: Option<Stop>,
     image: Vec<u8>,
-    cycles_x4: u64,
+    pub(super) pace: Pace,
+    /// Where the next instruction is, if the last one leads nowhere else
+    follows: u32,
+    /// How long each exception took
+    pub profile: Profile,
     /// What the program is asked to do, for one that asks its probe
     pub command_line: String,
     /// The program has ended: well or not
@@ -50,8 +57,8 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Just switched on, with these bytes in the flash; an instruction takes so many quarter core cycles.
-    pub(super) fn new(image: Vec<u8>, cycles_x4: u64) -> Self {
+    /// Just switched on, with these bytes in the flash; time goes by as `pace` says.
+    pub(super) fn new(image: Vec<u8>, pace: Pace) -> Self {
         Self {
             bus: Bus::new(),
             nvic: Nvic::default(),
@@ -63,7 +70,9 @@ impl Machine {
             conditional: 0,
             stop: None,
             image,
-            cycles_x4,
+            pace,
+            follows: 0,
+            profile: Profile::default(),
             command_line: String::new(),
             ended: None,
         }
@@ -82,6 +91,7 @@ impl Machine {
         self.bus = bus;
         self.nvic = Nvic::default();
         self.conditional = 0;
+        self.profile.reset();
         self.settle();
     }
 
@@ -108,7 +118,8 @@ impl Machine {
             None
         };
         let offset = address.wrapping_sub(FLASH_AT as u32) as usize;
-        let opcode = self.image.get(offset..offset + 2).map_or(0, |code| u16::from_le_bytes([code[0], code[1]]));
+        let half = |at: usize| self.image.get(at..at + 2).map_or(0, |code| u16::from_le_bytes([code[0], code[1]]));
+        let (opcode, second) = (half(offset), half(offset + 2));
         if self.stop.is_none() && opcode == WFI && !inside {
             self.stop = Some(Stop::Sleep);
         }
@@ -120,9 +131,15 @@ impl Machine {
             0xBF00..=0xBFFF if opcode & 0xF != 0 => 4 - (opcode & 0xF).trailing_zeros(),
             _ => self.conditional.saturating_sub(1),
         };
-        self.time += self.cycles_x4;
+        self.time += self.pace.instruction(address, [opcode, second], address != self.follows);
+        self.follows = address + if is_long(opcode) { 4 } else { 2 };
         self.instructions += 1;
         true
+    }
+
+    /// Time and instructions up to now.
+    pub(super) fn spent(&self) -> Spent {
+        Spent { cycles: self.time / 4, instructions: self.instructions }
     }
 
     pub(super) fn advance(&mut self, now: u64) {

@@ -51,13 +51,15 @@ pub fn map_registers(unicorn: &mut Unicorn<'static, Machine>) -> Result<(), Chip
         u64::from(PERIPHERALS),
         PERIPHERALS_LEN as usize,
         Some(|unicorn: &mut Unicorn<'_, Machine>, offset: u64, size: usize| {
-            let bus = &mut unicorn.get_data_mut().bus;
+            let machine = unicorn.get_data_mut();
             let address = PERIPHERALS + offset as u32;
-            u64::from(bus.read(address & !3) >> (8 * (address & 3))) & ((1 << (8 * size)) - 1)
+            machine.time += machine.pace.access(address);
+            u64::from(machine.bus.read(address & !3) >> (8 * (address & 3))) & ((1 << (8 * size)) - 1)
         }),
         Some(|unicorn: &mut Unicorn<'_, Machine>, offset: u64, size: usize, value: u64| {
             let machine = unicorn.get_data_mut();
             let address = PERIPHERALS + offset as u32;
+            machine.time += machine.pace.access(address);
             let (shift, mask) = (8 * (address & 3), ((1u64 << (8 * size)) - 1) as u32);
             let word = if size == 4 {
                 value as u32

@@ -7,14 +7,18 @@
 //! Sources: ARMv7-M architecture reference manual, exception entry and return; Cortex-M4 technical reference manual,
 //! interrupt latency of 12 cycles.
 
+pub mod cycles;
 mod error;
 mod exceptions;
+pub mod flash_reads;
 mod machine;
 mod memory;
 pub mod nvic;
+pub mod pace;
+pub mod profile;
 mod semihosting;
 
-use unicorn_engine::unicorn_const::{Arch, Mode, Permission};
+use unicorn_engine::unicorn_const::{Arch, HookType, Mode, Permission};
 use unicorn_engine::{ArmCpuModel, RegisterARM as Reg, Unicorn};
 
 use crate::peripherals::bus::Bus;
@@ -25,9 +29,7 @@ use memory::{map_registers, move_bytes, word};
 
 pub use error::ChipError;
 pub use machine::Machine;
-
-/// Quarter core cycles that an instruction takes: one and a half.
-pub const CYCLES_X4: u64 = 6;
+pub use pace::Pace;
 
 const RAM_AT: u64 = 0x2000_0000;
 const RAM_LEN: usize = 0x2_0000;
@@ -47,13 +49,13 @@ impl Chip {
     ///
     /// # Errors
     /// [`ChipError`] where the emulator refuses or the image is too long.
-    pub fn new(image: &[u8], cycles_x4: u64) -> Result<Self, ChipError> {
+    pub fn new(image: &[u8], pace: Pace) -> Result<Self, ChipError> {
         if image.len() > flash::IMAGE {
             return Err(ChipError::Image(format!("{} bytes", image.len())));
         }
         let mut bytes = vec![0xFF; flash::IMAGE];
         bytes[..image.len()].copy_from_slice(image);
-        let machine = Machine::new(bytes.clone(), cycles_x4);
+        let machine = Machine::new(bytes.clone(), pace);
         let mut unicorn = Unicorn::new_with_data(Arch::ARM, Mode::THUMB | Mode::MCLASS, machine)?;
         unicorn.ctl_set_cpu_model(ArmCpuModel::UC_CPU_ARM_CORTEX_M4 as i32)?;
         unicorn.mem_map(FLASH_AT, flash::IMAGE, Permission::READ | Permission::EXEC)?;
@@ -79,6 +81,12 @@ impl Chip {
             if !machine.bus.moves.is_empty() {
                 move_bytes(unicorn);
             }
+        })?;
+        let flash = FLASH_AT..FLASH_AT + flash::IMAGE as u64;
+        unicorn.add_mem_hook(HookType::MEM_READ, flash.start, flash.end - 1, |unicorn, _, address, _, _| {
+            let machine = unicorn.get_data_mut();
+            machine.time += machine.pace.load(address as u32);
+            true
         })?;
         let mut chip = Self { unicorn };
         chip.start()?;

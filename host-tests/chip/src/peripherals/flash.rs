@@ -3,7 +3,7 @@
 //! Programming only clears bits. While the flash works, a core that fetches from it stands still: the time goes by, and no
 //! instruction is executed.
 //!
-//! Sources: RM0090, embedded flash (keys, erase and program sequence, registers, sectors of 16, 64 and 128 KiB); DS8626,
+//! Sources: RM0090, embedded flash (keys, erase and program sequence, registers, sectors of 16, 64 and 128 KiB; the image has sectors 0 to 9); DS8626,
 //! flash memory characteristics: at most 4 s for a sector of 128 KiB by bytes, 100 µs for a byte or word.
 
 use super::map::FLASH;
@@ -13,7 +13,7 @@ use crate::events::{Event, Log};
 /// Bytes of the flash.
 pub const LEN: usize = 1 << 20;
 /// Bytes at its beginning that hold the image, and are not written.
-pub const IMAGE: usize = 0x2_0000;
+pub const IMAGE: usize = 0xC_0000;
 
 const SR: u32 = FLASH + 0x0C;
 const CR: u32 = FLASH + 0x10;
@@ -27,7 +27,7 @@ const PROGRAM: u64 = 16_800;
 
 /// Sector of 128 KiB: offset of its first byte.
 fn sector(number: u32) -> Option<usize> {
-    (5..12).contains(&number).then(|| (number as usize - 4) * 0x2_0000)
+    (10..12).contains(&number).then(|| (number as usize - 4) * 0x2_0000)
 }
 
 /// The flash.
