@@ -15,6 +15,7 @@ pub const ROOTS: &[&str] = &[
     "omni-gap/src/lib.rs",
     "omni-gap/src/main.rs",
     "host-tests/src/lib.rs",
+    "host-tests/chip/src/lib.rs",
     "host-tests/ground-truth/src/lib.rs",
     "xtask/src/main.rs",
 ];
