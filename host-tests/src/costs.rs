@@ -26,6 +26,26 @@ impl Cost {
     }
 }
 
+/// The most instructions that an effect which is undone may add to a motion turn.
+pub const MOST_ADDED: u32 = 600;
+
+/// The part that effects add to, and what a part begins with in which one is undone.
+const PLAIN: &str = "motion tick, 4 wheels";
+const UNDOING: &str = "motion tick, 4 wheels, undoing ";
+
+/// What is promised of these costs and does not hold.
+pub fn broken_promises(costs: &[Cost]) -> Vec<String> {
+    let Some(plain) = costs.iter().find(|cost| cost.part == PLAIN) else {
+        return vec![format!("{PLAIN} is not there")];
+    };
+    let added = |cost: &Cost| {
+        let effect = cost.part.strip_prefix(UNDOING)?;
+        let added = cost.instructions.saturating_sub(plain.instructions);
+        (added > MOST_ADDED).then(|| format!("undoing {effect} adds {added} instructions, {MOST_ADDED} at the most"))
+    };
+    costs.iter().filter_map(added).collect()
+}
+
 /// The page of all costs.
 pub fn page(costs: &[Cost]) -> String {
     let mut text = "# What the control path costs\n\n\
@@ -66,6 +86,23 @@ mod tests {
         [("motion tick, 4 wheels", tick), ("six-step current tick", 66)]
             .map(|(part, instructions)| Cost { part: part.to_owned(), instructions })
             .to_vec()
+    }
+
+    #[test]
+    fn an_effect_that_adds_too_much_is_told_and_on_the_page_there_is_none() {
+        let undoing = |instructions| Cost { part: format!("{UNDOING}creep"), instructions };
+        let with = |instructions| [costs(300), vec![undoing(instructions)]].concat();
+        assert!(broken_promises(&with(900)).is_empty());
+        assert_eq!(broken_promises(&with(901)), ["undoing creep adds 601 instructions, 600 at the most"]);
+        assert_eq!(broken_promises(&[]).len(), 1);
+        let page = std::fs::read_to_string(crate::golden::path("cycles.md")).expect("the page");
+        let row = |line: &str| {
+            let (part, count) = line.trim_matches('|').split_once('|')?;
+            Some(Cost { part: part.trim().to_owned(), instructions: count.trim().parse().ok()? })
+        };
+        let recorded: Vec<Cost> = page.lines().filter_map(row).collect();
+        assert!(recorded.iter().filter(|cost| cost.part.starts_with(UNDOING)).count() > 20);
+        assert_eq!(broken_promises(&recorded), Vec::<String>::new());
     }
 
     #[test]

@@ -134,6 +134,15 @@ pub trait Hooks<T: Real>: Copy + Debug {
     // What a controller asks for in every turn so that the motion is as if the effect were not there. Everything follows
     // the motion that is wanted and never one that is measured: dry friction that did would chatter around standstill.
 
+    /// Counted in once: the wheel as it is.
+    #[inline]
+    fn fold_wheel(&self, x: &mut Contact<T>) {}
+    /// Counted in once: the body's mass matrix.
+    #[inline]
+    fn fold_mass(&self, mass: &mut [[T; 3]; 3]) {}
+    /// Counted in once: true speed of a wheel over the one that is read [1].
+    #[inline]
+    fn fold_reading(&self, speed: &mut T) {}
     /// [`Place::Body`]: force to give to the body.
     #[inline]
     fn undo_body(&self, motion: &BodyMotion<T>, force: &mut [T; 3]) {}

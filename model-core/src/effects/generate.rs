@@ -189,6 +189,21 @@ macro_rules! catalogue {
                 match self { $(Effect::$Name(_) => EffectKind::$Name),* }
             }
 
+            /// [`Hooks::fold_wheel`]
+            pub fn fold_wheel(&self, x: &mut Contact<T>) {
+                match self { $(Effect::$Name(e) => e.fold_wheel(x)),* }
+            }
+
+            /// [`Hooks::fold_mass`]
+            pub fn fold_mass(&self, mass: &mut [[T; 3]; 3]) {
+                match self { $(Effect::$Name(e) => e.fold_mass(mass)),* }
+            }
+
+            /// [`Hooks::fold_reading`]
+            pub fn fold_reading(&self, speed: &mut T) {
+                match self { $(Effect::$Name(e) => e.fold_reading(speed)),* }
+            }
+
             /// [`Hooks::undo_body`]
             #[inline]
             pub fn undo_body(&self, motion: &BodyMotion<T>, force: &mut [T; 3]) {

@@ -108,6 +108,7 @@ pub mod sensing {
 
 mod list {
     use super::card::{Card, Scope, Seam};
+    use super::seams::Contact;
     use super::undoing::{BodyMotion, BridgeDemand, BridgeRoom, Place, RimMotion, Wheels};
     use super::{Catalogued, Hooks, body, contact, drivetrain, electrical, sensing};
     use crate::number::scalar::Real;

@@ -114,6 +114,7 @@ fn motion(watch: &mut Stopwatch) {
 }
 
 fn compensations(watch: &mut Stopwatch) {
+    let mut short = 0;
     for known in EFFECT_CODES.iter().filter(|known| known.kind.undone()) {
         let wheel = (known.scope == Scope::OneWheel).then_some(1);
         let mut undo = Compensation::none();
@@ -123,7 +124,9 @@ fn compensations(watch: &mut Stopwatch) {
         }
         let settings = settings(paper::four_wheels(), undo);
         say("motion tick, 4 wheels, undoing ", known.id, tick_costs(watch, &settings, NEAR, 16.0));
+        short = short.max(tick_costs(watch, &settings, FAR, 3.0));
     }
+    say("motion tick, 4 wheels, the costliest of these", ", no voltage for what is wanted", short);
 }
 
 // The current turn

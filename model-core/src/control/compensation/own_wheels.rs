@@ -3,8 +3,7 @@
 use core::array;
 
 use super::Compensation;
-use crate::effects::EffectSet;
-use crate::effects::seams::{Contact, EffectContext};
+use crate::effects::seams::Contact;
 use crate::geometry::kinematics::{Wheel, Wheels};
 use crate::number::scalar::Real;
 
@@ -15,10 +14,7 @@ impl<const N: usize, T: Real> Compensation<N, T> {
             let Wheel { radius, .. } = nominal.wheels()[j];
             let position = nominal.wheels()[j].contact_point().into();
             let mut contact = Contact { row: nominal.rows()[j], position, radius, ..Contact::default() };
-            let at = EffectContext { wheel: j, ..EffectContext::default() };
-            // what is undone in every turn is no geometry
-            let folded = self.on(j).filter(|undo| undo.effect.kind().undone_at().is_none());
-            folded.for_each(|undo| undo.effect.contact(&[], &at, &mut contact));
+            self.on(j).for_each(|undo| undo.effect.fold_wheel(&mut contact));
             contact
         })
     }

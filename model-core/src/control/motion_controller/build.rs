@@ -8,7 +8,7 @@ use crate::control::braking::BrakingBand;
 use crate::control::compensation::Compensation;
 use crate::control::reference::AccelerationLimiter;
 use crate::effects::EffectSet;
-use crate::effects::seams::{Body, EffectContext, Sense, Shaft, Winding};
+use crate::effects::seams::{EffectContext, Shaft, Winding};
 use crate::effects::undoing::{BridgeRoom, Place};
 use crate::geometry::kinematics::{Wheel, Wheels};
 use crate::number::linalg::{Mat3, accumulate_outer, add_scaled};
@@ -195,16 +195,16 @@ fn undone_wheel<const N: usize, T: Real>(settings: &Settings<N, T>, j: usize) ->
 fn added_mass<const N: usize, T: Real>(compensation: &Compensation<N, T>, robot: &Robot<N, T>) -> Mat3<T> {
     let zero = T::zero();
     let own = [[robot.mass, zero, zero], [zero, robot.mass, zero], [zero, zero, robot.inertia]];
-    let mut body = Body { mass: own, ..Body::default() };
-    compensation.iter().for_each(|undo| undo.effect.body(&[], &EffectContext::default(), &mut body));
-    array::from_fn(|i| array::from_fn(|k| body.mass[i][k] - own[i][k]))
+    let mut mass = own;
+    compensation.iter().for_each(|undo| undo.effect.fold_mass(&mut mass));
+    array::from_fn(|i| array::from_fn(|k| mass[i][k] - own[i][k]))
 }
 
 /// True speed of a wheel over the one that is read [1].
 fn true_speed<const N: usize, T: Real>(compensation: &Compensation<N, T>, j: usize) -> T {
-    let mut read = Sense { wheel_speed: T::one(), ..Sense::default() };
-    compensation.on(j).for_each(|undo| undo.effect.invert_sensing(&EffectContext::default(), &mut read));
-    read.wheel_speed
+    let mut speed = T::one();
+    compensation.on(j).for_each(|undo| undo.effect.fold_reading(&mut speed));
+    speed
 }
 
 /// What the bridges leave of the voltage, each wheel's own added up, and the least of them.

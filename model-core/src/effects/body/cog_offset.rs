@@ -152,6 +152,15 @@ impl<T: Real> Hooks<T> for CogOffset<T> {
             *sum -= a;
         }
     }
+
+    fn fold_mass(&self, mass: &mut [[T; 3]; 3]) {
+        let [of_v, of_vn, of_w] = inertia([self.offset_v, self.offset_vn], mass[0][0]);
+        for (k, added) in [of_v, of_vn].into_iter().enumerate() {
+            mass[k][2] += added;
+            mass[2][k] += added;
+        }
+        mass[2][2] += of_w;
+    }
 }
 
 #[cfg(test)]

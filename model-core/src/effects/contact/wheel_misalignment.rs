@@ -98,6 +98,10 @@ impl<T: Real> Hooks<T> for WheelMisalignment<T> {
             *entry -= T::zero() - change;
         }
     }
+
+    fn fold_wheel(&self, x: &mut Contact<T>) {
+        self.contact(&(), &EffectContext::default(), x);
+    }
 }
 
 #[cfg(test)]

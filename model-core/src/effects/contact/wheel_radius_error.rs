@@ -85,6 +85,10 @@ impl<T: Real> Hooks<T> for WheelRadiusError<T> {
     fn contact(&self, _: &(), _: &EffectContext<T>, x: &mut Contact<T>) {
         x.radius = own(self.radius_error, x.radius);
     }
+
+    fn fold_wheel(&self, x: &mut Contact<T>) {
+        self.contact(&(), &EffectContext::default(), x);
+    }
 }
 
 #[cfg(test)]

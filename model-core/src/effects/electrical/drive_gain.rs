@@ -116,7 +116,7 @@ impl<T: Real> Hooks<T> for DriveGain<T> {
     }
 
     fn bridge_room(&self, room: &mut BridgeRoom<T>) {
-        room.share = room.share * (T::one() + self.gain_error);
+        room.share *= T::one() + self.gain_error;
         room.kept += self.offset.abs();
     }
 }

@@ -81,6 +81,11 @@ impl<T: Real> Hooks<T> for EncoderScale<T> {
         // w = w_read/(1 + s)
         x.wheel_speed = x.wheel_speed / (T::one() + self.scale_error);
     }
+
+    fn fold_reading(&self, speed: &mut T) {
+        // w = w_read/(1 + s)
+        *speed = *speed / (T::one() + self.scale_error);
+    }
 }
 
 #[cfg(test)]
