@@ -9,7 +9,7 @@ use object::{LittleEndian, Object, ObjectSection, ObjectSymbol};
 use crate::core::ChipError;
 
 const FLASH_AT: u32 = 0x0800_0000;
-const FLASH_END: u32 = 0x0802_0000;
+const FLASH_END: u32 = 0x0810_0000;
 
 /// An image.
 #[derive(Debug)]

@@ -70,8 +70,11 @@ impl Seen {
 
 type Run = ClosedLoopRun<ChipBoard, 4>;
 
-/// From a block on its way to a robot that has stored it [s]: erasing takes four seconds at most.
-const STORED: f64 = 4.5;
+/// How long a sector takes to be erased here [core cycles]: 50 ms, that the core stands still is what matters.
+const ERASE: u64 = 8_400_000;
+
+/// From a block on its way to a robot that knows its zeros and has stored the block [s]
+const STORED: f64 = 0.3;
 
 /// Cycles within which a failing program opens the bridges: 3 µs.
 const OPENS_WITHIN: u64 = 500;
@@ -84,7 +87,9 @@ fn ready(image: &Image) -> Result<Run, Failed> {
 /// The same with a core of another pace.
 fn ready_at(image: &Image, pace: Pace) -> Result<Run, Failed> {
     let board = VirtualBoard::new(BoardSetup::new(four_wheels(), Effects::default(), 1));
-    let mut run = ClosedLoopRun::new(ChipBoard::new(Chip::new(&image.bytes, pace)?), board);
+    let mut chip = Chip::new(&image.bytes, pace)?;
+    chip.machine_mut().bus.flash.erase = ERASE;
+    let mut run = ClosedLoopRun::new(ChipBoard::new(chip), board);
     run.send_block(&Parameters::Four(robots::block(four_wheels())));
     // its zeros, and then a sector is erased for the parameters
     run.wait(STORED)?;

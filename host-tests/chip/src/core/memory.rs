@@ -42,11 +42,11 @@ fn bit_band(offset: u64) -> (u32, u32) {
     (PERIPHERALS + bit / 32 * 4, bit % 32)
 }
 
-/// Maps registers and the flash behind the image.
+/// Maps registers, and the flash behind the bytes that are reserved for the image.
 ///
 /// # Errors
 /// Where the emulator refuses.
-pub fn map_registers(unicorn: &mut Unicorn<'static, Machine>) -> Result<(), ChipError> {
+pub fn map_registers(unicorn: &mut Unicorn<'static, Machine>, reserved: usize) -> Result<(), ChipError> {
     unicorn.mmio_map(
         u64::from(PERIPHERALS),
         PERIPHERALS_LEN as usize,
@@ -97,15 +97,15 @@ pub fn map_registers(unicorn: &mut Unicorn<'static, Machine>) -> Result<(), Chip
         }),
     )?;
     unicorn.mmio_map(
-        FLASH_AT + flash::IMAGE as u64,
-        flash::LEN - flash::IMAGE,
-        Some(|unicorn: &mut Unicorn<'_, Machine>, offset: u64, size: usize| {
-            unicorn.get_data_mut().bus.flash.read(flash::IMAGE + offset as usize, size)
+        FLASH_AT + reserved as u64,
+        flash::LEN - reserved,
+        Some(move |unicorn: &mut Unicorn<'_, Machine>, offset: u64, size: usize| {
+            unicorn.get_data_mut().bus.flash.read(reserved + offset as usize, size)
         }),
-        Some(|unicorn: &mut Unicorn<'_, Machine>, offset: u64, size: usize, value: u64| {
+        Some(move |unicorn: &mut Unicorn<'_, Machine>, offset: u64, size: usize, value: u64| {
             let machine = unicorn.get_data_mut();
             let Bus { flash, words, log, .. } = &mut machine.bus;
-            flash.program(words, log, flash::IMAGE + offset as usize, size, value);
+            flash.program(words, log, reserved + offset as usize, size, value);
             machine.settle();
         }),
     )?;

@@ -50,20 +50,23 @@ impl Chip {
     /// # Errors
     /// [`ChipError`] where the emulator refuses or the image is too long.
     pub fn new(image: &[u8], pace: Pace) -> Result<Self, ChipError> {
-        if image.len() > flash::IMAGE {
+        // whole sectors: what is behind them can be erased
+        let reserved = image.len().next_multiple_of(flash::SECTOR);
+        if reserved >= flash::LEN {
             return Err(ChipError::Image(format!("{} bytes", image.len())));
         }
-        let mut bytes = vec![0xFF; flash::IMAGE];
+        let mut bytes = vec![0xFF; reserved];
         bytes[..image.len()].copy_from_slice(image);
         let machine = Machine::new(bytes.clone(), pace);
         let mut unicorn = Unicorn::new_with_data(Arch::ARM, Mode::THUMB | Mode::MCLASS, machine)?;
         unicorn.ctl_set_cpu_model(ArmCpuModel::UC_CPU_ARM_CORTEX_M4 as i32)?;
-        unicorn.mem_map(FLASH_AT, flash::IMAGE, Permission::READ | Permission::EXEC)?;
+        unicorn.mem_map(FLASH_AT, reserved, Permission::READ | Permission::EXEC)?;
         unicorn.mem_write(FLASH_AT, &bytes)?;
         unicorn.mem_map(RAM_AT, RAM_LEN, Permission::ALL)?;
         unicorn.mem_map(SYSTEM_MEMORY, 0x1000, Permission::READ)?;
         unicorn.mem_write(FLASH_SIZE, &((flash::LEN / 1024) as u16).to_le_bytes())?;
-        map_registers(&mut unicorn)?;
+        unicorn.get_data_mut().bus.flash.image = reserved;
+        map_registers(&mut unicorn, reserved)?;
         unicorn.add_code_hook(1, 0, |unicorn, address, size| {
             let address = address as u32;
             // masks are asked for where it matters: after what is due has been done, and something waits
@@ -82,8 +85,8 @@ impl Chip {
                 move_bytes(unicorn);
             }
         })?;
-        let flash = FLASH_AT..FLASH_AT + flash::IMAGE as u64;
-        unicorn.add_mem_hook(HookType::MEM_READ, flash.start, flash.end - 1, |unicorn, _, address, _, _| {
+        let last = FLASH_AT + reserved as u64 - 1;
+        unicorn.add_mem_hook(HookType::MEM_READ, FLASH_AT, last, |unicorn, _, address, _, _| {
             let machine = unicorn.get_data_mut();
             machine.time += machine.pace.load(address as u32);
             true
