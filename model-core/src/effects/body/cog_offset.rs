@@ -155,10 +155,10 @@ impl<T: Real> Hooks<T> for CogOffset<T> {
 
     fn fold_mass(&self, mass: &mut [[T; 3]; 3]) {
         let [of_v, of_vn, of_w] = inertia([self.offset_v, self.offset_vn], mass[0][0]);
-        for (k, added) in [of_v, of_vn].into_iter().enumerate() {
-            mass[k][2] += added;
-            mass[2][k] += added;
-        }
+        mass[0][2] += of_v;
+        mass[2][0] += of_v;
+        mass[1][2] += of_vn;
+        mass[2][1] += of_vn;
         mass[2][2] += of_w;
     }
 }

@@ -108,10 +108,10 @@ impl<T: Real> Hooks<T> for FrictionEllipse<T> {
 
     fn undo_body(&self, motion: &BodyMotion<T>, needed: &mut [T; 3]) {
         let shares = shares(self.still_speed, [motion.twist.v, motion.twist.vn]);
-        for (k, q) in shares.into_iter().enumerate() {
-            // of C·sign(v), which is given already, s·(1 − q) is too much
-            needed[k] -= self.share * (T::one() - q) * motion.coulomb[k] * way(motion.ahead[k]);
-        }
+        // of C·sign(v), which is given already, s·(1 − q) is too much
+        let surplus = |q: T, k: usize| self.share * (T::one() - q) * motion.coulomb[k] * way(motion.ahead[k]);
+        needed[0] -= surplus(shares[0], 0);
+        needed[1] -= surplus(shares[1], 1);
     }
 }
 
