@@ -33,6 +33,15 @@ pub struct HiddenEffect {
     pub by_voltage: bool,
 }
 
+/// How much the robot's feedback does beside the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feedback {
+    /// Little, so that the model is what counts: 0.01 A·s/rad
+    Little,
+    /// As much as a robot file has that says nothing of it
+    Shipped,
+}
+
 /// What closing the loop came to.
 #[derive(Clone, Debug)]
 pub struct ClosedGap {
@@ -56,7 +65,7 @@ impl ClosedGap {
 }
 
 /// What is hidden, effect by effect, at sizes that a robot shows plainly.
-pub const HIDDEN: [HiddenEffect; 9] = [
+pub const HIDDEN: [HiddenEffect; 20] = [
     HiddenEffect { id: "coriolis", wheel: None, params: &[1.0], by_voltage: false },
     HiddenEffect { id: "stribeck", wheel: None, params: &[0.8, 0.08, 1.0], by_voltage: false },
     HiddenEffect { id: "gear_efficiency", wheel: None, params: &[0.8], by_voltage: false },
@@ -66,10 +75,21 @@ pub const HIDDEN: [HiddenEffect; 9] = [
     HiddenEffect { id: "rotor_inertia", wheel: None, params: &[4.0e-4], by_voltage: false },
     HiddenEffect { id: "floor_tilt", wheel: None, params: &[0.03, 0.6], by_voltage: false },
     HiddenEffect { id: "current_sensor_offset", wheel: None, params: &[0.15], by_voltage: false },
+    HiddenEffect { id: "current_sensor_gain", wheel: None, params: &[0.2], by_voltage: false },
+    HiddenEffect { id: "wheel_friction", wheel: Some(1), params: &[0.06, 0.0], by_voltage: false },
+    HiddenEffect { id: "asymmetric_friction", wheel: Some(0), params: &[0.06], by_voltage: false },
+    HiddenEffect { id: "quadratic_drag", wheel: None, params: &[6.0], by_voltage: false },
+    HiddenEffect { id: "cog_offset", wheel: None, params: &[0.03, -0.02], by_voltage: false },
+    HiddenEffect { id: "friction_ellipse", wheel: None, params: &[1.0, 0.01], by_voltage: false },
+    HiddenEffect { id: "torque_saturation", wheel: None, params: &[0.15], by_voltage: false },
+    HiddenEffect { id: "drive_gain", wheel: Some(1), params: &[-0.15, 0.0], by_voltage: true },
+    HiddenEffect { id: "regeneration_asymmetry", wheel: None, params: &[0.6, 0.05], by_voltage: true },
+    HiddenEffect { id: "roller_friction", wheel: Some(0), params: &[1.0, 0.0], by_voltage: false },
+    HiddenEffect { id: "wheel_misalignment", wheel: Some(2), params: &[0.12], by_voltage: false },
 ];
 
-/// How many effects must be left with at most [`LEFT`] of their error.
-pub const EFFECTS: usize = 6;
+/// How many effects must be left with at most [`MAX_REMAINING`] of their error.
+pub const EFFECTS: usize = 12;
 
 /// The most that may be left of the error of each [1].
 pub const MAX_REMAINING: f64 = 0.40;
@@ -95,11 +115,15 @@ pub fn script(phase: f64, t: f64) -> BodyTwist<f64> {
 }
 
 /// A robot file in the form that the loop drives it: with the supply, the limits and the controller that it needs.
-pub fn robot_file(text: &str, hidden: HiddenEffect) -> String {
+pub fn robot_file(text: &str, hidden: HiddenEffect, feedback: Feedback) -> String {
     let mode = if hidden.by_voltage { "voltage" } else { "current" };
+    let gains = match feedback {
+        Feedback::Little => "feedback_A_s_per_rad = 0.01\nfeedback_A_per_rad = 0.0\n",
+        Feedback::Shipped => "",
+    };
     format!(
         "{text}\n[limits]\ncurrent_A = 4.0\nspeed_m_s = 2.0\n\n[controller]\nacceleration_v_m_s2 = 6.0\nacceleration_vn_m_s2 = 6.0\nmode = \"{mode}\"\ninductance_H = 0.6e-3\n\
-         feedback_A_s_per_rad = 0.01\nfeedback_A_per_rad = 0.0\nbandwidth_rad_s = 2000.0\n"
+         {gains}bandwidth_rad_s = 2000.0\n"
     )
 }
 
