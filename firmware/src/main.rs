@@ -32,7 +32,7 @@ mod app {
     use firmware::tx_queue::{TxConsumer, TxProducer, TxStorage};
     use firmware::windings::Windings;
 
-    use crate::tasks::event_log::EventLog;
+    use crate::tasks::event_log::{EventLog, Report};
     use crate::tasks::load::Load;
     use crate::tasks::{current::current, idle::idle, listen::listen, motion::motion, record::record, start::init};
 
@@ -43,6 +43,7 @@ mod app {
         pub load: Load,
         pub serial: SerialLink,
         pub to_store: BlockToStore,
+        pub report: Report,
         pub heartbeats: Heartbeats,
     }
 
@@ -65,7 +66,7 @@ mod app {
         #[task(binds = ADC, priority = 4, local = [bridges], shared = [windings, load, &heartbeats])]
         fn current(_: current::Context);
 
-        #[task(binds = EXTI0, priority = 3, local = [motion_control, tx_producer, event_log], shared = [windings, inbox, load, &heartbeats])]
+        #[task(binds = EXTI0, priority = 3, local = [motion_control, tx_producer], shared = [windings, inbox, load, report, &heartbeats])]
         fn motion(_: motion::Context);
 
         #[task(binds = EXTI1, priority = 2, local = [receiver], shared = [inbox, serial, to_store, &heartbeats])]
@@ -74,7 +75,7 @@ mod app {
         #[task(binds = EXTI2, priority = 1, local = [tx_consumer], shared = [serial, &heartbeats])]
         fn record(_: record::Context);
 
-        #[idle(local = [watchdog, flash_store], shared = [windings, inbox, load, to_store, &heartbeats])]
+        #[idle(local = [watchdog, flash_store, event_log], shared = [windings, inbox, load, to_store, report, &heartbeats])]
         fn idle(_: idle::Context) -> !;
     }
 }

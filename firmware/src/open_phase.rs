@@ -36,7 +36,8 @@ impl OpenPhaseDetector {
     pub fn tick(&mut self, feedback: &WindingFeedback, amps_per_count: f32, limit: f32) -> u8 {
         let least = CARRIES * limit / amps_per_count.abs();
         let mut open = 0;
-        for (j, quiet_sectors) in self.0.iter_mut().enumerate() {
+        for j in 0..MOTORS {
+            let quiet_sectors = &mut self.0[j];
             let Some(sector) = feedback.codes.halls[j].sector().filter(|_| feedback.disabled >> j & 1 == 0) else {
                 *quiet_sectors = [0; 3];
                 continue;

@@ -36,7 +36,7 @@ use stm32f4xx_hal::pac;
 
 use crate::registers::timing;
 
-pub use bridges::Bridges;
+pub use bridges::{Bridges, resume_turns};
 pub use check::{Reading, counters, pending, readings};
 pub use fail_safe::fail_safe;
 pub use flash_store::FlashStore;

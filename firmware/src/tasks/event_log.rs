@@ -1,40 +1,47 @@
 //! # Event log: what changed, over the debugger
 //!
-//! A record tells everything a thousand times a second; a person with a probe and no link sees here when it changes.
+//! A record tells everything a thousand times a second; a person with a probe and no link sees here when it changes. A line is
+//! written with all interrupts masked, so it is a few bytes, by the task that nobody waits for.
 
 use model_core::link::events::Events;
 use model_core::link::faults::Faults;
 use model_core::link::record::OperatingState;
 
-/// What was told last.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct EventLog {
-    state: OperatingState,
-    faults: Faults,
-    events: Events,
+/// What a motion turn came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Report {
+    /// What the robot does
+    pub state: OperatingState,
+    /// What is latched
+    pub faults: Faults,
+    /// What it does about itself
+    pub events: Events,
 }
 
-impl EventLog {
-    /// Tells what is new in a turn.
-    #[inline]
-    pub fn tell(&mut self, state: OperatingState, faults: Faults, events: Events) {
-        if state != self.state || faults != self.faults || events != self.events {
-            self.tell_changes(state, faults, events);
-        }
-    }
+/// What was told last.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct EventLog(Report);
 
-    #[cold]
-    #[inline(never)]
-    fn tell_changes(&mut self, state: OperatingState, faults: Faults, events: Events) {
-        for fault in faults.iter().filter(|fault| !self.faults.has(*fault)) {
-            defmt::error!("fault {=u8}: {=str}", fault.code(), fault.text());
+impl EventLog {
+    /// Tells what is new: faults and events by their codes.
+    pub fn tell(&mut self, report: Report) {
+        let Self(told) = *self;
+        for fault in report.faults.iter().filter(|fault| !told.faults.has(*fault)) {
+            defmt::error!("fault {=u8}", fault.code());
         }
-        for event in events.iter().filter(|event| !self.events.has(*event)) {
-            defmt::info!("{=str}", event.text());
+        for event in report.events.iter().filter(|event| !told.events.has(*event)) {
+            defmt::info!("event {=u8}", event as u8);
         }
-        if state != self.state {
-            defmt::info!("{=str}", state.name());
+        if report.state != told.state {
+            match report.state {
+                OperatingState::Asleep => defmt::info!("asleep"),
+                OperatingState::Calibrating => defmt::info!("calibrating"),
+                OperatingState::Open => defmt::info!("open"),
+                OperatingState::Driving => defmt::info!("driving"),
+                OperatingState::Faulted => defmt::info!("faulted"),
+                OperatingState::Probing => defmt::info!("probing"),
+            }
         }
-        *self = Self { state, faults, events };
+        *self = Self(report);
     }
 }

@@ -1,16 +1,21 @@
-//! Nothing to do: feed the watchdog, if all others have been at work since the last time, and store what is to be stored.
+//! Nothing to do: feed the watchdog, if all others have been at work since the last time, store what is to be stored, and tell a
+//! debugger what changed.
 
+use firmware::board;
 use rtic::Mutex;
 
 use crate::app;
 
 /// Waits for the next interrupt, for ever.
 pub fn idle(mut cx: app::idle::Context<'_>) -> ! {
+    board::resume_turns();
     loop {
         if cx.shared.heartbeats.all_alive() {
             cx.local.watchdog.feed();
         }
         store(&mut cx);
+        let report = cx.shared.report.lock(|report| *report);
+        cx.local.event_log.tell(report);
         cortex_m::asm::wfi();
     }
 }
@@ -29,6 +34,7 @@ fn store(cx: &mut app::idle::Context<'_>) {
             }
             let stored = flash_store.save(block);
             load.lock(|load| load.stand());
+            board::resume_turns();
             Some(stored)
         });
         let Some(stored) = tried else { return };

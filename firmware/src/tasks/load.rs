@@ -8,7 +8,7 @@
 use firmware::board::CYCLES_PER_PERIOD;
 
 /// The worst since the last motion turn.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Load {
     spent: u32,
     jitter: u32,
@@ -16,6 +16,13 @@ pub struct Load {
     motion_runs: bool,
     /// The core stood still since the last current turn
     stood: bool,
+}
+
+impl Default for Load {
+    /// Nothing yet; the first turn may come at any time, as after the core stood still.
+    fn default() -> Self {
+        Self { spent: 0, jitter: 0, first: None, motion_runs: false, stood: true }
+    }
 }
 
 impl Load {

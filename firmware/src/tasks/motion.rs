@@ -5,6 +5,7 @@ use firmware::drivers::heartbeat::Task;
 use rtic::Mutex;
 
 use crate::app;
+use crate::tasks::event_log::Report;
 
 /// One turn, 1 ms.
 pub fn motion(mut cx: app::motion::Context<'_>) {
@@ -15,7 +16,8 @@ pub fn motion(mut cx: app::motion::Context<'_>) {
 
     let load = cx.shared.load.lock(|load| load.motion());
     cx.local.tx_producer.enqueue_tick(&feedback, &output, load);
-    cx.local.event_log.tell(output.state, output.all_faults(&feedback), output.events);
+    let report = Report { state: output.state, faults: output.all_faults(&feedback), events: output.events };
+    cx.shared.report.lock(|last| *last = report);
     cx.shared.heartbeats.beat(Task::Motion);
     rtic::pend(board::pac::Interrupt::EXTI1);
     rtic::pend(board::pac::Interrupt::EXTI2);

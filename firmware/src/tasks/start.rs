@@ -11,7 +11,7 @@ use firmware::windings::Windings;
 use model_core::link::faults::Fault;
 
 use crate::app;
-use crate::tasks::event_log::EventLog;
+use crate::tasks::event_log::{EventLog, Report};
 use crate::tasks::load::Load;
 
 /// Takes the board, reads the parameters that were kept, and lets the periods begin.
@@ -37,6 +37,7 @@ pub fn init(cx: app::init::Context<'_>) -> (app::Shared, app::Local) {
             load: Load::default(),
             serial,
             to_store: BlockToStore::default(),
+            report: Report::default(),
             heartbeats: Heartbeats::new(),
         },
         app::Local {

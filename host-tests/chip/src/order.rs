@@ -90,8 +90,8 @@ fn line(
     let matching: Vec<i64> = events.iter().filter(|seen| is(&seen.event)).map(|seen| seen.at as i64).collect();
     // the first and the last period are not whole
     for top in tops.iter().skip(1).take(tops.len().saturating_sub(3)).map(|top| *top as i64) {
-        let near = matching.iter().map(|at| at - top).filter(|at| (at - expected).abs() < half);
-        for at in near {
+        let first = matching.partition_point(|at| at - top <= expected - half);
+        for at in matching[first..].iter().map(|at| at - top).take_while(|at| *at < expected + half) {
             instant.seen = [instant.seen[0].min(at), instant.seen[1].max(at)];
             instant.periods += 1;
         }

@@ -109,7 +109,7 @@ const PERIOD: f64 = 8_400.0;
 fn cycles(text: &mut String, seen: &Seen) {
     *text += "\n## Cycles at most\n\nA drive with other parameters and a wheel lost on the way, every instruction as long as the manuals say at most: \
              tables 3-1 and 7-1 of the Cortex-M4's technical reference manual with the largest number of each range, three cycles for every refill of the \
-             pipeline, five for every line of the flash that its 64 + 8 lines do not hold (no prefetch), six and twelve for an access to APB2 \
+             pipeline, five for every line of the flash that its 64 + 8 lines do not hold and that was not prefetched, six and twelve for an access to APB2 \
              and APB1. The longest of each interrupt from entry to return, what interrupted it taken off.\n\n\
              | interrupt | instructions | cycles at most | cycles an instruction | of a period |\n|---|---|---|---|---|\n";
     for (number, what) in EXCEPTIONS {

@@ -28,6 +28,17 @@ pub fn any_closed() -> bool {
     CLOSED.load(Ordering::Relaxed) != 0
 }
 
+/// Lets the turns come, at first or after the core stood still: what the converters ended until now is nobody's, the next turn
+/// comes with the next group, at its time.
+pub fn resume_turns() {
+    // SAFETY: one store to a flag register: ones leave flags as they are, the zeros clear those of the injected group.
+    unsafe { (*pac::ADC1::PTR).sr().write(|w| w.bits(adc::SR_SEEN)) };
+    NVIC::unpend(Interrupt::ADC);
+    // SAFETY: the program has bound its turn to this interrupt, and calls this outside of all critical sections but one that
+    // masks every interrupt.
+    unsafe { NVIC::unmask(Interrupt::ADC) };
+}
+
 /// The compare counts that the last turn asked for.
 pub fn requested_counts() -> [[u16; 3]; MOTORS] {
     PENDING.each_ref().map(|motor| motor.each_ref().map(|count| count.load(Ordering::Relaxed)))
@@ -93,8 +104,9 @@ pub struct Bridges {
 }
 
 impl Bridges {
-    /// Lets the periods begin; the bridges stay open until they are driven.
+    /// Lets the periods begin; the bridges stay open until they are driven, and no turn comes before [`resume_turns`].
     pub fn start(&mut self) {
+        NVIC::mask(Interrupt::ADC);
         let (first, ..) = &self.converters;
         // the supply is known before the first period; 4.6 µs, and the loop ends without a converter too
         convert(first, adc::CR2_ASLEEP);

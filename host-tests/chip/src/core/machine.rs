@@ -131,7 +131,7 @@ impl Machine {
             0xBF00..=0xBFFF if opcode & 0xF != 0 => 4 - (opcode & 0xF).trailing_zeros(),
             _ => self.conditional.saturating_sub(1),
         };
-        self.time += self.pace.instruction(address, [opcode, second], address != self.follows);
+        self.time += self.pace.instruction(now, address, [opcode, second], address != self.follows);
         self.follows = address + if is_long(opcode) { 4 } else { 2 };
         self.instructions += 1;
         true

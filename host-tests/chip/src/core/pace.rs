@@ -11,8 +11,7 @@
 //! | flash | wait states of lines that are not kept: [`flash_reads`](super::flash_reads) |
 //! | bus | an access to APB takes two cycles of that bus and one to meet its clock: 3 × 4 core cycles on APB1, 3 × 2 on APB2 |
 //!
-//! The second is a bound: each part is the manual's largest, and none hides behind another, as the core's buffer for stores and
-//! the prefetch of the flash do.
+//! The second is a bound: each part is the manual's largest, and none hides behind another, as stores do in the core's buffer.
 //!
 //! Source: RM0090, memory map and clock tree as the board sets it (42 and 84 MHz); AMBA APB, a setup and an access cycle.
 
@@ -38,13 +37,14 @@ impl Pace {
     }
 
     /// Quarter core cycles of an instruction at an address, which another one than the one before it led to or not.
-    pub(super) fn instruction(&mut self, address: u32, [first, second]: [u16; 2], jumped: bool) -> u64 {
+    /// `now` is the core cycle.
+    pub(super) fn instruction(&mut self, now: u64, address: u32, [first, second]: [u16; 2], jumped: bool) -> u64 {
         match self {
             Self::Constant(quarters) => *quarters,
             Self::Manual(reads) => {
                 let refill = if jumped { REFILL } else { 0 };
                 let length = if is_long(first) { 4 } else { 2 };
-                4 * u64::from(cycles(first, second) + refill + reads.fetch(address, length))
+                4 * u64::from(cycles(first, second) + refill + reads.fetch(now, address, length))
             }
         }
     }

@@ -323,8 +323,8 @@ impl Bus {
 
     fn write_watchdog(&mut self, address: u32, word: u32) {
         if address == IWDG {
-            self.watchdog.key(self.now, &mut self.log, word);
-        } else if self.watchdog.setting(self.now, &mut self.log) {
+            self.watchdog.key(self.now, &self.words, &mut self.log, word);
+        } else if self.watchdog.setting(self.now, &self.words, &mut self.log) {
             self.words.set(address, word);
         }
     }
