@@ -177,7 +177,12 @@ pub const CASES: [FaultCase; 30] = [
         SUMMED,
     )),
     costs(1, OPEN),
-    on_three(OPEN),
+    on_three(case(
+        "phase a of motor 0 is open, on the way",
+        Fault::OpenPhase,
+        FaultCause::Board(Broken::OpenPhase { motor: 0, phase: 0 }),
+        OPENED,
+    )),
     case("fault line of the gate drivers pulled", Fault::DriverLine, FaultCause::Board(Broken::DriverLine), 0),
     costs(2, OFFSET),
     on_three(OFFSET),
