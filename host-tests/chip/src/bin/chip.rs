@@ -32,7 +32,9 @@ fn held(firmware: &Path, tests: &Path) -> Result<bool, Box<dyn std::error::Error
     let promises = page::promises(&seen, &pac);
     let not_kept: Vec<String> = promises.into_iter().filter(|it| !it.kept).map(|it| it.what).collect();
     let kept = golden::report_broken(&not_kept);
-    let page_kept = golden::check_page("chip.md", &text, |golden| golden::lines(golden, &text, |a, b| a == b))?;
+    // how many cycles turns take is a record: another build has other ones
+    let same = |a: &str, b: &str| a == b || (a.ends_with(" % |") && b.ends_with(" % |"));
+    let page_kept = golden::check_page("chip.md", &text, |golden| golden::lines(golden, &text, same))?;
     Ok(kept && page_kept)
 }
 
