@@ -44,7 +44,7 @@ enum Due {
 #[derive(Debug)]
 pub struct Converters {
     due: Vec<(u64, Due)>,
-    /// What each channel of each converter would read now [codes]
+    /// What each channel of each converter would read now, in codes
     pub codes: [[u16; 19]; 3],
     held: [u16; 3],
     on_since: [Option<u64>; 3],
