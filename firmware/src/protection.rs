@@ -156,6 +156,13 @@ impl Protection {
         self.disabled |= bit;
     }
 
+    /// The same with every motor that has a bit.
+    pub fn disable_motors(&mut self, fault: Fault, motors: u8, wheels: u8) {
+        for motor in (0..MOTORS).filter(|motor| motors >> motor & 1 != 0) {
+            self.disable_motor(fault, motor, wheels);
+        }
+    }
+
     /// Other parameters say that the robot has so many wheels: what four can lose three cannot.
     pub fn set_wheels(&mut self, wheels: u8) {
         if wheels < 4 && self.disabled != 0 {

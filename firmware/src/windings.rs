@@ -70,11 +70,8 @@ impl Windings {
             self.clear();
         }
         self.protection.latch_all(output.faults);
-        for j in (0..MOTORS).filter(|j| output.stalled >> j & 1 != 0) {
-            self.protection.disable_motor(Fault::Stall, j, self.config.wheels);
-        }
-        for j in (0..MOTORS).filter(|j| output.open_phase >> j & 1 != 0) {
-            self.protection.disable_motor(Fault::OpenPhase, j, self.config.wheels);
+        for (fault, motors) in [(Fault::Stall, output.stalled), (Fault::OpenPhase, output.open_phase)] {
+            self.protection.disable_motors(fault, motors, self.config.wheels);
         }
     }
 
@@ -142,7 +139,7 @@ impl Windings {
         let bus = self.config.calibration.bus_voltage(codes.bus);
         let ready = self.check_supply_and_offsets(codes, bus);
         let may = if ready { self.setpoints.enabled & self.config.motors() & !self.protection.disabled() } else { 0 };
-        let mut command = self.drive_motors(codes, bus, may);
+        let mut command = self.drive_motors(codes, bus, ready, may);
         if self.protection.faults().is_empty() {
             command.enabled = may & !self.protection.disabled();
         }
@@ -181,17 +178,14 @@ impl Windings {
         }
         let broken = self.offsets.bad() & self.config.motors();
         if broken != 0 {
-            for j in (0..MOTORS).filter(|j| broken >> j & 1 != 0) {
-                self.protection.disable_motor(Fault::OffsetCalibration, j, self.config.wheels);
-            }
+            self.protection.disable_motors(Fault::OffsetCalibration, broken, self.config.wheels);
         }
         ready
     }
 
-    /// Duties of all motors, of which those with a bit in `may` may be driven.
+    /// Duties of all motors, of which those with a bit in `may` may be driven; `ready` once the zeros are known.
     #[inline]
-    fn drive_motors(&mut self, codes: &Codes, bus: f32, may: u8) -> BridgeCommand {
-        let ready = self.offsets.are_known();
+    fn drive_motors(&mut self, codes: &Codes, bus: f32, ready: bool, may: u8) -> BridgeCommand {
         let setpoints = self.setpoints;
         let mut command = BridgeCommand::default();
         let per_bus = 1.0 / bus;

@@ -95,7 +95,7 @@ impl Bridges {
             (self.next.watchdog_fired, self.next.enabled) = (true, 0);
         }
         let mut out = [0; LINK_BYTES];
-        let count = SERIAL.with(|serial| take_from(&mut serial.out, &mut out));
+        let count = SERIAL.with(|serial| fill(&mut out, || serial.out.dequeue()));
         self.next.link = LinkBytes::of(&out[..count]);
 
         let down = host::exchange(&self.next);
@@ -144,16 +144,15 @@ impl SerialLink {
 
     /// Takes the bytes that have come; how many.
     pub fn receive(&mut self, into: &mut [u8]) -> usize {
-        let mut bytes = core::iter::from_fn(|| SERIAL.with(|serial| serial.inward.dequeue()));
-        into.iter_mut().map_while(|slot| bytes.next().map(|byte| *slot = byte)).count()
+        fill(into, || SERIAL.with(|serial| serial.inward.dequeue()))
     }
 }
 
-/// Moves as many bytes as wait and have room; how many.
-fn take_from(queue: &mut Queue<u8, 1024>, into: &mut [u8]) -> usize {
+/// Takes as many bytes as come and have room; how many.
+fn fill(into: &mut [u8], mut next: impl FnMut() -> Option<u8>) -> usize {
     let mut count = 0;
     for slot in into {
-        let Some(byte) = queue.dequeue() else { break };
+        let Some(byte) = next() else { break };
         *slot = byte;
         count += 1;
     }

@@ -20,7 +20,7 @@ pub fn current(mut cx: app::current::Context<'_>) {
 
     let spent = bridges.spent();
     let late = bridges.is_late();
-    let overrun = cx.shared.load.lock(|load| load.current(entered, spent, late, motion_due));
+    let overrun = cx.shared.load.lock(|load| load.current(entered, spent, motion_due)) || late;
     if overrun {
         cx.shared.windings.lock(|windings| windings.latch(Fault::TurnOverrun));
         bridges.drive(&command.duties, 0);
