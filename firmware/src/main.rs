@@ -75,7 +75,7 @@ mod app {
         #[task(binds = EXTI2, priority = 1, local = [tx_consumer], shared = [serial, &heartbeats])]
         fn record(_: record::Context);
 
-        #[idle(local = [watchdog, flash_store, event_log], shared = [windings, inbox, load, to_store, report, &heartbeats])]
+        #[idle(local = [watchdog, flash_store, event_log], shared = [windings, inbox, to_store, report, &heartbeats])]
         fn idle(_: idle::Context) -> !;
     }
 }

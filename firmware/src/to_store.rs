@@ -11,6 +11,10 @@
 
 use model_core::link::block::MAX_BYTES;
 
+use crate::command_receiver::{CommandReceiver, ReceivedCommand};
+use crate::inbox::Inbox;
+use crate::windings::Windings;
+
 /// The last block that was taken over the link, where it is not stored yet.
 #[derive(Clone, Debug)]
 pub struct BlockToStore {
@@ -25,15 +29,23 @@ impl Default for BlockToStore {
 }
 
 impl BlockToStore {
-    /// This one is to be stored, and none that came before.
-    pub fn put(&mut self, block: &[u8]) {
-        self.length = block.len().min(MAX_BYTES);
-        self.bytes.iter_mut().zip(block).for_each(|(to, from)| *to = *from);
+    /// A command was received: the block of parameters that were taken is to be stored, and none that came before.
+    pub fn hear(&mut self, command: &ReceivedCommand, receiver: &CommandReceiver) {
+        if let (ReceivedCommand::Parameters(..), Some(block)) = (command, receiver.committed()) {
+            self.length = block.len().min(MAX_BYTES);
+            self.bytes.iter_mut().zip(block).for_each(|(to, from)| *to = *from);
+        }
     }
 
-    /// The one that waits.
-    pub fn block(&self) -> Option<&[u8]> {
-        self.bytes.get(..self.length).filter(|block| !block.is_empty())
+    /// True if none waits.
+    pub fn is_empty(&self) -> bool {
+        self.length == 0
+    }
+
+    /// The one that waits, once it is driven with and all bridges are open.
+    pub fn due(&self, windings: &Windings, inbox: &Inbox) -> Option<&[u8]> {
+        let may = !self.is_empty() && windings.are_at_rest() && inbox.parameters.is_none();
+        self.bytes.get(..self.length).filter(|_| may)
     }
 
     /// None waits any longer.

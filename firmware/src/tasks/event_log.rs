@@ -33,14 +33,7 @@ impl EventLog {
             defmt::info!("event {=u8}", event as u8);
         }
         if report.state != told.state {
-            match report.state {
-                OperatingState::Asleep => defmt::info!("asleep"),
-                OperatingState::Calibrating => defmt::info!("calibrating"),
-                OperatingState::Open => defmt::info!("open"),
-                OperatingState::Driving => defmt::info!("driving"),
-                OperatingState::Faulted => defmt::info!("faulted"),
-                OperatingState::Probing => defmt::info!("probing"),
-            }
+            defmt::info!("{=str}", report.state.name());
         }
         *self = Self(report);
     }

@@ -23,17 +23,15 @@ pub fn idle(mut cx: app::idle::Context<'_>) -> ! {
 /// Stores a block that waits for it, once it is driven with and all bridges are open. With all interrupts masked: no turn may
 /// close a bridge and then stand still with the core.
 fn store(cx: &mut app::idle::Context<'_>) {
-    let app::idle::SharedResources { windings, inbox, to_store, load, .. } = &mut cx.shared;
+    let app::idle::SharedResources { windings, inbox, to_store, .. } = &mut cx.shared;
     let flash_store = &mut *cx.local.flash_store;
     to_store.lock(|to_store| {
-        let Some(block) = to_store.block() else { return };
+        if to_store.is_empty() {
+            return;
+        }
         let tried = cortex_m::interrupt::free(|_| {
-            let open = windings.lock(|windings| windings.are_at_rest());
-            if !open || inbox.lock(|inbox| inbox.parameters.is_some()) {
-                return None;
-            }
+            let block = windings.lock(|windings| inbox.lock(|inbox| to_store.due(windings, inbox)))?;
             let stored = flash_store.save(block);
-            load.lock(|load| load.stand());
             board::resume_turns();
             Some(stored)
         });

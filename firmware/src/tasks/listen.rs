@@ -1,6 +1,5 @@
 //! The link's bytes, made commands and parameters.
 
-use firmware::command_receiver::ReceivedCommand;
 use firmware::drivers::heartbeat::Task;
 use rtic::Mutex;
 
@@ -13,9 +12,7 @@ pub fn listen(mut cx: app::listen::Context<'_>) {
         let count = cx.shared.serial.lock(|serial| serial.receive(&mut bytes));
         for byte in bytes.iter().take(count) {
             if let Some(command) = cx.local.receiver.push(*byte) {
-                if let (ReceivedCommand::Parameters(..), Some(block)) = (&command, cx.local.receiver.committed()) {
-                    cx.shared.to_store.lock(|to_store| to_store.put(block));
-                }
+                cx.shared.to_store.lock(|to_store| to_store.hear(&command, cx.local.receiver));
                 cx.shared.inbox.lock(|inbox| inbox.put(command));
             }
         }

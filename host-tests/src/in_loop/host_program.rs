@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::fmt;
 
-use firmware::command_receiver::{CommandReceiver, ReceivedCommand};
+use firmware::command_receiver::CommandReceiver;
 use firmware::exchange::{DownFrame, LINK_BYTES, LinkBytes, TOPS, UpFrame, compare};
 use firmware::inbox::Inbox;
 use firmware::motion::Motion;
@@ -89,10 +89,7 @@ impl HostProgram {
 
     /// Stores a block that waits for it, as the idle task does.
     fn store(&mut self) {
-        if let Some(block) = self.to_store.block()
-            && self.windings.are_at_rest()
-            && self.inbox.parameters.is_none()
-        {
+        if let Some(block) = self.to_store.due(&self.windings, &self.inbox) {
             self.stored = block.to_vec();
             self.to_store.clear();
             self.inbox.unsaved = false;
@@ -134,9 +131,7 @@ impl BoardProgram for HostProgram {
             self.tx_producer.enqueue_tick(&feedback, &output, (0, 0));
             for byte in std::mem::take(&mut self.inward) {
                 if let Some(command) = self.receiver.push(byte) {
-                    if let (ReceivedCommand::Parameters(..), Some(block)) = (&command, self.receiver.committed()) {
-                        self.to_store.put(block);
-                    }
+                    self.to_store.hear(&command, &self.receiver);
                     self.inbox.put(command);
                 }
             }
