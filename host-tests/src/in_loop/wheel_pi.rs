@@ -16,12 +16,10 @@
 //! Each wheel for itself, without a model. All else is the firmware's: the reference with its largest accelerations, the
 //! currents' loop, the halls, the protections.
 
+use firmware::codes::TICK_SECONDS;
 use firmware::motion::MotionOutput;
 use firmware::winding_signals::WindingFeedback;
 use model_core::geometry::kinematics::Wheels;
-
-/// Δt [s]
-const TURN: f32 = 1e-3;
 
 /// Speed controllers of four wheels.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +49,7 @@ impl WheelPi {
             let asked = proportional * error + *sum;
             let current = asked.clamp(-self.most, self.most);
             if asked == current {
-                *sum += integral * TURN * error;
+                *sum += integral * TICK_SECONDS * error;
             }
             output.setpoints.current[j] = current;
             output.setpoints.voltage[j] = 0.0;

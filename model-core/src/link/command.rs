@@ -13,7 +13,8 @@
 //!
 //! A command that is not of this form, or not finite, or faster than any robot of this size, is refused with a reason;
 //! what a robot can really do is for its limits to say. A Drive is a DriveRamp without acceleration; both count in one
-//! sequence. What a DriveRamp means from turn to turn says the [`interpolator`](crate::control::interpolator). Clear, Commit and whatever is refused are answered by a
+//! sequence. What a DriveRamp means from turn to turn says the [`interpolator`](crate::control::interpolator). Clear, Commit and
+//! whatever is refused are answered by a
 //! [`Reply`]; a probe that is taken is answered by its reports.
 
 use crate::control::interpolator::TwistRamp;
