@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use firmware::registers::timing;
+
 use crate::core::profile::Spent;
 use crate::pac::{Decoded, Pac};
 use crate::peripherals::bus::{Bus, Written};
@@ -103,9 +105,6 @@ const EXCEPTIONS: [(u16, &str); 5] = [
     (24, "`EXTI2`: records"),
 ];
 
-/// Core cycles of a current period.
-const PERIOD: f64 = 8_400.0;
-
 fn cycles(text: &mut String, seen: &Seen) {
     *text += "\n## Cycles at most\n\nA drive with other parameters and a wheel lost on the way, every instruction as long as the manuals say at most: \
              tables 3-1 and 7-1 of the Cortex-M4's technical reference manual with the largest number of each range, three cycles for every refill of the \
@@ -115,8 +114,11 @@ fn cycles(text: &mut String, seen: &Seen) {
     for (number, what) in EXCEPTIONS {
         let Some(Spent { cycles, instructions }) = seen.longest.get(&number) else { continue };
         let (cycles, each) = (*cycles as f64, *cycles as f64 / *instructions as f64);
-        let _ =
-            writeln!(text, "| {what} | {instructions} | {cycles:.0} | {each:.2} | {:.1} % |", 100.0 * cycles / PERIOD);
+        let _ = writeln!(
+            text,
+            "| {what} | {instructions} | {cycles:.0} | {each:.2} | {:.1} % |",
+            100.0 * cycles / f64::from(timing::PERIOD)
+        );
     }
 }
 

@@ -10,7 +10,7 @@ use host_tests::in_loop::{ClosedLoopRun, robots};
 use host_tests::virtual_board::{BoardSetup, InjectedFault, VirtualBoard};
 use model_core::effects::active::Effects;
 use model_core::geometry::frames::BodyTwist;
-use model_core::link::block::{Block, Parameters};
+use model_core::link::block::{Block, MAX_BYTES, Parameters, checksum};
 use model_core::link::faults::Fault;
 use model_core::link::record::OperatingState;
 use model_core::plant::paper::four_wheels;
@@ -79,6 +79,11 @@ const STORED: f64 = 0.3;
 /// Cycles within which a failing program opens the bridges: 3 µs.
 const OPENS_WITHIN: u64 = 500;
 
+/// The robot's parameters.
+fn parameters() -> Parameters {
+    Parameters::Four(robots::block(four_wheels()))
+}
+
 /// A robot that has its parameters and has measured its zeros.
 fn ready(image: &Image) -> Result<Run, Failed> {
     ready_at(image, Pace::USUAL)
@@ -90,7 +95,7 @@ fn ready_at(image: &Image, pace: Pace) -> Result<Run, Failed> {
     let mut chip = Chip::new(&image.bytes, pace)?;
     chip.machine_mut().bus.flash.erase = ERASE;
     let mut run = ClosedLoopRun::new(ChipBoard::new(chip), board);
-    run.send_block(&Parameters::Four(robots::block(four_wheels())));
+    run.send_block(&parameters());
     // its zeros, and then a sector is erased for the parameters
     run.wait(STORED)?;
     Ok(run)
@@ -256,12 +261,17 @@ fn fails(image: &Image, failure: Failure, seen: &mut Seen) -> Result<(), Failed>
         ),
         closed && open && outputs_off,
     );
-    let began = program.chip.now();
+    let (began, hellos) = (program.chip.now(), run.log.hellos.len());
     run.period()?;
     let waited = run.lockstep.program.chip.now() - began;
     run.wait(0.1)?;
     seen.promise("then: the watchdog resets the chip within 20 ms, and the program that starts anew names it", {
         waited < 20 * 168_000 && has_fault(&run, Fault::Watchdog) && run.lockstep.program.enabled() == 0
+    });
+    let mut block = [0; MAX_BYTES];
+    let stored = parameters().encode(&mut block).ok().and_then(|length| checksum(&block[..length]));
+    seen.promise("and with the parameters that it stored before", {
+        run.log.hellos[hellos..].last().map(|hello| hello.block_check) == stored
     });
     seen.take(image, &run.lockstep.program.chip);
     Ok(())
