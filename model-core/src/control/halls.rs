@@ -22,7 +22,12 @@
 //! the places are, so that this drops out of the mean of six. A sector that took a fifth longer or shorter than the
 //! mean is no error of place but an acceleration: the older ones are forgotten, and the mean begins anew with it.
 //!
-//! An edge crossed back says nothing of the speed; so do the first edge and one after 50 ms of rest. The angle is then
+//! A switch that the magnet's field is just enough for chatters: it crosses its edge back and forth, a few times or many, while the
+//! rotor passes. An edge crossed back within a quarter of what a sector takes is not believed until it has lasted that
+//! long; a rotor that truly turned back has by then left it as far behind as it was beyond. The first crossing counts,
+//! and angle, speed and edges are those of switches without chatter.
+//!
+//! An edge that was truly crossed back says nothing of the speed; so do the first edge and one after 50 ms of rest. The angle is then
 //! the middle of the sector, off by 30° at most. The speed is 0 until two edges have followed each other.
 //!
 //! Neglects: the acceleration over the sectors looked at: the speed told is that of half a turn ago, too low by the share
@@ -159,6 +164,10 @@ impl HallDecoder {
         let took = self.since_edge.saturating_add(1);
         let (left, ahead) =
             (self.sector, if sector >= self.sector { sector - self.sector } else { sector + 6 - self.sector });
+        if self.is_chatter(ahead, took) {
+            self.wait();
+            return Ok(());
+        }
         self.code = code;
         self.sector = sector;
         self.since_edge = 0;
@@ -184,6 +193,14 @@ impl HallDecoder {
             self.learn(left, took);
         }
         Ok(())
+    }
+
+    /// True where the edge that was crossed last is crossed back, `took` periods later, sooner than a rotor could that moves so fast.
+    #[inline]
+    fn is_chatter(&self, ahead: u8, took: u16) -> bool {
+        // t < Σ t/n/4; false where the speed is not known
+        let back = if self.backwards { 1 } else { 5 };
+        ahead == back && 4 * u32::from(self.looked_at) * u32::from(took) < u32::from(self.sum)
     }
 
     /// What a sector took [periods] that was left just now.

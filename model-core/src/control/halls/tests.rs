@@ -238,6 +238,72 @@ fn a_rotor_that_stands_on_an_edge_and_trembles_has_no_speed() {
     }
 }
 
+/// A rotor's switches that are undecided within so much of an edge [rad]: each reading is that of another place.
+struct Chatter {
+    within: f64,
+    drawn: u32,
+}
+
+impl Chatter {
+    /// What is read at an angle [rad].
+    fn code(&mut self, angle: f64) -> HallCode {
+        // Knuth's linear congruential generator
+        self.drawn = self.drawn.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let share = f64::from(self.drawn >> 16) / 32_768.0 - 1.0;
+        Rotor::at(angle + share * self.within).code()
+    }
+}
+
+#[test]
+fn switches_that_chatter_are_followed_as_those_that_do_not() {
+    let within = 2.0_f64.to_radians();
+    for speed in [0.002, -0.002, 0.01, -0.03] {
+        let mut chatter = Chatter { within, drawn: 1 };
+        let (mut angle, mut crossed_back) = (0.2, 0);
+        let mut halls = HallDecoder::new(chatter.code(angle)).expect("a place of the rotor");
+        let mut last = HallCode::of_angle(angle);
+        for period in 0..20_000 {
+            angle += speed;
+            let code = chatter.code(angle);
+            crossed_back += u32::from(code != last);
+            last = code;
+            halls.update(code).expect("a neighbour");
+            // two edges have followed each other
+            if f64::from(period) * speed.abs() < 3.0 * FRAC_PI_3 {
+                continue;
+            }
+            // an edge is crossed early by what the switch is undecided, at both ends of what is measured
+            let told: f64 = halls.electrical_speed();
+            assert!((told / speed - 1.0).abs() < 2.0 * within / FRAC_PI_3 + 0.03, "{period}: {told} for {speed}");
+            let off = ahead(halls.angle(), angle).abs();
+            assert!(off < 3.0 * within + speed.abs(), "{period}: off by {off} at {speed}");
+        }
+        let edges = 20_000.0 * speed / FRAC_PI_3;
+        assert!((f64::from(halls.edges()) - edges).abs() <= 1.0, "{} of {edges}", halls.edges());
+        if speed.abs() < 0.01 {
+            assert!(f64::from(crossed_back) > 3.0 * edges.abs(), "no chatter in this test: {crossed_back} edges read");
+        }
+    }
+}
+
+#[test]
+fn a_rotor_that_turns_back_is_believed_after_a_quarter_of_a_sector() {
+    let mut halls = at_sector(0);
+    for sector in [1, 2, 3, 4] {
+        wait(&mut halls, 39);
+        turn(&mut halls, sector);
+    }
+    wait(&mut halls, 4);
+    // 40 periods a sector: the code of sector 3 for up to nine periods is no news
+    for _ in 0..5 {
+        turn(&mut halls, 3);
+        assert_eq!((halls.edges(), halls.sector()), (4, 4));
+    }
+    turn(&mut halls, 3);
+    assert_eq!((halls.edges(), halls.sector()), (3, 3));
+    assert_eq!(halls.electrical_speed::<f64>(), 0.0);
+}
+
 #[test]
 fn an_illegal_code_is_told_and_not_believed() {
     let mut halls = at_sector(0);
