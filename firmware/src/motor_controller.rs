@@ -1,7 +1,8 @@
 //! # Motor controller: one motor's turn, once a period
 //!
-//! The halls are followed whether the bridge is closed or not, of a motor that was commissioned by the places of its edges. While the speed is not known the motor commutates in six
-//! steps, by the middle of its sector; once the halls tell where the rotor is between two edges, field-oriented.
+//! The halls are followed whether the bridge is closed or not, of a motor that was commissioned by the places of its edges.
+//! While the speed is not known the motor commutates in six steps, by the middle of its sector; once the halls tell where
+//! the rotor is between two edges, field-oriented.
 //!
 //! ```text
 //! θ = θ_halls − ω_e·ε                   where the currents were sampled
@@ -15,7 +16,8 @@
 use model_core::control::calibration::AdcCode;
 use model_core::control::current_loop::{CurrentMeasurement, CurrentMemory, CurrentSetpoint};
 use model_core::control::hall_tracker::{HallEdges, HallTracker};
-use model_core::control::halls::{HallCode, HallDecoder, HallFault, angle_of_code};
+use model_core::control::halls::{HallCode, HallDecoder, HallFault};
+use model_core::control::phases::Rotation;
 
 use crate::codes::PERIODS_PER_TICK;
 use crate::registers::timing;
@@ -108,7 +110,7 @@ impl MotorController {
         let measurement = CurrentMeasurement {
             codes: measured.codes,
             offsets: measured.offsets,
-            angle: angle_of_code(self.angle),
+            rotor: Rotation::of_code(self.angle),
             // δ = ω_e·(t_duties − t_sample + ½)
             ahead: self.halls.as_ref().map_or(0.0, HallDecoder::ahead::<f32>) * timing::SAMPLE_TO_ACTUATION,
             bus: measured.bus,
@@ -131,7 +133,7 @@ impl MotorController {
     #[inline]
     fn sector(&mut self, six_step: bool) -> Option<u8> {
         let Some(halls) = &self.halls else { return Some(NO_SECTOR) };
-        if halls.interval() > 0 && !six_step {
+        if halls.is_speed_known() && !six_step {
             // θ = θ_halls − ω_e·ε
             self.angle = match &self.tracker {
                 Some(tracker) => tracker.angle_code_before(halls, timing::HALLS_READ_PARTS),

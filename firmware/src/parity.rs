@@ -8,6 +8,7 @@ use model_core::control::calibration::AdcCode;
 use model_core::control::compensation::Compensation;
 use model_core::control::current_loop::{CurrentLoop, CurrentMeasurement, CurrentMemory, CurrentSetpoint};
 use model_core::control::motion_controller::{Controller, Measurement, Memory, Settings};
+use model_core::control::phases::Rotation;
 use model_core::effects::active::Effects;
 use model_core::effects::body::coriolis::{self, Coriolis};
 use model_core::geometry::frames::{BodyTwist, Pose};
@@ -98,9 +99,9 @@ pub fn hash() -> u64 {
         let measured = Measurement { wheel_speed: volts, bus: 12.0 };
         fold.add_all(controller.tick(&mut motion, &measured, twist).voltage);
         let codes = [a, b, c].map(|x| AdcCode((2048.0 + 20.0 * x) as u16));
-        let angle = 3.0 + 3.0 * draws.next();
+        let rotor = Rotation::of_code((32_768.0 + 32_767.0 * draws.next()) as u16);
         let measured =
-            CurrentMeasurement { codes, offsets: [2048.0; 3], angle, ahead: 0.02, bus: 12.0, per_bus: 1.0 / 12.0 };
+            CurrentMeasurement { codes, offsets: [2048.0; 3], rotor, ahead: 0.02, bus: 12.0, per_bus: 1.0 / 12.0 };
         let setpoint = CurrentSetpoint { current: draws.next(), voltage: a, closed: true };
         fold.add_all(current_loop.field_oriented(&mut winding, &measured, &setpoint).duties);
     }

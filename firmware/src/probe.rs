@@ -16,10 +16,8 @@
 //!
 //! Source: definitions; space vector as in [`model_core::control::phases`].
 
-use model_core::control::halls::angle_of_code;
-use model_core::control::phases::{AlphaBeta, centred_duties};
+use model_core::control::phases::{DirectQuadrature, Rotation, centred_duties};
 use model_core::link::probe::{MOST_PERIODS, Probe, ProbeReport};
-use model_core::number::scalar::Real;
 
 use crate::codes::{Codes, PERIODS_PER_TICK};
 use crate::protection::TripLimits;
@@ -54,9 +52,9 @@ impl ProbeVector {
     /// A probe with its vector at an angle.
     fn new(probe: Probe, angle: u16) -> Self {
         let share = (f32::from(probe.share) * (1.0 / 65_536.0)).min(MAX_DUTY);
-        let (sin, cos) = Real::sin_cos(angle_of_code::<f32>(angle));
+        let vector = Rotation::of_code(angle).inverse_park(DirectQuadrature { d: share, q: 0.0 });
         // the phases' share of a DC-equivalent vector is 1/√3 of it
-        let phase = AlphaBeta { alpha: share * cos, beta: share * sin }.inverse_clarke();
+        let phase = vector.inverse_clarke();
         let duties = centred_duties(phase.map(|x| x * 0.577_350_26));
         Self { probe, angle, duties }
     }

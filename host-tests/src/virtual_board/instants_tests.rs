@@ -9,6 +9,7 @@ use firmware::registers::timing;
 use firmware::winding_config::WindingConfig;
 use model_core::control::current_loop::{CurrentMeasurement, CurrentMemory, CurrentSetpoint};
 use model_core::control::hall_tracker::HallEdges;
+use model_core::control::phases::Rotation;
 use model_core::link::block::{Block, Parameters};
 use model_core::plant::paper::four_wheels;
 use std::f64::consts::TAU;
@@ -131,7 +132,7 @@ fn by_exact_angle(instants: Instants, setpoint: CurrentSetpoint) -> Settled {
         let measured = CurrentMeasurement {
             codes: seen.codes,
             offsets: [2048.0; 3],
-            angle: seen.angle as f32,
+            rotor: Rotation::of_angle(seen.angle as f32),
             ahead: (SPEED * PERIOD) as f32 * timing::SAMPLE_TO_ACTUATION,
             bus: BUS as f32,
             per_bus: 1.0 / BUS as f32,

@@ -240,6 +240,12 @@ impl HallDecoder {
         self.since_edge
     }
 
+    /// True once two edges have followed each other, so that the speed and the angle between two edges are known.
+    #[inline]
+    pub fn is_speed_known(&self) -> bool {
+        self.looked_at != 0
+    }
+
     /// Periods that a whole electrical turn takes by the mean of the sectors looked at; 0 where the speed is not known.
     #[inline]
     pub fn interval(&self) -> u16 {
@@ -307,7 +313,7 @@ impl HallDecoder {
     /// ω_e [rad a period], signed; 0 where it is not known.
     #[inline]
     pub fn electrical_speed<T: Real>(&self) -> T {
-        if self.looked_at == 0 {
+        if !self.is_speed_known() {
             return T::zero();
         }
         // |ω_e| = (2π/6)/max(Σ t/n, t₀/1¼)

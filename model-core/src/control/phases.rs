@@ -43,6 +43,7 @@
 //! Blasko, IEEE Trans. Ind. Appl. 33 (1997).
 
 use crate::number::scalar::Real;
+use crate::number::trig::sin_cos_of_code_f32;
 
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
 
@@ -85,6 +86,15 @@ impl<T: Real> AlphaBeta<T> {
         // a = α,  b = (−α + √3·β)/2,  c = (−α − √3·β)/2
         let (along, across) = (self.alpha * T::lit(-0.5), self.beta * T::lit(0.5 * SQRT_3));
         [self.alpha, along + across, along - across]
+    }
+}
+
+impl Rotation<f32> {
+    /// The rotor at an electrical angle [2⁻¹⁶ turn].
+    #[inline]
+    pub fn of_code(angle: u16) -> Self {
+        let (sin, cos) = sin_cos_of_code_f32(angle);
+        Self { sin, cos }
     }
 }
 

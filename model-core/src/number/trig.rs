@@ -17,6 +17,7 @@
 //! |---|---|---|
 //! | [`sin_cos_f32`] | abs x ≤ 10⁴ rad | 1.0·10⁻⁷ |
 //! | [`sin_cos_f32`] | beyond, abs x < 2.5·10⁷ rad | 1.0·10⁻⁷ + 8.8·10⁻⁸·abs x |
+//! | [`sin_cos_of_code_f32`] | all codes | 1.0·10⁻⁷ |
 //! | [`sin_cos_f64`] | abs x ≤ 10⁵ rad | 2.3·10⁻¹⁶ |
 //! | [`sin_cos_f64`] | beyond | that of `libm` |
 //! | [`atan2_f32`] | all points | 3.5·10⁻⁷ rad |
@@ -64,6 +65,16 @@ fn far_f32(x: f32) -> (f32, f32) {
     quarter_turns_f32(x - n * single::TAU)
 }
 
+/// (sin x, cos x) of an angle in 2⁻¹⁶ turns; the error is that of [`sin_cos_f32`].
+#[inline]
+pub fn sin_cos_of_code_f32(code: u16) -> (f32, f32) {
+    const RADIANS: f32 = single::TAU / 65_536.0;
+    // n = round(x/2¹⁴),  r = (x − n·2¹⁴)·2π/2¹⁶: whole numbers, so that nothing is lost before r
+    let quarter = code.wrapping_add(1 << 13) >> 14;
+    let rest = code.wrapping_sub(quarter << 14).cast_signed();
+    turned_f32(u32::from(quarter), f32::from(rest) * RADIANS)
+}
+
 #[inline]
 fn quarter_turns_f32(x: f32) -> (f32, f32) {
     // P₁ has 8 bits and P₂ 11, so that n·P₁ and n·P₂ are exact up to n = 2¹³
@@ -76,13 +87,18 @@ fn quarter_turns_f32(x: f32) -> (f32, f32) {
     let n = shifted - ROUND_F32;
     // r = ((x − n·P₁) − n·P₂) − n·P₃
     let r = ((x - n * P1) - n * P2) - n * P3;
+    turned_f32(shifted.to_bits(), r)
+}
+
+/// (sin x, cos x) of so many quarter turns, of which the last two bits count, and a rest within ±π/4 [rad].
+#[inline]
+fn turned_f32(quarter: u32, r: f32) -> (f32, f32) {
     let z = r * r;
     // sin r = r + r·z·(S₁ + z·(S₂ + z·S₃))
     let sin = r + r * z * (-1.666_665_5e-1 + z * (8.332_161e-3 + z * -1.951_529_6e-4));
     // cos r = 1 − (z/2 − z²·(C₁ + z·(C₂ + z·C₃)))
     let cos = 1.0 - (0.5 * z - z * z * (4.166_664_6e-2 + z * (-1.388_731_6e-3 + z * 2.443_315_7e-5)));
 
-    let quarter = shifted.to_bits();
     let (s, c) = if quarter & 1 == 0 { (sin, cos) } else { (cos, sin) };
     // the sine is negative in quarters 2 and 3, the cosine in quarters 1 and 2
     let s_sign = (quarter & 2) << 30;
@@ -233,6 +249,19 @@ mod tests {
             assert!((f64::from(sin) - libm::sin(f64::from(x))).abs() <= stated, "{x}");
             assert!((f64::from(cos) - libm::cos(f64::from(x))).abs() <= stated, "{x}");
         }
+    }
+
+    #[test]
+    fn single_sine_and_cosine_of_every_code_keep_their_stated_error() {
+        for code in 0..=u16::MAX {
+            let x = f64::from(code) * double::TAU / 65_536.0;
+            let (sin, cos) = sin_cos_of_code_f32(code);
+            let worst = (f64::from(sin) - libm::sin(x)).abs().max((f64::from(cos) - libm::cos(x)).abs());
+            assert!(worst <= 1.0e-7 && sin.abs() <= 1.0 && cos.abs() <= 1.0, "{code}: {sin}, {cos}");
+        }
+        // a turn's quarters are exact
+        let quarters = [0, 1 << 14, 1 << 15, 3 << 14].map(sin_cos_of_code_f32);
+        assert_eq!(quarters, [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)]);
     }
 
     #[test]

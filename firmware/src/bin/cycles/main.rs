@@ -24,6 +24,7 @@ use model_core::control::current_loop::{
 };
 use model_core::control::halls::{HallCode, HallDecoder};
 use model_core::control::motion_controller::{Controller, Demand, Measurement, Memory, Output, Settings};
+use model_core::control::phases::Rotation;
 use model_core::control::wiring::MotorWiring;
 use model_core::effects::card::Scope;
 use model_core::geometry::frames::BodyTwist;
@@ -136,9 +137,10 @@ fn field_oriented(
     l: &CurrentLoop,
     m: &mut CurrentMemory,
     s: &CurrentMeasurement,
+    angle: u16,
     w: &CurrentSetpoint,
 ) -> CurrentOutput {
-    l.field_oriented(m, s, w)
+    l.field_oriented(m, &CurrentMeasurement { rotor: Rotation::of_code(angle), ..*s }, w)
 }
 
 #[inline(never)]
@@ -156,8 +158,9 @@ fn currents(watch: &mut Stopwatch) {
     let current_loop = black_box(CurrentLoop::new(4.3, 0.6e-3, 0.0049, 2000.0, 50.0e-6, MAX_DUTY));
     let codes = [AdcCode(2100), AdcCode(2000), AdcCode(2044)];
     let offsets = [2048.0, 2047.5, 2049.1];
-    let measured =
-        black_box(CurrentMeasurement { codes, offsets, angle: 2.0, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 });
+    let angle = black_box(20_861);
+    let rotor = Rotation::of_code(angle);
+    let measured = black_box(CurrentMeasurement { codes, offsets, rotor, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 });
     let wants = [
         ("", CurrentSetpoint { current: 0.3, voltage: 3.0, closed: true }),
         (", voltage at its limit", CurrentSetpoint { current: 2.0, voltage: 20.0, closed: true }),
@@ -166,7 +169,7 @@ fn currents(watch: &mut Stopwatch) {
     // integrals as they are found, so that the case stays what it is
     let found = || (CurrentMemory { d: 0.02, q: 0.5 }, 1_u8);
     for (detail, want) in wants {
-        let cost = watch.cost(found, |(memory, _)| field_oriented(&current_loop, memory, &measured, &want));
+        let cost = watch.cost(found, |(memory, _)| field_oriented(&current_loop, memory, &measured, angle, &want));
         say("field-oriented current tick", detail, cost);
     }
     for (detail, want) in wants {

@@ -26,7 +26,14 @@ fn noise(seed: &mut u32) -> f64 {
 }
 
 fn measured(codes: [AdcCode; 3], angle: f64) -> CurrentMeasurement<f64> {
-    CurrentMeasurement { codes, offsets: OFFSETS, angle, ahead: 0.0, bus: BUS, per_bus: 1.0 / BUS }
+    CurrentMeasurement {
+        codes,
+        offsets: OFFSETS,
+        rotor: Rotation::of_angle(angle),
+        ahead: 0.0,
+        bus: BUS,
+        per_bus: 1.0 / BUS,
+    }
 }
 
 fn closed(current: f64, voltage: f64) -> CurrentSetpoint<f64> {
@@ -366,7 +373,7 @@ fn the_robot_decides_as_double_precision_does_to_a_few_roundings() {
         let measured = CurrentMeasurement {
             codes,
             offsets: OFFSETS.map(|x| x as f32),
-            angle: angle as f32,
+            rotor: Rotation::of_angle(angle as f32),
             ahead: 0.1,
             bus: BUS as f32,
             per_bus: (1.0 / BUS) as f32,
