@@ -110,7 +110,6 @@ impl MotorController {
         let measurement = CurrentMeasurement {
             codes: measured.codes,
             offsets: measured.offsets,
-            rotor: Rotation::of_code(self.angle),
             // δ = ω_e·(t_duties − t_sample + ½)
             ahead: self.halls.as_ref().map_or(0.0, HallDecoder::ahead::<f32>) * timing::SAMPLE_TO_ACTUATION,
             bus: measured.bus,
@@ -118,7 +117,10 @@ impl MotorController {
         };
         let output = match sector {
             Some(sector) => config.current_loop.six_step(&mut self.memory, &measurement, sector, setpoint),
-            None => config.current_loop.field_oriented(&mut self.memory, &measurement, setpoint),
+            None => {
+                let rotor = Rotation::of_code(self.angle);
+                config.current_loop.field_oriented(&mut self.memory, &measurement, rotor, setpoint)
+            }
         };
         self.current = output.current;
         if closed {

@@ -100,10 +100,9 @@ pub fn hash() -> u64 {
         fold.add_all(controller.tick(&mut motion, &measured, twist).voltage);
         let codes = [a, b, c].map(|x| AdcCode((2048.0 + 20.0 * x) as u16));
         let rotor = Rotation::of_code((32_768.0 + 32_767.0 * draws.next()) as u16);
-        let measured =
-            CurrentMeasurement { codes, offsets: [2048.0; 3], rotor, ahead: 0.02, bus: 12.0, per_bus: 1.0 / 12.0 };
+        let measured = CurrentMeasurement { codes, offsets: [2048.0; 3], ahead: 0.02, bus: 12.0, per_bus: 1.0 / 12.0 };
         let setpoint = CurrentSetpoint { current: draws.next(), voltage: a, closed: true };
-        fold.add_all(current_loop.field_oriented(&mut winding, &measured, &setpoint).duties);
+        fold.add_all(current_loop.field_oriented(&mut winding, &measured, rotor, &setpoint).duties);
     }
     fold.hash
 }

@@ -132,12 +132,16 @@ fn by_exact_angle(instants: Instants, setpoint: CurrentSetpoint) -> Settled {
         let measured = CurrentMeasurement {
             codes: seen.codes,
             offsets: [2048.0; 3],
-            rotor: Rotation::of_angle(seen.angle as f32),
             ahead: (SPEED * PERIOD) as f32 * timing::SAMPLE_TO_ACTUATION,
             bus: BUS as f32,
             per_bus: 1.0 / BUS as f32,
         };
-        let output = config.current_loop.field_oriented(&mut memory, &measured, &setpoint);
+        let output = config.current_loop.field_oriented(
+            &mut memory,
+            &measured,
+            Rotation::of_angle(seen.angle as f32),
+            &setpoint,
+        );
         (output.duties, output.voltage)
     })
 }

@@ -91,9 +91,7 @@ pub struct CurrentMeasurement<T = f32> {
     pub codes: [AdcCode; 3],
     /// The codes of no current [counts]
     pub offsets: [T; 3],
-    /// Where the rotor was when the currents were sampled; six steps do not look at it
-    pub rotor: Rotation<T>,
-    /// By how much the rotor will be ahead of that in the middle of the period that the duties are for [rad]: ω_e times the
+    /// By how much the rotor will be ahead of where it was when the currents were sampled, in the middle of the period that the duties are for [rad]: ω_e times the
     /// time from the sample to there. Up to half a radian, and not looked at by six steps
     pub ahead: T,
     /// U, bus voltage, above zero [V]
@@ -154,18 +152,19 @@ impl<T: Real> CurrentLoop<T> {
         }
     }
 
-    /// One period of field-oriented control.
+    /// One period of field-oriented control; the rotor as it was when the currents were sampled.
     #[inline]
     pub fn field_oriented(
         &self,
         memory: &mut CurrentMemory<T>,
         measured: &CurrentMeasurement<T>,
+        rotor: Rotation<T>,
         setpoint: &CurrentSetpoint<T>,
     ) -> CurrentOutput<T> {
         let [a, b, c] = self.above_offset(measured);
         // i_α = A·√3/2·(2a − b − c)/3,  i_β = A·√3/2·(b − c)/√3
         let still = AlphaBeta { alpha: (a + a - b - c) * self.amps_along, beta: (b - c) * self.amps_across };
-        let current = measured.rotor.park(still);
+        let current = rotor.park(still);
 
         let d = self.regulate(&mut memory.d, -current.d, T::zero(), measured.per_bus, self.half_duty);
         // |m_q| ≤ M·(1 − z/2 − c·z²),  z = (m_d/M)²
@@ -173,7 +172,7 @@ impl<T: Real> CurrentLoop<T> {
         let limit = self.max_duty - square * (self.bend + square * self.bend_more);
         let q = self.along_torque(&mut memory.q, current.q, measured, setpoint, limit);
 
-        let AlphaBeta { alpha, beta } = measured.rotor.ahead(measured.ahead).inverse_park(DirectQuadrature { d, q });
+        let AlphaBeta { alpha, beta } = rotor.ahead(measured.ahead).inverse_park(DirectQuadrature { d, q });
         // phases a, b, c of a DC-equivalent vector: m_α/√3, (−m_α/√3 ± m_β)/2
         let a = alpha * T::lit(1.0 / SQRT_3);
         let (along, across) = (a * T::lit(-0.5), beta * T::lit(0.5));

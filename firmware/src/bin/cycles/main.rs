@@ -140,7 +140,7 @@ fn field_oriented(
     angle: u16,
     w: &CurrentSetpoint,
 ) -> CurrentOutput {
-    l.field_oriented(m, &CurrentMeasurement { rotor: Rotation::of_code(angle), ..*s }, w)
+    l.field_oriented(m, s, Rotation::of_code(angle), w)
 }
 
 #[inline(never)]
@@ -159,8 +159,7 @@ fn currents(watch: &mut Stopwatch) {
     let codes = [AdcCode(2100), AdcCode(2000), AdcCode(2044)];
     let offsets = [2048.0, 2047.5, 2049.1];
     let angle = black_box(20_861);
-    let rotor = Rotation::of_code(angle);
-    let measured = black_box(CurrentMeasurement { codes, offsets, rotor, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 });
+    let measured = black_box(CurrentMeasurement { codes, offsets, ahead: 0.1, bus: 12.0, per_bus: 1.0 / 12.0 });
     let wants = [
         ("", CurrentSetpoint { current: 0.3, voltage: 3.0, closed: true }),
         (", voltage at its limit", CurrentSetpoint { current: 2.0, voltage: 20.0, closed: true }),

@@ -25,15 +25,8 @@ fn noise(seed: &mut u32) -> f64 {
     f64::from(*seed >> 8) / f64::from(1_u32 << 23) - 1.0
 }
 
-fn measured(codes: [AdcCode; 3], angle: f64) -> CurrentMeasurement<f64> {
-    CurrentMeasurement {
-        codes,
-        offsets: OFFSETS,
-        rotor: Rotation::of_angle(angle),
-        ahead: 0.0,
-        bus: BUS,
-        per_bus: 1.0 / BUS,
-    }
+fn measured(codes: [AdcCode; 3]) -> CurrentMeasurement<f64> {
+    CurrentMeasurement { codes, offsets: OFFSETS, ahead: 0.0, bus: BUS, per_bus: 1.0 / BUS }
 }
 
 fn closed(current: f64, voltage: f64) -> CurrentSetpoint<f64> {
@@ -84,8 +77,9 @@ impl Drive {
     fn turn(&mut self, setpoint: CurrentSetpoint<f64>) -> DirectQuadrature<f64> {
         let there = self.machine.current();
         let ahead = 1.5 * self.machine.speed * PERIOD;
-        let measured = CurrentMeasurement { ahead, ..measured(codes(self.machine.phases()), self.machine.angle) };
-        let output = self.regulator.field_oriented(&mut self.memory, &measured, &setpoint);
+        let measured = CurrentMeasurement { ahead, ..measured(codes(self.machine.phases())) };
+        let rotor = Rotation::of_angle(self.machine.angle);
+        let output = self.regulator.field_oriented(&mut self.memory, &measured, rotor, &setpoint);
         self.go_on(output.duties);
         there
     }
@@ -94,7 +88,7 @@ impl Drive {
     fn step(&mut self, setpoint: CurrentSetpoint<f64>) -> DirectQuadrature<f64> {
         let there = self.machine.current();
         let sector = libm::floor(self.machine.angle / FRAC_PI_3 + 0.5) as u8 % 6;
-        let measured = measured(codes(self.machine.phases()), f64::NAN);
+        let measured = measured(codes(self.machine.phases()));
         let output = self.regulator.six_step(&mut self.memory, &measured, sector, &setpoint);
         self.go_on(output.duties);
         there
@@ -222,10 +216,10 @@ fn both_senses_of_rotation_are_mirror_images() {
         // phases b and c change places, and the rotor turns the other way
         let [o_a, o_b, o_c] = OFFSETS;
         let [a, b, c] = codes([a, b, c]);
-        let here = CurrentMeasurement { ahead: 0.1, ..measured([a, b, c], angle) };
-        let there = CurrentMeasurement { offsets: [o_a, o_c, o_b], ahead: -0.1, ..measured([a, c, b], -angle) };
-        let one = regulator().field_oriented(&mut memory, &here, &setpoint);
-        let other = regulator().field_oriented(&mut mirrored, &there, &against);
+        let here = CurrentMeasurement { ahead: 0.1, ..measured([a, b, c]) };
+        let there = CurrentMeasurement { offsets: [o_a, o_c, o_b], ahead: -0.1, ..measured([a, c, b]) };
+        let one = regulator().field_oriented(&mut memory, &here, Rotation::of_angle(angle), &setpoint);
+        let other = regulator().field_oriented(&mut mirrored, &there, Rotation::of_angle(-angle), &against);
         let [x, y, z] = other.duties;
         assert_close(one.duties, [x, z, y], CLOSE);
         assert_close([one.current, one.voltage], [-other.current, -other.voltage], CLOSE * 10.0);
@@ -242,9 +236,10 @@ fn naming_the_phases_onward_with_the_rotor_a_third_ahead_changes_nothing_else() 
         let [o_a, o_b, o_c] = OFFSETS;
         let setpoint = closed(noise(&mut seed), 20.0 * noise(&mut seed));
         let (mut one, mut other) = (CurrentMemory::default(), CurrentMemory::default());
-        let here = regulator().field_oriented(&mut one, &measured([a, b, c], angle), &setpoint);
-        let there = CurrentMeasurement { offsets: [o_c, o_a, o_b], ..measured([c, a, b], angle + TAU / 3.0) };
-        let there = regulator().field_oriented(&mut other, &there, &setpoint);
+        let here = regulator().field_oriented(&mut one, &measured([a, b, c]), Rotation::of_angle(angle), &setpoint);
+        let there = CurrentMeasurement { offsets: [o_c, o_a, o_b], ..measured([c, a, b]) };
+        let ahead = Rotation::of_angle(angle + TAU / 3.0);
+        let there = regulator().field_oriented(&mut other, &there, ahead, &setpoint);
         let [x, y, z] = there.duties;
         assert_close(here.duties, [y, z, x], CLOSE);
         assert_close([here.current, here.voltage], [there.current, there.voltage], CLOSE * 10.0);
@@ -259,12 +254,12 @@ fn in_the_middle_of_a_sector_six_steps_decide_as_field_oriented_control() {
             [(2.8, closed(4.0, 5.0)), (-2.8, closed(-4.0, 0.0)), (1.2, open(9.0)), (0.0, open(99.0))]
         {
             // without quantisation along d: whole codes of the conducting pair
-            let measured = CurrentMeasurement { offsets: [2048.0; 3], ..measured([AdcCode(2048); 3], angle) };
+            let measured = CurrentMeasurement { offsets: [2048.0; 3], ..measured([AdcCode(2048); 3]) };
             let counts = libm::round(current / AMPS) as i32;
             let up_down = SIX_STEPS[usize::from(sector)].phases(counts, -counts, 0);
             let measured = CurrentMeasurement { codes: up_down.map(|n| AdcCode((2048 + n) as u16)), ..measured };
             let (mut one, mut other) = (CurrentMemory::default(), CurrentMemory::default());
-            let field = regulator().field_oriented(&mut one, &measured, &setpoint);
+            let field = regulator().field_oriented(&mut one, &measured, Rotation::of_angle(angle), &setpoint);
             let steps = regulator().six_step(&mut other, &measured, sector, &setpoint);
             assert_close(field.duties, steps.duties, CLOSE);
             assert_close([field.current, field.voltage], [steps.current, steps.voltage], CLOSE * 10.0);
@@ -282,10 +277,11 @@ fn duties_stay_within_their_bounds_whatever_is_seen() {
         let setpoint =
             CurrentSetpoint { current: huge * noise(&mut seed), voltage: huge * noise(&mut seed), closed: k % 5 != 0 };
         let mut memory = CurrentMemory { d: huge * noise(&mut seed), q: huge * noise(&mut seed) };
-        let measured = CurrentMeasurement { ahead: 0.4 * noise(&mut seed), ..measured(codes, 7.0 * noise(&mut seed)) };
+        let measured = CurrentMeasurement { ahead: 0.4 * noise(&mut seed), ..measured(codes) };
+        let rotor = Rotation::of_angle(7.0 * noise(&mut seed));
         for _ in 0..3 {
             for output in [
-                regulator().field_oriented(&mut memory, &measured, &setpoint),
+                regulator().field_oriented(&mut memory, &measured, rotor, &setpoint),
                 regulator().six_step(&mut memory, &measured, (k % 7) as u8, &setpoint),
             ] {
                 let low = 0.5 - 0.5 * MAX_DUTY - CLOSE;
@@ -304,8 +300,8 @@ fn d_comes_first_and_q_gets_what_is_left_of_the_circle() {
         let d = bus_share(0.5 * MAX_DUTY * f64::from(k) / 100.0);
         for d in [d, -d] {
             let mut memory = CurrentMemory { d, q: 0.0 };
-            let idle = CurrentMeasurement { offsets: [2048.0; 3], ..measured([AdcCode(2048); 3], 0.3) };
-            let output = regulator().field_oriented(&mut memory, &idle, &closed(0.0, 1000.0));
+            let idle = CurrentMeasurement { offsets: [2048.0; 3], ..measured([AdcCode(2048); 3]) };
+            let output = regulator().field_oriented(&mut memory, &idle, Rotation::of_angle(0.3), &closed(0.0, 1000.0));
             let circle = libm::sqrt(bus_share(MAX_DUTY) * bus_share(MAX_DUTY) - d * d);
             assert!(output.voltage <= circle * (1.0 + 1e-12), "{d}: {} of {circle}", output.voltage);
             assert!(output.voltage >= circle - 2.0e-4 * bus_share(MAX_DUTY), "{d}: {} of {circle}", output.voltage);
@@ -314,16 +310,21 @@ fn d_comes_first_and_q_gets_what_is_left_of_the_circle() {
     }
     // beyond half of the bus d is held
     let mut memory = CurrentMemory { d: 1000.0, q: 0.0 };
-    let output = regulator().field_oriented(&mut memory, &measured(codes_of(0.0, 0.0, 0.0), 0.0), &closed(0.0, 1000.0));
+    let output = regulator().field_oriented(
+        &mut memory,
+        &measured(codes_of(0.0, 0.0, 0.0)),
+        Rotation::of_angle(0.0),
+        &closed(0.0, 1000.0),
+    );
     assert_close([output.voltage], [bus_share(MAX_DUTY) * libm::sqrt(0.75)], 1.0e-9 * BUS);
 }
 
 #[test]
 fn an_open_loop_applies_its_voltage_and_remembers_nothing_of_q() {
     for angle in [0.0, 1.0, 4.0] {
-        let idle = CurrentMeasurement { offsets: [2048.0; 3], ..measured([AdcCode(2048); 3], angle) };
+        let idle = CurrentMeasurement { offsets: [2048.0; 3], ..measured([AdcCode(2048); 3]) };
         let mut memory = CurrentMemory { d: 0.0, q: 3.0 };
-        let output = regulator().field_oriented(&mut memory, &idle, &open(7.0));
+        let output = regulator().field_oriented(&mut memory, &idle, Rotation::of_angle(angle), &open(7.0));
         assert_eq!(memory.q, 0.0);
         assert_close([output.voltage], [7.0], CLOSE);
         // between the terminals: the vector of amplitude u/√3 at θ + 90°
@@ -335,7 +336,7 @@ fn an_open_loop_applies_its_voltage_and_remembers_nothing_of_q() {
 #[test]
 fn without_a_legal_sector_no_voltage_is_applied() {
     let mut memory = CurrentMemory { d: 1.0, q: 1.0 };
-    let output = regulator().six_step(&mut memory, &measured([AdcCode(3000); 3], 0.0), 6, &closed(1.0, 1.0));
+    let output = regulator().six_step(&mut memory, &measured([AdcCode(3000); 3]), 6, &closed(1.0, 1.0));
     assert_eq!((output.duties, output.voltage), ([0.5; 3], 0.0));
     assert_eq!(memory, CurrentMemory::default());
 }
@@ -367,19 +368,24 @@ fn the_robot_decides_as_double_precision_does_to_a_few_roundings() {
         let (current, voltage) = (noise(&mut seed), 12.0 * noise(&mut seed));
         let double = regulator().field_oriented(
             &mut CurrentMemory::default(),
-            &CurrentMeasurement { ahead: 0.1, ..measured(codes, angle) },
+            &CurrentMeasurement { ahead: 0.1, ..measured(codes) },
+            Rotation::of_angle(angle),
             &closed(current, voltage),
         );
         let measured = CurrentMeasurement {
             codes,
             offsets: OFFSETS.map(|x| x as f32),
-            rotor: Rotation::of_angle(angle as f32),
             ahead: 0.1,
             bus: BUS as f32,
             per_bus: (1.0 / BUS) as f32,
         };
         let setpoint = CurrentSetpoint { current: current as f32, voltage: voltage as f32, closed: true };
-        let robot = single.field_oriented(&mut CurrentMemory::default(), &measured, &setpoint);
+        let robot = single.field_oriented(
+            &mut CurrentMemory::default(),
+            &measured,
+            Rotation::of_angle(angle as f32),
+            &setpoint,
+        );
         // twenty roundings of 6·10⁻⁸ of numbers up to 1, 8 A and 24 V
         assert_close(robot.duties.map(f64::from), double.duties, 1.5e-6);
         assert_close([robot.current.into()], [double.current], 1.0e-5);
