@@ -37,7 +37,7 @@ pub enum InputKind {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
     /// A file or folder that was given cannot be used as it is.
-    #[error("{}{}: {problem}. {fix}", Place(file, *line), InColumn(column.as_deref()))]
+    #[error("{}{}: {}. {}", Place(file, *line), InColumn(column.as_deref()), Printable(problem), Printable(fix))]
     Input {
         /// What kind of mistake it is.
         kind: InputKind,
@@ -53,7 +53,7 @@ pub enum Error {
         fix: String,
     },
     /// A recording with a fault that spoils any fit.
-    #[error("{}: {problem} {fix}", file.display())]
+    #[error("{}: {} {}", Place(file, None), Printable(problem), Printable(fix))]
     Faulty {
         /// The fault's code, as `check` tells it.
         code: &'static str,
@@ -65,7 +65,7 @@ pub enum Error {
         fix: String,
     },
     /// An output cannot be written.
-    #[error("{}: cannot be written: {reason}. {fix}", path.display())]
+    #[error("{}: cannot be written: {}. {}", Place(path, None), Printable(reason), Printable(fix))]
     Output {
         /// The file that was to be written.
         path: PathBuf,
@@ -131,7 +131,7 @@ struct Place<'a>(&'a Path, Option<usize>);
 
 impl fmt::Display for Place<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.0.display())?;
+        write!(f, "{}", Printable(&self.0.to_string_lossy()))?;
         self.1.map_or(Ok(()), |line| write!(f, ":{line}"))
     }
 }
@@ -140,7 +140,31 @@ struct InColumn<'a>(Option<&'a str>);
 
 impl fmt::Display for InColumn<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |name| write!(f, ": column `{name}`"))
+        self.0.map_or(Ok(()), |name| write!(f, ": column `{}`", Printable(name)))
+    }
+}
+
+/// Text of which some may come from a file that nobody knows: in one line, without what would speak to the terminal, and no longer than
+/// a person reads.
+struct Printable<'a>(&'a str);
+
+/// Characters of the beginning and of the end that are shown of a longer text.
+const SHOWN: [usize; 2] = [600, 200];
+
+impl fmt::Display for Printable<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [head, tail] = SHOWN;
+        let length = self.0.chars().count();
+        let left_out = if length > head + tail { head..length - tail } else { length..length };
+        for (k, c) in self.0.chars().enumerate() {
+            match c {
+                _ if k == left_out.start => f.write_str(" … ")?,
+                _ if left_out.contains(&k) => {}
+                c if c.is_control() => write!(f, "{}", c.escape_default())?,
+                c => write!(f, "{c}")?,
+            }
+        }
+        Ok(())
     }
 }
 
@@ -154,6 +178,24 @@ mod tests {
             .at_line(3)
             .in_column("u0_V");
         assert_eq!(error.to_string(), "a.csv:3: column `u0_V`: found `x`, expected a number. Correct the field.");
+    }
+
+    #[test]
+    fn what_a_file_holds_does_not_speak_to_the_terminal() {
+        let error = Error::input(Path::new("a\nb.csv"), "found `\u{1b}[2J`, expected a number", "Correct the field")
+            .in_column("\u{7}");
+        assert_eq!(
+            error.to_string(),
+            "a\\nb.csv: column `\\u{7}`: found `\\u{1b}[2J`, expected a number. Correct the field"
+        );
+    }
+
+    #[test]
+    fn of_a_field_that_is_a_book_the_beginning_and_the_end_are_told() {
+        let error = Error::input(Path::new("a.csv"), format!("found `{}`", "é".repeat(1_000_000)), "Correct the field");
+        let said = error.to_string();
+        assert!(said.chars().count() < 900 && said.starts_with("a.csv: found `é") && said.contains("é … é"), "{said}");
+        assert!(said.ends_with("é`. Correct the field"), "{said}");
     }
 
     #[test]
