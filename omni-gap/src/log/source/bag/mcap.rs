@@ -2,11 +2,9 @@
 
 use super::container::{Container, Seen, Take};
 use super::decoder::{Decoder, Described};
+use super::mcap_reader::{Channel, Message, Messages, Stop};
 use super::rows::Recorded;
 use crate::error::{Error, InputKind, Result};
-use mcap::io::MessageReader;
-use mcap::sans_io::LinearReaderOptions;
-use mcap::{Channel, McapError, Message};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufReader;
@@ -16,9 +14,6 @@ pub(super) struct Mcap {
     path: PathBuf,
     file: File,
 }
-
-/// No record and no chunk is believed to be longer, packed or unpacked (bytes).
-const LONGEST: usize = 1 << 28;
 
 const CUT_OFF: &str = "the recording ends in the middle of a record; what stands before it was read";
 
@@ -32,21 +27,22 @@ impl Mcap {
         let unreadable = |reason| Error::input(&self.path, format!("cannot be read: {reason}"), "Check the disk");
         let mut file = self.file.try_clone().map_err(unreadable)?;
         std::io::Seek::rewind(&mut file).map_err(unreadable)?;
-        let options = LinearReaderOptions::default().with_validate_chunk_crcs(true).with_record_length_limit(LONGEST);
+        let length = file.metadata().map_err(unreadable)?.len();
         let mut any = false;
-        for message in MessageReader::new_with_options(BufReader::new(file), options) {
+        for message in Messages::new(BufReader::new(file), length) {
             match message {
                 Ok(message) => take(message)?,
                 // what a recorder leaves that lost its power
-                Err(McapError::UnexpectedEof | McapError::UnexpectedEoc) if any => return Ok(Some(CUT_OFF.into())),
-                Err(reason) => return Err(self.broken(&reason)),
+                Err(Stop::CutOff) if any => return Ok(Some(CUT_OFF.into())),
+                Err(Stop::CutOff) => return Err(self.broken("it ends before its first message")),
+                Err(Stop::Broken(reason)) => return Err(self.broken(&reason)),
             }
             any = true;
         }
         Ok(None)
     }
 
-    fn broken(&self, reason: &McapError) -> Error {
+    fn broken(&self, reason: &str) -> Error {
         let fix = "Check the file with `mcap doctor`, or mend it with `mcap recover`";
         Error::input(&self.path, format!("cannot be read as MCAP: {reason}"), fix).of_kind(InputKind::Malformed)
     }
@@ -55,7 +51,7 @@ impl Mcap {
 fn decoder(channel: &Channel) -> std::result::Result<Decoder, String> {
     let schema = channel.schema.as_ref();
     Decoder::of(Described {
-        encoding: &channel.message_encoding,
+        encoding: &channel.encoding,
         language: schema.map_or("", |schema| &schema.encoding),
         name: schema.map_or("", |schema| &schema.name),
         definition: schema.map_or(&[], |schema| &schema.data),
@@ -91,8 +87,7 @@ impl Container for Mcap {
                     })?)
                 }
             };
-            let recorded =
-                Recorded { log_ns: message.log_time, publish_ns: message.publish_time, bytes: &message.data };
+            let recorded = Recorded { log_ns: message.log_ns, publish_ns: message.publish_ns, bytes: &message.data };
             take(decoder, recorded)
         })
     }

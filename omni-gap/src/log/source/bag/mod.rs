@@ -7,6 +7,7 @@ mod container;
 mod decoder;
 mod flatten;
 mod mcap;
+mod mcap_reader;
 mod parts;
 mod ros;
 mod ros1;
