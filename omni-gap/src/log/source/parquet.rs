@@ -11,6 +11,7 @@ use parquet::basic::{LogicalType, TimeUnit, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
+use parquet::file::metadata::{ParquetMetaData, RowGroupMetaData};
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 use std::fs::File;
@@ -26,7 +27,11 @@ pub(super) struct Parquet {
 impl Parquet {
     pub fn open(path: &Path) -> Result<Parquet> {
         let opened = File::open(path).map_err(|reason| Error::unreadable(path, &reason))?;
+        let length = opened.metadata().map_err(|reason| Error::unreadable(path, &reason))?.len();
         let file = SerializedFileReader::new(opened).map_err(|reason| broken(path, &reason))?;
+        if !columns_are_within(file.metadata(), length) {
+            return Err(broken(path, &ParquetError::General("its footer tells of columns that are not in it".into())));
+        }
         let leaves = file.metadata().file_metadata().schema_descr().columns();
         let names = leaves.iter().map(|leaf| leaf.path().parts().join(".")).collect();
         Ok(Parquet { path: path.into(), names, file })
@@ -54,6 +59,15 @@ impl Parquet {
         }
         Ok(channel)
     }
+}
+
+/// True where every column of every group of rows stands within a file so long (bytes): the library does not ask.
+fn columns_are_within(description: &ParquetMetaData, length: u64) -> bool {
+    description.row_groups().iter().flat_map(RowGroupMetaData::columns).all(|column| {
+        let begins = column.dictionary_page_offset().unwrap_or(column.data_page_offset());
+        let ends = begins.checked_add(column.compressed_size());
+        begins >= 0 && column.compressed_size() >= 0 && ends.is_some_and(|ends| ends as u64 <= length)
+    })
 }
 
 /// Rows that a file's description is believed of before one was read.
