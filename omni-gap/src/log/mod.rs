@@ -40,6 +40,8 @@ mod run;
 mod session;
 mod sink;
 pub(crate) mod source;
+#[cfg(test)]
+mod table_tests;
 pub(crate) mod target;
 mod toml_number;
 mod toml_walk;
@@ -62,5 +64,6 @@ pub use robot_file::*;
 pub use run::{Group, Run, RunFile, Sampled};
 pub use session::Session;
 pub use sink::{holds_several, write_run, write_runs};
+pub use source::Table;
 pub use toml_number::toml_number;
 pub use write::{write_whole, write_whole_with};

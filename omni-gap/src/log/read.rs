@@ -6,11 +6,11 @@ use super::columns::Columns;
 use super::edges::retimed;
 use super::mapping::{Mapping, Rule};
 use super::run::Run;
-use super::source::{self, Layout, Source};
+use super::source::{self, Layout, Source, Table};
 use super::target::Target;
 use crate::error::{Error, InputKind, Result};
 use std::f64::consts::TAU;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 impl Run {
     /// Reads a run of one file of a robot with `wheels` wheels: in the contract's layout, or through a mapping.
@@ -25,6 +25,29 @@ impl Run {
         open_bridges_apply_nothing(&mut run)?;
         Ok((run, notices))
     }
+
+    /// Makes a run of a table in memory, as [`Run::load`] makes one of a file with the same columns; it has the table's name.
+    ///
+    /// # Errors
+    /// Where the table is no log of a robot with `wheels` wheels.
+    pub fn of_table(table: Table, wheels: usize, columns: Option<&Columns>) -> Result<(Run, Vec<String>)> {
+        let (name, place) = (table.name().to_owned(), table.path().to_owned());
+        let mapping = columns.map(|columns| &columns.alone);
+        if let Some(topic) = mapping.and_then(|mapping| mapping.topic.as_deref()) {
+            let problem = format!("a table in memory has no topics, and the mapping asks for `{topic}`");
+            let fix = "Remove `topic` in the mapping, or name the file";
+            return Err(Error::input(&place, problem, fix).of_kind(InputKind::Conflict));
+        }
+        if table.rows() < 2 {
+            let problem = format!("found {} row(s), expected at least two", table.rows());
+            return Err(Error::input(&place, problem, "Record the run again").of_kind(InputKind::TooLittle));
+        }
+        let mut notices = Vec::new();
+        let mut run = of_source(Box::new(table), mapping, Needs { wheels, motion: true }, &mut notices)?;
+        (run.name, run.path) = (name, PathBuf::new());
+        open_bridges_apply_nothing(&mut run)?;
+        Ok((run, notices))
+    }
 }
 
 /// Reads one file, on its own clock.
@@ -32,7 +55,18 @@ pub(super) fn read(path: &Path, columns: Option<&Mapping>, needs: Needs, notices
     let layout = columns.map_or_else(Layout::default, |columns| columns.layout.clone());
     let rules = columns.map_or(&[][..], |columns| &columns.rules);
     let keeps = |name: &str| rules.is_empty() || rules.iter().any(|(_, rule)| rule.from.needs(name));
-    let mut source = source::open(path, &layout, columns.and_then(|columns| columns.topic.as_deref()), &keeps)?;
+    let source = source::open(path, &layout, columns.and_then(|columns| columns.topic.as_deref()), &keeps)?;
+    of_source(source, columns, needs, notices)
+}
+
+/// Reads an opened file, or what is in its place, on its own clock.
+fn of_source(
+    mut source: Box<dyn Source>,
+    columns: Option<&Mapping>,
+    needs: Needs,
+    notices: &mut Vec<String>,
+) -> Result<Run> {
+    let path = &source.path().to_owned();
     notices.extend(source.notices());
     let bindings = bound(&*source, columns, needs, notices)?;
     let wanted: Vec<usize> = bindings.iter().flat_map(|binding| binding.columns.clone()).collect();
@@ -56,7 +90,7 @@ pub(super) fn read(path: &Path, columns: Option<&Mapping>, needs: Needs, notices
     let (t_s, first_step_s) = clock(&*source, &rule, &time)?;
     let mut run = Run { t_s, ..Run::default() };
     run.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    run.path = path.into();
+    run.path = path.clone();
     run.first_line = source.line_of(0);
     let sampled = columns.and_then(|columns| columns.currents_sampled);
     run.currents_sampled = sampled.or(source.currents_sampled()).unwrap_or_default();

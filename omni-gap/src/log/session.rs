@@ -6,7 +6,7 @@ use super::correct::Change;
 use super::entries::entries;
 use super::robot_file::RobotFile;
 use super::run::Run;
-use super::source::{is_folder_of_topics, is_log};
+use super::source::{Table, is_folder_of_topics, is_log};
 use super::toml_walk::read_text;
 use crate::error::{Error, InputKind, Result};
 use std::path::{Path, PathBuf};
@@ -60,16 +60,68 @@ impl Session {
     /// files that make a run, or a folder of runs.
     pub fn load_from(robot: &Path, columns: Option<&Path>, runs: &[PathBuf], catalogue: &Catalogue) -> Result<Session> {
         let (mut session, columns) = Session::begun(robot, columns, catalogue)?;
+        session.add_files(runs, columns.as_ref())?;
+        Ok(session)
+    }
+
+    /// A session without runs, of the text of a robot file; `place` is named in messages about it.
+    ///
+    /// # Errors
+    /// Where it is not the text of a robot file.
+    pub fn of_robot(robot_text: &str, place: &Path, catalogue: &Catalogue) -> Result<Session> {
+        let robot = RobotFile::parse(robot_text, place, catalogue)?;
+        let (robot_text, runs, heldout) = (robot_text.to_owned(), Vec::new(), Vec::new());
+        Ok(Session { robot, robot_text, runs, heldout, files: Vec::new(), notices: Vec::new() })
+    }
+
+    /// Adds runs; a path may be a file, a folder of files that make a run, or a folder of runs.
+    ///
+    /// # Errors
+    /// Where one cannot be read, or is no log of this robot.
+    pub fn add_files(&mut self, runs: &[PathBuf], columns: Option<&Columns>) -> Result<()> {
         let mut paths = Vec::new();
         for path in runs {
-            let is_run = is_folder_of_topics(path) || columns.as_ref().is_some_and(|columns| columns.is_run(path));
+            let is_run = is_folder_of_topics(path) || columns.is_some_and(|columns| columns.is_run(path));
             match path.is_dir() && !is_run {
-                true => paths.extend(session.files_in(path, columns.as_ref())?),
+                true => paths.extend(self.files_in(path, columns)?),
                 false => paths.push(path.clone()),
             }
         }
-        session.runs = session.read(&paths, columns.as_ref())?;
-        Ok(session)
+        let read = self.read(&paths, columns)?;
+        self.runs.extend(read);
+        Ok(())
+    }
+
+    /// Adds runs that are in memory already.
+    ///
+    /// # Errors
+    /// Where one is no log of this robot.
+    pub fn add_tables(&mut self, tables: impl IntoIterator<Item = Table>, columns: Option<&Columns>) -> Result<()> {
+        let wheels = self.robot.wheel.len();
+        let read = self.taken(tables.into_iter().map(|table| Run::of_table(table, wheels, columns)))?;
+        self.runs.extend(read);
+        Ok(())
+    }
+
+    /// Adds runs that lie anywhere: those of a session folder, held-out ones too, whatever robot file it has; a run log; or a
+    /// folder of them. A folder's own mapping is used where none is given.
+    ///
+    /// # Errors
+    /// Where there is nothing, or one cannot be read, or is no log of this robot.
+    pub fn add_any(&mut self, path: &Path, columns: Option<&Path>) -> Result<()> {
+        if !path.exists() {
+            let fix = "Give a session folder, a run log or a folder of run logs";
+            return Err(Error::input(path, "no such file or folder", fix).of_kind(InputKind::NotFound));
+        }
+        let own = path.join("columns.toml");
+        let mapping = columns.or_else(|| own.is_file().then_some(&*own));
+        self.files.extend(mapping.map(Path::to_path_buf));
+        let within = ["runs", "heldout"].map(|name| path.join(name));
+        let mut runs: Vec<PathBuf> = within.into_iter().filter(|folder| folder.is_dir()).collect();
+        if runs.is_empty() {
+            runs.push(path.to_path_buf());
+        }
+        self.add_files(&runs, mapping.map(Columns::load).transpose()?.as_ref())
     }
 
     /// Rows a second of its runs, the median of them, to the thousandth (1/s); none where it has no runs.
@@ -90,9 +142,7 @@ impl Session {
         let columns = mapping.map(Columns::load).transpose()?;
         let robot_text = read_text(robot, "a robot file")?;
         let files = [robot].into_iter().chain(mapping).map(Path::to_path_buf).collect();
-        let robot = RobotFile::parse(&robot_text, robot, catalogue)?;
-        let session = Session { robot, robot_text, runs: Vec::new(), heldout: Vec::new(), files, notices: Vec::new() };
-        Ok((session, columns))
+        Ok((Session { files, ..Session::of_robot(&robot_text, robot, catalogue)? }, columns))
     }
 
     /// The run logs in a folder, by name. Without a mapping they are the files of known suffixes; with one that
@@ -125,9 +175,15 @@ impl Session {
     }
 
     fn read(&mut self, paths: &[PathBuf], columns: Option<&Columns>) -> Result<Vec<Run>> {
-        let mut runs = Vec::with_capacity(paths.len());
-        for path in paths {
-            let (run, notices) = Run::open(path, &self.robot, columns)?;
+        let robot = self.robot.clone();
+        self.taken(paths.iter().map(|path| Run::open(path, &robot, columns)))
+    }
+
+    /// Takes runs, one after the other, and keeps their notices.
+    fn taken(&mut self, read: impl Iterator<Item = Result<(Run, Vec<String>)>>) -> Result<Vec<Run>> {
+        let mut runs = Vec::new();
+        for read in read {
+            let (run, notices) = read?;
             runs.push(run);
             for notice in notices {
                 if !self.notices.contains(&notice) {
