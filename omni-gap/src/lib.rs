@@ -55,7 +55,7 @@ mod known;
 
 pub use diagnosis::{Diagnosis, NamedSession, Options, diagnose};
 pub use error::Error;
-pub use known::known_effects;
+pub use known::{cause_ids, known_effects};
 pub use log::Session;
 pub use report::Report;
 pub use vocabulary::Verdict;

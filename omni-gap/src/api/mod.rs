@@ -13,6 +13,7 @@
 //! | [`validate`] | [`Validated`]: every run simulated over what was measured |
 //! | [`predict`](fn@predict) | [`Run`]: what the model says of each measured column |
 //! | [`simulate`](fn@simulate) | [`Run`]: what the robot of a file would have recorded |
+//! | [`Plants`] | states and readings of robots that are stepped side by side |
 //! | [`check`](fn@check) | [`Fault`]s of the recordings, each with a code and a mend |
 //! | [`informativity`](fn@informativity) | [`Informativity`](crate::identify::Informativity): how well the recordings could tell each number of the robot file at best |
 //! | [`experiments`], [`rehearse`] | [`PlannedExperiments`]: what to play so that a robot's numbers can be told |
@@ -25,7 +26,8 @@
 //! | [`wire::robot`](crate::wire::robot) | a robot at the other end of a line: how it is, parameters sent, driven, stopped, cleared |
 //! | [`watch`](fn@watch) | [`Reading`](crate::watch::Reading)s: while a robot drives, whether the gap is at its floor, and at which stage it leaves it |
 //!
-//! Sessions come from files ([`Session::load`]) or from memory ([`Session`] has public fields). Whatever is wrong with
+//! Sessions come from files ([`Session::load`]) or from memory ([`Session::of_robot`], then [`Session::add_tables`]; the fields
+//! are public too). What an answer was made of, file by file, is told by [`inputs`](fn@inputs). Whatever is wrong with
 //! them is an [`Error`] that says where it stands and how to mend it; recordings that cannot be used are no error of
 //! [`diagnose`] but its answer, `unfit_data`.
 
@@ -34,7 +36,9 @@ mod compare;
 mod experiment;
 mod identify;
 mod informativity;
+mod inputs;
 mod next;
+mod plants;
 mod predict;
 mod record;
 mod selftest;
@@ -50,7 +54,7 @@ pub use crate::engine::{Findings, Knobs};
 pub use crate::error::Error;
 pub use crate::known::known_effects;
 pub use crate::localise::validation::{Validated, validate};
-pub use crate::log::{RobotFile, Run, Session};
+pub use crate::log::{RobotFile, Run, Session, Table};
 pub use crate::report::Report;
 pub use crate::simulate::{EffectShown, Sensitivity, StepPlan, effect_shown, sensitivity};
 pub use crate::wire::block::{Exported, export};
@@ -61,8 +65,10 @@ pub use experiment::{
 };
 pub use identify::{FitRemark, FittedEffectNumber, FittedNumber, Identification, identify};
 pub use informativity::{check_and_informativity, informativity};
-pub use next::next;
-pub use predict::predict;
+pub use inputs::inputs;
+pub use next::{design_report, next};
+pub use plants::{Plants, Reset};
+pub use predict::{predict, with_blank_columns, with_columns_of_its_header};
 pub use record::{Recorded, Recording, record, record_kept};
 pub use selftest::{Driven, PlannedRuns, confusion, selftest, verify};
 pub use simulate::simulate;

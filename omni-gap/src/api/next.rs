@@ -4,7 +4,9 @@ use crate::check::checked;
 use crate::diagnosis::{Diagnosis, Options, joined};
 use crate::engine::design::{Designed, design};
 use crate::engine::knobs::DesignKnobs;
-use crate::log::Session;
+use crate::log::{Run, Session};
+use crate::report::NextExperiment;
+use crate::report::design::{DesignReport, SCHEMA};
 
 /// Diagnoses a session and designs the experiment that would settle what it leaves open: between causes that were not told
 /// apart; between those that come nearest, where none explains the gap; of effects that could not have shown, where nothing is
@@ -34,4 +36,20 @@ pub fn next(session: &Session, options: &Options<'_>, knobs: &DesignKnobs) -> (D
     let (_, sound) = checked(&all);
     let designed = diagnosis.findings.engine.as_ref().and_then(|_| design(&sound, &diagnosis.findings, knobs));
     (diagnosis, designed)
+}
+
+/// The report of a design, and the script that is to be played, if there is one.
+pub fn design_report(diagnosis: Diagnosis, designed: Option<Designed>) -> (DesignReport, Option<Run>) {
+    let said = diagnosis.report;
+    let script = designed.as_ref().and_then(|designed| designed.to_play().cloned());
+    let report = DesignReport {
+        schema: SCHEMA,
+        session: said.session,
+        verdict: said.verdict,
+        causes: said.causes,
+        by_hand: said.next_experiment.map(|next| next.why).filter(|why| !why.is_empty()),
+        file: script.as_ref().map(|_| NextExperiment::FILE.to_owned()),
+        design: designed.map(|designed| designed.design),
+    };
+    (report, script)
 }

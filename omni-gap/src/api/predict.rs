@@ -1,7 +1,7 @@
 //! Predict: what a robot file's model says of a run that was recorded.
 
 use crate::error::Result;
-use crate::log::{Channel, Group, RobotFile, Run, Sampled};
+use crate::log::{Channel, Group, Missing, RobotFile, Run, Sampled};
 use crate::simulate::{self, Channels, Model, Prediction, SignalGroup, drivable, supply_seen};
 
 /// Predicts every measured column of a run by free runs that are restarted every `horizon_s` [s] from the smoothed
@@ -49,4 +49,25 @@ fn as_run(run: &Run, prediction: &Prediction, rows: &[usize], wheels: usize) -> 
         gyro: run.gyro.as_ref().map(|_| column(channels.gyro(), false)),
         ..Run::default()
     }
+}
+
+/// The same run with the groups of measured columns that `named` says its table has, though all their fields are blank: what they
+/// would have said is then predicted too.
+pub fn with_blank_columns(run: &mut Run, wheels: usize, named: &dyn Fn(&str) -> bool) {
+    let nothing: Channel = (0..run.rows()).map(|_| Err(Missing::Blank)).collect();
+    let blank = |count| Group::new(vec![nothing.clone(); count]);
+    for (group, column, count) in
+        [(&mut run.i, "i0_A", wheels), (&mut run.w, "w0_rad_s", wheels), (&mut run.pose, "x_m", 3)]
+    {
+        if group.is_none() && named(column) {
+            *group = Some(blank(count));
+        }
+    }
+}
+
+/// The same for a run that was read from a table of text in the layout of a run log: its header names the columns.
+pub fn with_columns_of_its_header(run: &mut Run, wheels: usize) {
+    let text = std::fs::read_to_string(&run.path).unwrap_or_default();
+    let header = text.trim_start_matches('\u{feff}').lines().next().unwrap_or_default();
+    with_blank_columns(run, wheels, &|column| header.split(',').any(|name| name.trim() == column));
 }

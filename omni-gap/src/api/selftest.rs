@@ -41,7 +41,17 @@ pub enum Driven {
     Scripts(Vec<Run>),
 }
 
+/// What is logged where nothing else is said.
+const USUAL: [SignalGroup; 3] = [SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose];
+/// Frames a second where nothing else is said [1/s]
+const USUAL_CAMERA: f64 = 60.0;
+
 impl PlannedRuns {
+    /// Runs with the sensors that most robots have: currents, wheel speeds, and a camera of 60 frames a second.
+    pub fn usual(driven: Driven) -> Self {
+        Self { driven, logged: USUAL.to_vec(), camera_rate: USUAL_CAMERA }
+    }
+
     /// Those of scripts: what any of them logs is logged, and as many frames a second as they have together.
     pub fn of_scripts(scripts: Vec<Run>) -> Self {
         let has = |group: &SignalGroup| {

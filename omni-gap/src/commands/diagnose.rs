@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use omni_gap::api::inputs;
 use omni_gap::engine::Knobs;
 use omni_gap::report::design::script_csv;
 use omni_gap::report::{self, Beside, NextExperiment, Written};
@@ -14,7 +15,6 @@ use super::cli_error::CliError;
 use super::console::Console;
 use super::done::{DONE, Done};
 use super::given::{GivenAlso, GivenSession, seconds};
-use super::inputs::inputs;
 use super::output_path::{self, NewFolder};
 
 /// Say where the gap lies, which cause it has and how far it shrinks

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use omni_gap::error::InputKind;
 use omni_gap::log::{Columns, RobotFile, Run};
 use omni_gap::report::num;
 use omni_gap::{Error, NamedSession, Session, known_effects};
@@ -93,18 +92,9 @@ impl GivenAlso {
 /// Runs of the robot of a file that lie anywhere: a session folder with a mapping of its own or none, whatever robot file it has; a
 /// run log; or a folder of them.
 pub fn runs_of(robot: &Path, path: &Path, columns: Option<&Path>) -> Result<Session, CliError> {
-    if !path.exists() {
-        let fix = "Give a session folder, a run log or a folder of run logs";
-        return Err(Error::input(path, "no such file or folder", fix).of_kind(InputKind::NotFound).into());
-    }
-    let mapping = path.join("columns.toml");
-    let columns = columns.or_else(|| mapping.is_file().then_some(&*mapping));
-    let within = ["runs", "heldout"].map(|name| path.join(name));
-    let mut runs: Vec<PathBuf> = within.into_iter().filter(|folder| folder.is_dir()).collect();
-    if runs.is_empty() {
-        runs.push(path.to_path_buf());
-    }
-    Ok(Session::load_from(robot, columns, &runs, &known_effects())?)
+    let mut session = Session::load_from(robot, None, &[], &known_effects())?;
+    session.add_any(path, columns)?;
+    Ok(session)
 }
 
 /// What a path is called: the name of its folder or file, however it was written.

@@ -21,7 +21,6 @@ mod explain;
 mod export;
 mod given;
 mod identify;
-mod inputs;
 mod man;
 mod map;
 mod new;

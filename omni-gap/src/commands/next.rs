@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use omni_gap::api::{DesignKnobs, next};
+use omni_gap::api::{DesignKnobs, design_report, next};
 use omni_gap::engine::Knobs;
-use omni_gap::report::NextExperiment;
-use omni_gap::report::design::{self as report, DesignReport, FILES, SCHEMA};
+use omni_gap::report::design::{self as report, DesignReport, FILES};
 use omni_gap::{Options, Session};
 
 use super::answer::AnswerForm;
@@ -89,17 +88,6 @@ impl Next {
         let also = self.also.load(&self.session.robot_path(), self.session.columns())?;
         let options = Options { session: self.session.name(), also: &also, knobs: engine, progress: &progress };
         let (diagnosis, designed) = next(session, &options, &knobs);
-        let said = diagnosis.report;
-        let script = designed.as_ref().and_then(|designed| designed.to_play().cloned());
-        let report = DesignReport {
-            schema: SCHEMA,
-            session: said.session,
-            verdict: said.verdict,
-            causes: said.causes,
-            by_hand: said.next_experiment.map(|next| next.why).filter(|why| !why.is_empty()),
-            file: script.as_ref().map(|_| NextExperiment::FILE.to_owned()),
-            design: designed.map(|designed| designed.design),
-        };
-        Ok((report, script))
+        Ok(design_report(diagnosis, designed))
     }
 }

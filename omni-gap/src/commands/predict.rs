@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use omni_gap::api;
-use omni_gap::log::{Channel, Group, Missing, Run, holds_several, write_run, write_runs};
+use omni_gap::log::{Missing, Run, holds_several, write_run, write_runs};
 use omni_gap::simulate::{HORIZON_S, within_half_turn};
 
 use super::answer::{AnswerForm, RunWritten};
@@ -48,7 +48,7 @@ impl Predict {
         console.phase("predicting");
         let mut run = given.run;
         if self.columns.is_none() {
-            with_blank_columns(&mut run, given.robot.wheel.len());
+            api::with_columns_of_its_header(&mut run, given.robot.wheel.len());
         }
         let predicted = api::predict(&given.robot, &run, self.horizon)?;
         if holds_several(&self.out) {
@@ -77,20 +77,4 @@ fn residuals(predicted: &Run, measured: &Run) -> Run {
         };
         Some(rows.iter().enumerate().map(apart).collect())
     })
-}
-
-/// A group that the header names, though all its fields are blank, is a measured one: what it would have said is asked.
-fn with_blank_columns(run: &mut Run, wheels: usize) {
-    let text = std::fs::read_to_string(&run.path).unwrap_or_default();
-    let header = text.trim_start_matches('\u{feff}').lines().next().unwrap_or_default();
-    let named = |column: &str| header.split(',').any(|name| name.trim() == column);
-    let nothing: Channel = (0..run.rows()).map(|_| Err(Missing::Blank)).collect();
-    let blank = |count| Group::new(vec![nothing.clone(); count]);
-    for (group, column, count) in
-        [(&mut run.i, "i0_A", wheels), (&mut run.w, "w0_rad_s", wheels), (&mut run.pose, "x_m", 3)]
-    {
-        if group.is_none() && named(column) {
-            *group = Some(blank(count));
-        }
-    }
 }

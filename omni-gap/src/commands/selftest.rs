@@ -66,10 +66,6 @@ pub struct Selftest {
 
 /// The files of the command.
 const FILES: [&str; 2] = ["selftest.json", "selftest.html"];
-/// What is logged where nothing else is said.
-const USUAL: [SignalGroup; 3] = [SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose];
-/// Frames a second where nothing else is said [1/s]
-const USUAL_CAMERA: f64 = 60.0;
 /// Rates that can be planned [1/s]
 const RATES: (f64, f64) = (1.0, 10_000.0);
 /// Rows that can be planned: signatures of every cause are kept for one run.
@@ -125,7 +121,7 @@ impl Selftest {
             ));
         }
         let driven = Driven::Random { runs: runs.into(), duration, rate, voltage };
-        Ok(PlannedRuns { driven, logged: USUAL.to_vec(), camera_rate: USUAL_CAMERA })
+        Ok(PlannedRuns::usual(driven))
     }
 }
 

@@ -60,7 +60,7 @@ pub use losses::Losses;
 pub use lost_commands::find_losses;
 pub use model::{EffectInstance, Model, ROOM_FOR_CAUSES, Slot, robot_of};
 pub use predict::{HORIZON_S, Prediction, predict};
-pub use record::{SensorSetup, SpeedSensor, record};
+pub use record::{LOSSES, SensorSetup, SpeedSensor, record};
 pub use rich::{Emphasis, RICH, RichPlan};
 pub use rich_limits::{RichAllowed, rich_allowed};
 pub use row_passed::RowPassed;

@@ -65,6 +65,9 @@ impl Default for SensorSetup {
 pub(super) const GYRO_NOISE_RAD_S: f64 = 0.01;
 pub(super) const BATTERY_NOISE_V: f64 = 0.05;
 
+/// What makes the seed of lost telegrams another than a run's.
+pub const LOSSES: u64 = 0xbb67_ae85_84ca_a73b;
+
 /// Drives the plant with one input a row, `dt` [s] long, and records what its sensors say.
 ///
 /// The noise is Gaussian, and white unless the camera's is said to be otherwise; the same seed gives the same run.
@@ -84,7 +87,7 @@ pub fn record<const N: usize>(
     };
     let mut gaps = ChaCha8Rng::seed_from_u64(seed ^ 0x9e37_79b9_7f4a_7c15);
     let mut beside = ChaCha8Rng::seed_from_u64(seed ^ 0x6a09_e667_f3bc_c908);
-    let mut losses = ChaCha8Rng::seed_from_u64(seed ^ 0xbb67_ae85_84ca_a73b);
+    let mut losses = ChaCha8Rng::seed_from_u64(seed ^ LOSSES);
     let (mut gyro, mut vbat) = (Channel::with_capacity(rows), Channel::with_capacity(rows));
     let mut memory = plant.memory().collect::<Vec<_>>();
     let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());

@@ -3,15 +3,17 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use omni_gap::log::Run;
-use omni_gap::report::Input;
-use omni_gap::{Error, Session};
 use sha2::{Digest, Sha256};
 
-use super::cli_error::CliError;
+use crate::error::{Error, Result};
+use crate::log::{Run, Session};
+use crate::report::Input;
 
-/// The files that sessions were read from.
-pub fn inputs<'a>(sessions: impl IntoIterator<Item = &'a Session>) -> Result<Vec<Input>, CliError> {
+/// The files that sessions were read from, each with the hash of its bytes; of what was made in memory there is none.
+///
+/// # Errors
+/// Where one of them can no longer be read.
+pub fn inputs<'a>(sessions: impl IntoIterator<Item = &'a Session>) -> Result<Vec<Input>> {
     let mut all: Vec<PathBuf> = Vec::new();
     for session in sessions {
         let of_runs = session.runs.iter().chain(&session.heldout).flat_map(files);
@@ -31,7 +33,7 @@ fn files(run: &Run) -> Vec<PathBuf> {
     all.into_iter().filter(|path| path.is_file()).collect()
 }
 
-fn hashed(path: &Path) -> Result<Input, CliError> {
+fn hashed(path: &Path) -> Result<Input> {
     let mut hash = Sha256::new();
     File::open(path)
         .and_then(|mut file| std::io::copy(&mut file, &mut hash))
@@ -41,11 +43,11 @@ fn hashed(path: &Path) -> Result<Input, CliError> {
 
 #[cfg(test)]
 mod tests {
-    use omni_gap::known_effects;
-    use omni_gap::log::RobotFile;
-
     use super::*;
-    use crate::commands::demo::ROBOT;
+    use crate::known_effects;
+    use crate::log::RobotFile;
+
+    const ROBOT: &str = include_str!("../../../examples/feup-4w/robot.toml");
 
     #[test]
     fn a_file_has_the_hash_that_everybody_gives_it() {
