@@ -17,6 +17,7 @@ pub const ROOTS: &[&str] = &[
     "host-tests/src/lib.rs",
     "host-tests/chip/src/lib.rs",
     "host-tests/ground-truth/src/lib.rs",
+    "python/src/lib.rs",
     "xtask/src/main.rs",
 ];
 
