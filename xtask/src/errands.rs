@@ -6,7 +6,7 @@ use std::ffi::OsString;
 
 use crate::line::Line;
 use crate::python::Environment;
-use crate::{browser, images, invented, mjcf, real, steps, tool};
+use crate::{browser, images, invented, mjcf, real, steps, tool, wheel};
 
 /// One thing to ask for.
 #[derive(Clone, Copy, Debug)]
@@ -86,6 +86,12 @@ pub const ERRANDS: &[Errand] = &[
         takes: "",
         does: "play exported models in MuJoCo, which it installs under target/, beside the product's own simulator",
         run: in_mujoco,
+    },
+    Errand {
+        name: "python",
+        takes: "[smoke]",
+        does: "build sdist and wheel of the Python package, test them, time steps beside MuJoCo's (BLESS=1: rewrite the page)",
+        run: python,
     },
     Errand {
         name: "peers",
@@ -287,6 +293,10 @@ fn mujoco(_: &[OsString]) -> Result<(), String> {
 
 fn in_mujoco(_: &[OsString]) -> Result<(), String> {
     mjcf::perform(&MUJOCO.ensure()?)
+}
+
+fn python(words: &[OsString]) -> Result<(), String> {
+    wheel::perform(words)
 }
 
 fn peers(_: &[OsString]) -> Result<(), String> {

@@ -13,6 +13,7 @@ mod python;
 mod real;
 mod steps;
 mod tool;
+mod wheel;
 
 use std::process::ExitCode;
 
