@@ -74,7 +74,8 @@ fn plain_robots_side_by_side_move_as_one_that_is_simulated() {
 
 #[test]
 fn robots_with_effects_move_as_one_that_is_simulated_on_one_thread_and_on_several() {
-    let effects = "\n[effects.dead_time]\nvoltage_loss_V = 0.3\n\n[effects.coriolis]\n\n[effects.backlash]\nplay_rad = 0.01\n";
+    let effects =
+        "\n[effects.dead_time]\nvoltage_loss_V = 0.3\n\n[effects.coriolis]\n\n[effects.backlash]\nplay_rad = 0.01\n";
     let robot = robot(&format!("{FOUR}{effects}"));
     same_as_simulated(&robot, 1, 0);
     same_as_simulated(&robot, 30, 17);
