@@ -154,6 +154,12 @@ pub const ERRANDS: &[Errand] = &[
         run: images::chip,
     },
     Errand {
+        name: "fuzz",
+        takes: "[SECONDS...]",
+        does: "let a fuzzer look for bytes that break a reader, SECONDS each or 900, of doors named behind (BLESS=1: record)",
+        run: fuzz,
+    },
+    Errand {
         name: "real",
         takes: "[FOLDER]",
         does: "diagnose the recordings of real robots in FOLDER (or in OMNI_GAP_DATA)",
@@ -308,6 +314,11 @@ fn peers(_: &[OsString]) -> Result<(), String> {
 
 fn commission(_: &[OsString]) -> Result<(), String> {
     Line::of("cargo run --release -p host-tests --bin commission").announced()
+}
+
+fn fuzz(words: &[OsString]) -> Result<(), String> {
+    tool::ensure(tool::FUZZERS)?;
+    words.iter().fold(Line::of("cargo run --release -p host-tests --bin fuzz --"), Line::word).announced()
 }
 
 fn on_recordings(given: &[OsString]) -> Result<(), String> {

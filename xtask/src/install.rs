@@ -11,6 +11,8 @@ pub enum Install {
     Rustup(&'static str),
     /// Packages of Debian and Ubuntu.
     Apt(&'static str),
+    /// A program of crates.io, built here.
+    Crate(&'static str),
 }
 
 /// What this machine can install with.
@@ -57,6 +59,7 @@ impl Install {
                 Means::ByHand(format!("install rustup (https://rustup.rs), then run: rustup {what}"))
             }
             Install::Apt(packages) => apt(packages, machine),
+            Install::Crate(name) => Means::Lines(vec![Line::of(&format!("cargo install --locked {name}"))]),
         }
     }
 }

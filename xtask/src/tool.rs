@@ -53,6 +53,20 @@ pub const TOOLS: &[Tool] = &[
     },
 ];
 
+/// What a fuzzer is built with.
+pub const FUZZERS: &[Tool] = &[
+    Tool {
+        name: "a nightly compiler",
+        probe: Probe("rustup toolchain list", "nightly"),
+        installs: Install::Rustup("toolchain install nightly --profile minimal"),
+    },
+    Tool {
+        name: "cargo-fuzz",
+        probe: Probe("cargo fuzz --version", "cargo-fuzz"),
+        installs: Install::Crate("cargo-fuzz"),
+    },
+];
+
 /// Off Unix the linker is not called `cc`, and that this program was built is proof enough of it.
 const LINKER: Probe = if cfg!(unix) { Probe("cc --version", "") } else { Probe("cargo --version", "") };
 

@@ -16,6 +16,7 @@ pub const ROOTS: &[&str] = &[
     "omni-gap/src/main.rs",
     "host-tests/src/lib.rs",
     "host-tests/chip/src/lib.rs",
+    "host-tests/doors/src/lib.rs",
     "host-tests/ground-truth/src/lib.rs",
     "python/src/lib.rs",
     "xtask/src/main.rs",

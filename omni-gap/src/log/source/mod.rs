@@ -6,6 +6,7 @@
 mod bag;
 mod csv;
 mod date_time;
+mod guarded;
 mod held;
 mod opened;
 mod parquet;

@@ -4,6 +4,7 @@
 //! whatever its unit; a decimal with its scale; a truth value as 1 or 0; null as a missing sample. A member of a struct has
 //! its path for a name, `pose.x`. Text and lists are columns too, and are refused once they are wanted.
 
+use super::guarded::guarded;
 use super::opened::Source;
 use crate::error::{Error, InputKind, Result};
 use crate::log::channel::{Channel, Missing};
@@ -28,7 +29,9 @@ impl Parquet {
     pub fn open(path: &Path) -> Result<Parquet> {
         let opened = File::open(path).map_err(|reason| Error::unreadable(path, &reason))?;
         let length = opened.metadata().map_err(|reason| Error::unreadable(path, &reason))?.len();
-        let file = SerializedFileReader::new(opened).map_err(|reason| broken(path, &reason))?;
+        let file = guarded(|| SerializedFileReader::new(opened))
+            .unwrap_or_else(|| Err(ParquetError::General("its footer does not fit together".into())))
+            .map_err(|reason| broken(path, &reason))?;
         if !columns_are_within(file.metadata(), length) {
             return Err(broken(path, &ParquetError::General("its footer tells of columns that are not in it".into())));
         }
@@ -52,9 +55,9 @@ impl Parquet {
         let rows = self.file.metadata().file_metadata().num_rows();
         let mut channel = Channel::with_capacity(usize::try_from(rows).unwrap_or(0).min(MOST_ROWS_AHEAD));
         for group in 0..self.file.num_row_groups() {
-            self.file
-                .get_row_group(group)
-                .and_then(|group| read(&*group, column, scale, &mut channel))
+            let read = || self.file.get_row_group(group).and_then(|group| read(&*group, column, scale, &mut channel));
+            guarded(read)
+                .unwrap_or_else(|| Err(ParquetError::General("its pages do not fit together".into())))
                 .map_err(|reason| broken(&self.path, &reason).in_column(self.title(column)))?;
         }
         Ok(channel)

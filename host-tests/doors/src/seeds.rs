@@ -1,0 +1,160 @@
+//! Sound bytes for every door, from which the spoiled ones are made.
+
+use std::path::{Path, PathBuf};
+
+use model_core::control::calibration::{AdcCode, Calibration};
+use model_core::geometry::frames::BodyTwist;
+use model_core::link::command::{Command, MAX_CHUNK};
+use model_core::link::framing::{FrameKind, MAX_FRAME, encode_frame};
+use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
+use model_core::link::record::TelemetryRecord;
+use omni_gap::known_effects;
+use omni_gap::log::RobotFile;
+use omni_gap::synthesize::{Scenario, synthesize};
+use omni_gap::wire::block::export;
+
+/// A robot of three wheels.
+pub const ROBOT: &str = include_str!("../../../examples/feup-3w/robot.toml");
+
+/// The topics of a robot with ROS.
+pub const TOPICS: &str = r#"
+    [[file]]
+    topic = "/voltages"
+    [file.columns]
+    u0_V = { from = "data[0]" }
+    u1_V = { from = "data[1]" }
+    u2_V = { from = "data[2]" }
+
+    [[file]]
+    topic = "/joint_states"
+    [file.columns]
+    w0_rad_s = { from = "velocity[front]" }
+    w1_rad_s = { from = "velocity[left]" }
+    w2_rad_s = { from = "velocity[right]" }
+
+    [[file]]
+    topic = "/pose"
+    [file.columns]
+    x_m = { from = "pose.position.x" }
+    y_m = { from = "pose.position.y" }
+    theta_rad = { from = "pose.orientation.yaw" }
+"#;
+
+/// The columns of a table.
+pub const TABLE: &str = r#"
+    [columns]
+    t_s = { from = "time" }
+    u0_V = { from = "volts_0" }
+    u1_V = { from = "volts_1" }
+    u2_V = { from = "volts_2" }
+    w0_rad_s = { from = "speed_0" }
+    w1_rad_s = { from = "speed_1" }
+    w2_rad_s = { from = "speed_2" }
+    x_m = { from = "pose.x" }
+    y_m = { from = "pose.y" }
+    theta_rad = { from = "pose.heading" }
+"#;
+
+/// One robot of a game log.
+pub const VISION: &str = r#"
+    [[file]]
+    topic = "yellow/3"
+    [file.columns]
+    x_m = { from = "x", unit = "mm" }
+    y_m = { from = "y", unit = "mm" }
+    theta_rad = { from = "orientation" }
+"#;
+
+/// Sound bytes for the door with this name.
+///
+/// # Panics
+/// Where a recording of the tests is missing.
+pub fn seeds(door: &str) -> Vec<Vec<u8>> {
+    let texts = |texts: &[&str]| texts.iter().map(|text| text.as_bytes().to_vec()).collect();
+    match door {
+        "robot" => texts(&[ROBOT, include_str!("../../../examples/ssl-24v/robot.toml")]),
+        "columns" => texts(&[TOPICS, TABLE, VISION]),
+        "csv" => vec![run()],
+        "parquet" => recordings(&["table-none.parquet", "table-zstd.parquet", "table-brotli.parquet"]),
+        "mcap" => recordings(&["ros2-zstd.mcap", "ros2-lz4.mcap"]),
+        "bag" => recordings(&["ros1-lz4.bag", "ros1-bz2.bag"]),
+        "sqlite" => recordings(&["ros2-sqlite-foxy/ros2-sqlite-foxy.db3"]),
+        "vision" => recordings(&["vision/game.log", "vision/game.log.gz"]),
+        "records" => vec![records()],
+        "payloads" => vec![(0..10).flat_map(|k| record(k).to_bytes()).collect()],
+        "frames" => vec![records(), commands()],
+        "block" => vec![block()],
+        _ => Vec::new(),
+    }
+}
+
+/// Files that the formats' own libraries wrote.
+fn recordings(names: &[&str]) -> Vec<Vec<u8>> {
+    let folder: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../omni-gap/tests/recordings");
+    names.iter().map(|name| std::fs::read(folder.join(name)).expect("a recording of the tests")).collect()
+}
+
+/// Half a second of a robot that drives.
+fn run() -> Vec<u8> {
+    let plan = Scenario { runs: 1, duration: 0.5, rate: 100.0, ..Scenario::default() };
+    let staged = synthesize(ROBOT, &plan, &known_effects()).expect("the example is sound");
+    let mut text = Vec::new();
+    staged.runs[0].write_csv(&mut text).expect("memory takes all");
+    text
+}
+
+/// How to read a robot's records, in its frame.
+pub fn hello() -> Vec<u8> {
+    let hello = Hello {
+        firmware: 1,
+        block_version: 1,
+        block_check: 7,
+        wheels: 3,
+        commutation: Commutation::FieldOriented,
+        calibration: Calibration::of_board(8),
+        gear_ratio: 5.0,
+        offsets: [[2048 * OFFSET_PARTS; 3]; 4],
+    };
+    framed(FrameKind::Hello.code(), &hello.to_bytes())
+}
+
+/// The record of one turn, ten of which are a second.
+fn record(sequence: u32) -> TelemetryRecord {
+    TelemetryRecord {
+        sequence,
+        time: 2000 * sequence,
+        phases: [[AdcCode(2048); 3]; 4],
+        edges: [10 * sequence as i16; 4],
+        interval: [200; 4],
+        voltage: [1.5; 4],
+        ..TelemetryRecord::default()
+    }
+}
+
+/// What a robot sends: how to read its records, and a second of them, ten a second.
+fn records() -> Vec<u8> {
+    let records = (0..10).map(record).map(|record| framed(FrameKind::Record.code(), &record.to_bytes()));
+    [hello()].into_iter().chain(records).flatten().collect()
+}
+
+/// A frame with this payload, and the right checksum.
+pub fn framed(kind: u8, payload: &[u8]) -> Vec<u8> {
+    encode_frame(kind, payload, &mut [0; MAX_FRAME]).map_or_else(Vec::new, <[u8]>::to_vec)
+}
+
+/// What a robot is told: to take a block, to drive, to stop.
+fn commands() -> Vec<u8> {
+    let block = block();
+    let chunk = Command::Chunk { offset: 0, bytes: &block[..MAX_CHUNK] };
+    let drive = Command::Drive { sequence: 1, twist: BodyTwist { v: 0.5, vn: 0.0, w: 1.0 } };
+    let commit = Command::Commit { length: block.len() as u16 };
+    let frame = |command: Command<'_>| command.frame(&mut [0; MAX_FRAME]).map_or_else(Vec::new, <[u8]>::to_vec);
+    [chunk, commit, drive, Command::Clear, Command::Open].into_iter().flat_map(frame).collect()
+}
+
+/// The block of the example's robot.
+fn block() -> Vec<u8> {
+    let path = Path::new("robot.toml");
+    let file = RobotFile::parse(ROBOT, path, &known_effects()).expect("the example is sound");
+    export(&file, path).expect("the example can be exported").bytes
+}
