@@ -1,7 +1,7 @@
 //! # Link: what robot and host tell each other
 //!
 //! Frames on a serial line ([`framing`]); in them commands and their replies ([`command`]), a record of every turn
-//! ([`record`]), who the robot is ([`hello`]), which of these a frame holds ([`message`]), which faults it has ([`faults`])
+//! ([`record`]) with what gyro and encoders said ([`sensor_codes`]), who the robot is ([`hello`]), which of these a frame holds ([`message`]), which faults it has ([`faults`])
 //! and what it does about itself ([`events`]), a motor that is asked how it is wired ([`probe`]), and the parameters that the
 //! robot drives with ([`block`]). All numbers are little-endian.
 
@@ -12,6 +12,8 @@ pub mod framing;
 pub mod command;
 
 pub mod record;
+
+pub mod sensor_codes;
 
 pub mod hello;
 
