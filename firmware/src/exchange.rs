@@ -9,6 +9,7 @@
 
 use model_core::control::calibration::AdcCode;
 use model_core::control::halls::HallCode;
+use model_core::link::sensor_codes::SensorCodes;
 
 use crate::codes::{Codes, MOTORS};
 pub use crate::registers::timing::{TOPS, compare};
@@ -55,6 +56,8 @@ pub struct DownFrame {
     pub burn_motion: u16,
     /// Bytes from the link
     pub link: LinkBytes,
+    /// What gyro and encoders say where they are asked in this period
+    pub sensors: SensorCodes,
 }
 
 /// What a program may fail by.
@@ -135,7 +138,7 @@ impl UpFrame {
 
 impl DownFrame {
     /// Bytes of this frame.
-    pub const LEN: usize = 48;
+    pub const LEN: usize = 58;
 
     /// The frame's bytes, little endian.
     pub fn to_bytes(&self) -> [u8; Self::LEN] {
@@ -149,6 +152,7 @@ impl DownFrame {
         put.put(self.burn_motion.to_le_bytes());
         put.put([self.link.len]);
         put.put(self.link.held);
+        put.put(self.sensors.to_bytes());
         bytes
     }
 
@@ -163,7 +167,9 @@ impl DownFrame {
         let codes = Codes { phases, bus, halls, driver_fault: line != 0 };
         let burn_current = u16::from_le_bytes(get.take());
         let burn_motion = u16::from_le_bytes(get.take());
-        Self { codes, end: end != 0, crash, burn_current, burn_motion, link: get.link() }
+        let link = get.link();
+        let sensors = SensorCodes::from_bytes(&get.take());
+        Self { codes, end: end != 0, crash, burn_current, burn_motion, link, sensors }
     }
 }
 
@@ -241,9 +247,10 @@ mod tests {
             burn_current: 513,
             burn_motion: 1027,
             link: LinkBytes::of(&[9; LINK_BYTES]),
+            sensors: SensorCodes::of(Some(-5), [Some(1), None, Some(3), Some(0x0809)]),
         };
         assert_eq!(DownFrame::from_bytes(&down.to_bytes()), down);
-        assert_eq!(down.to_bytes()[DownFrame::LEN - 1], 9);
+        assert_eq!(down.to_bytes()[DownFrame::LEN - 2..], [9, 8]);
     }
 
     #[test]

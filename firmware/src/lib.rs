@@ -31,6 +31,7 @@ pub mod windings;
 // The motion, 1 kHz
 pub mod open_phase;
 pub mod probe;
+pub mod sensing;
 pub mod silence;
 pub mod stall;
 

@@ -4,6 +4,7 @@
 //! |---|---|---|---|
 //! | `current` | 4 | the converters are done, 20 kHz | codes → duties of all motors |
 //! | `motion` | 3 | every 20th of these, 1 kHz | command → currents and voltages, one record |
+//! | `sense` | 2 | four periods before a motion turn | gyro and encoders, those that are fitted |
 //! | `listen` | 2 | after each motion turn | bytes → commands, parameter blocks |
 //! | `record` | 1 | after each motion turn | records → bytes |
 //! | `idle` | 0 | otherwise | feeds the watchdog while the others keep their time; stores a new block while nothing is driven |
@@ -23,18 +24,21 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 
 #[rtic::app(device = firmware::board::pac, peripherals = true)]
 mod app {
-    use firmware::board::{Bridges, FlashStore, SerialLink, Watchdog};
+    use firmware::board::{Bridges, FlashStore, MotionSensors, SerialLink, Watchdog};
     use firmware::command_receiver::CommandReceiver;
     use firmware::drivers::heartbeat::Heartbeats;
     use firmware::inbox::Inbox;
     use firmware::motion::Motion;
+    use firmware::sensing::Sensing;
     use firmware::to_store::BlockToStore;
     use firmware::tx_queue::{TxConsumer, TxProducer, TxStorage};
     use firmware::windings::Windings;
 
     use crate::tasks::event_log::{EventLog, Report};
     use crate::tasks::load::Load;
-    use crate::tasks::{current::current, idle::idle, listen::listen, motion::motion, record::record, start::init};
+    use crate::tasks::{
+        current::current, idle::idle, listen::listen, motion::motion, record::record, sense::sense, start::init,
+    };
 
     #[shared]
     pub struct Shared {
@@ -42,6 +46,7 @@ mod app {
         pub inbox: Inbox,
         pub load: Load,
         pub serial: SerialLink,
+        pub sensing: Sensing,
         pub to_store: BlockToStore,
         pub report: Report,
         pub heartbeats: Heartbeats,
@@ -57,6 +62,7 @@ mod app {
         pub tx_consumer: TxConsumer,
         pub watchdog: Watchdog,
         pub flash_store: FlashStore,
+        pub sensors: MotionSensors,
     }
 
     extern "Rust" {
@@ -66,8 +72,11 @@ mod app {
         #[task(binds = ADC, priority = 4, local = [bridges], shared = [windings, load, &heartbeats])]
         fn current(_: current::Context);
 
-        #[task(binds = EXTI0, priority = 3, local = [motion_control, tx_producer], shared = [windings, inbox, load, report, &heartbeats])]
+        #[task(binds = EXTI0, priority = 3, local = [motion_control, tx_producer], shared = [windings, inbox, load, sensing, report, &heartbeats])]
         fn motion(_: motion::Context);
+
+        #[task(binds = EXTI3, priority = 2, local = [sensors], shared = [sensing])]
+        fn sense(_: sense::Context);
 
         #[task(binds = EXTI1, priority = 2, local = [receiver], shared = [inbox, serial, to_store, &heartbeats])]
         fn listen(_: listen::Context);

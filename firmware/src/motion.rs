@@ -32,6 +32,7 @@ use model_core::link::record::OperatingState;
 
 use crate::codes::TICK_SECONDS;
 use crate::configured_robot::ConfiguredRobot;
+use crate::drivers::sensors::FittedSensors;
 use crate::inbox::Inbox;
 use crate::open_phase::OpenPhaseDetector;
 use crate::probe::{ProbeVector, Prober};
@@ -109,6 +110,11 @@ struct Heard {
 }
 
 impl Motion {
+    /// Which gyro and encoders the robot has; none without parameters.
+    pub fn fitted(&self) -> FittedSensors {
+        self.hello.map_or(FittedSensors::default(), |hello| FittedSensors::of(&hello.sensors))
+    }
+
     /// One turn.
     pub fn tick(&mut self, feedback: &WindingFeedback, inbox: &mut Inbox) -> MotionOutput {
         let mut output = MotionOutput { reply: inbox.reply.take(), headroom: 1.0, ..MotionOutput::default() };
@@ -118,6 +124,9 @@ impl Motion {
         self.probe(&heard, &mut output);
         output.state = self.state;
         self.watch_motors(feedback, &mut output);
+        if let Some(drive) = self.drive.as_mut().filter(|drive| drive.heading().has_gyro()) {
+            drive.observe_yaw(feedback.sensors.yaw(), &feedback.since_edge);
+        }
         if self.state == OperatingState::Driving {
             self.follow(feedback, &mut inbox.wanted, &mut output);
         } else {

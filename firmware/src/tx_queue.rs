@@ -83,6 +83,7 @@ impl TxProducer {
             load,
             jitter,
             dropped: self.dropped,
+            sensors: output.hello.filter(|hello| !hello.sensors.are_none()).map(|_| feedback.sensors),
         };
         match self.queue.enqueue(TxMessage::Record(record)) {
             Ok(()) => self.dropped = 0,

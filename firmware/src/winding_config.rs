@@ -163,9 +163,9 @@ impl WindingConfig {
 
     /// How to read the records of a robot with these parameters; the converters' zeros are not known yet.
     pub fn hello(&self, parameters: &Parameters, check: u32) -> Hello {
-        let (gear_ratio, commutation) = match parameters {
-            Parameters::Three(block) => (block.robot.motor.gear_ratio, block.commutation),
-            Parameters::Four(block) => (block.robot.motor.gear_ratio, block.commutation),
+        let (gear_ratio, commutation, sensors) = match parameters {
+            Parameters::Three(block) => (block.robot.motor.gear_ratio, block.commutation, block.sensors),
+            Parameters::Four(block) => (block.robot.motor.gear_ratio, block.commutation, block.sensors),
         };
         Hello {
             firmware: FIRMWARE,
@@ -176,6 +176,7 @@ impl WindingConfig {
             calibration: self.calibration,
             gear_ratio,
             offsets: [[0; 3]; MOTORS],
+            sensors,
         }
     }
 }

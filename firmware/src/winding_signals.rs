@@ -2,6 +2,7 @@
 
 use model_core::link::faults::Faults;
 use model_core::link::probe::ProbeReport;
+use model_core::link::sensor_codes::SensorCodes;
 
 use crate::codes::{Codes, MOTORS};
 
@@ -53,4 +54,6 @@ pub struct WindingFeedback {
     pub ready: bool,
     /// What was measured under a probe, where one is on
     pub probe: Option<ProbeReport>,
+    /// What gyro and encoders said; the motion's task puts it in
+    pub sensors: SensorCodes,
 }

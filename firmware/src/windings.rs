@@ -28,6 +28,7 @@ use crate::motor_controller::{MotorController, MotorMeasurement, NO_VOLTAGE};
 use crate::offsets::Offsets;
 use crate::probe::{ProbeVector, probe_limits};
 use crate::protection::Protection;
+use crate::sensing;
 use crate::winding_config::WindingConfig;
 use crate::winding_signals::{MotorSetpoints, WindingFeedback};
 
@@ -122,6 +123,12 @@ impl Windings {
     #[inline]
     pub fn motion_is_due(&self) -> bool {
         self.period.is_multiple_of(PERIODS_PER_TICK)
+    }
+
+    /// True if gyro and encoders are to be read in the period that has just been looked at.
+    #[inline]
+    pub fn sensors_are_due(&self) -> bool {
+        self.period % PERIODS_PER_TICK == sensing::DUE
     }
 
     /// One period: what to do in the next.

@@ -15,9 +15,11 @@ use cortex_m_rt::exception;
 use cortex_m_semihosting::debug;
 use defmt_semihosting as _;
 use heapless::spsc::Queue;
+use model_core::link::sensor_codes::SensorCodes;
 use stm32f4xx_hal::pac;
 
 use crate::codes::{Codes, MOTORS};
+use crate::drivers::sensors::FittedSensors;
 use crate::exchange::{LINK_BYTES, LinkBytes, TOPS, UpFrame, compare};
 
 mod host;
@@ -35,6 +37,8 @@ const SYSTICK_PER_PERIOD: u32 = 8_400;
 /// Bytes on their way out and in; the task of the link is the one end, the exchange the other.
 static SERIAL: Line<Buffers> = Line::new(Buffers { out: Queue::new(), inward: Queue::new() });
 static BURN: Line<u16> = Line::new(0);
+/// What gyro and encoders say in this period.
+static SENSORS: Line<Option<SensorCodes>> = Line::new(None);
 
 struct Buffers {
     out: Queue<u8, 1024>,
@@ -51,6 +55,8 @@ pub struct Parts {
     pub watchdog: Watchdog,
     /// Where the parameter block is stored
     pub flash_store: FlashStore,
+    /// Gyro and encoders
+    pub sensors: MotionSensors,
 }
 
 /// The bridges of all motors, with what is measured there.
@@ -68,6 +74,9 @@ pub struct Watchdog {
     restarted: bool,
 }
 
+/// Gyro and encoders.
+pub struct MotionSensors(());
+
 /// Where the parameter block is stored: memory, which a reset of the emulator forgets.
 pub struct FlashStore(());
 
@@ -75,7 +84,7 @@ pub struct FlashStore(());
 pub fn take(core: cortex_m::Peripherals, _device: pac::Peripherals) -> Parts {
     let watchdog = Watchdog { restarted: host::connect() };
     let bridges = Bridges { syst: core.SYST, next: UpFrame::default(), began: 0 };
-    Parts { bridges, serial: SerialLink(()), watchdog, flash_store: FlashStore(()) }
+    Parts { bridges, serial: SerialLink(()), watchdog, flash_store: FlashStore(()), sensors: MotionSensors(()) }
 }
 
 impl Bridges {
@@ -106,6 +115,7 @@ impl Bridges {
         });
         self.syst.enable_counter();
         self.began = cycles();
+        SENSORS.with(|sensors| *sensors = Some(down.sensors));
         BURN.with(|burn| *burn = (*burn).max(down.burn_motion));
         idle(down.burn_current);
         if let Some(crash) = down.crash {
@@ -168,6 +178,13 @@ impl Watchdog {
     /// True if it was the watchdog that restarted the machine.
     pub fn restarted(&self) -> bool {
         self.restarted
+    }
+}
+
+impl MotionSensors {
+    /// What those that are fitted say now.
+    pub fn read(&mut self, fitted: FittedSensors) -> SensorCodes {
+        fitted.only(&SENSORS.with(|sensors| *sensors).unwrap_or_default())
     }
 }
 

@@ -1,4 +1,4 @@
-//! # F405: an STM32F405RG with four 3-PWM gate drivers
+//! # F405: an STM32F405VG with four 3-PWM gate drivers
 //!
 //! Which pin does what stands in [`crate::registers::pins`], what the registers are set to and when everything happens
 //! in [`crate::registers`]; how to wire it in `firmware/HARDWARE.md`. Here these are put into the chip. To bring up
@@ -27,6 +27,7 @@ mod check;
 mod fail_safe;
 mod flash_store;
 mod parts;
+mod sensor_bus;
 mod serial;
 mod watchdog;
 
@@ -41,6 +42,7 @@ pub use check::{Reading, counters, pending, readings};
 pub use fail_safe::fail_safe;
 pub use flash_store::FlashStore;
 pub use parts::{HSE_HZ, Parts, take};
+pub use sensor_bus::MotionSensors;
 pub use serial::SerialLink;
 pub use watchdog::Watchdog;
 

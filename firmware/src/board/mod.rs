@@ -8,6 +8,7 @@
 //! | `Bridges` | `start`, `read` the codes of this period, `drive` the next one; `spent`, `is_late` |
 //! | `SerialLink` | `send` and `receive` bytes, as many as it has room for |
 //! | `Watchdog` | `feed`, `restarted` |
+//! | `MotionSensors` | `read` gyro and encoders, those that are fitted |
 //! | `FlashStore` | `load` and `save` the parameter block |
 //!
 //! and a counter of processor cycles, [`cycles`], with `CYCLES_PER_PERIOD`. What a program comes to that has failed stands

@@ -1,7 +1,7 @@
 //! # Sensors: one gyro and an encoder a wheel, kept at work
 //!
 //! A sensor that does not answer as it should costs its own reading and nothing else. It is begun with anew, at once for the
-//! first time and every [`RETRY`] turns from then on: at the start the sensors take longer to come up than the processor,
+//! first time and every 0.1 s from then on: at the start the sensors take longer to come up than the processor,
 //! and one whose plug is put back in comes back.
 
 use embedded_hal::spi::SpiDevice;

@@ -5,11 +5,13 @@
 //! manual RM0090 for the STM32F405.
 //!
 //! In reading order: which pin does what ([`pins`]), when everything happens ([`timing`]), the converters ([`adc`]),
-//! the PWM timers ([`timers`]), the link and its DMA ([`link`]), the watchdog ([`watchdog`]).
+//! the PWM timers ([`timers`]), the link and its DMA ([`link`]), the bus of gyro and
+//! encoders ([`spi`]), the watchdog ([`watchdog`]).
 
 pub mod adc;
 pub mod link;
 pub mod pins;
+pub mod spi;
 pub mod timers;
 pub mod timing;
 pub mod watchdog;

@@ -1,4 +1,4 @@
-//! # Pins: what every lead of the LQFP64 does
+//! # Pins: what every lead of the LQFP100 does
 //!
 //! The one list. The converters' channels are computed from it ([`super::adc`]), the table of `firmware/HARDWARE.md` is
 //! compared to it, and the board hands exactly these pins to the chip's peripherals, where the compiler checks that
@@ -45,6 +45,19 @@ pub enum Job {
     LinkOut,
     /// From the host to the robot
     LinkIn,
+    /// SPI of gyro and encoders, clock
+    SensorClock,
+    /// SPI of gyro and encoders, to the chip
+    SensorIn,
+    /// SPI of gyro and encoders, from the chip
+    SensorOut,
+    /// Chip select of the gyro, low selects
+    GyroSelect,
+    /// Chip select of a motor's encoder, low selects
+    EncoderSelect {
+        /// Motor
+        motor: usize,
+    },
     /// Serial wire debug, data
     ProbeData,
     /// Serial wire debug, clock
@@ -58,7 +71,7 @@ pub struct Pin {
     pub port: char,
     /// Number in the port
     pub number: u8,
-    /// Lead of the LQFP64 package
+    /// Lead of the LQFP100 package (datasheet DS8626, pin definitions)
     pub lead: u8,
     /// Peripheral that it is connected to inside
     pub inside: &'static str,
@@ -86,54 +99,66 @@ const fn enable(motor: usize) -> Job {
     Job::Enable { motor }
 }
 
+const fn select(motor: usize) -> Job {
+    Job::EncoderSelect { motor }
+}
+
 /// Every pin that is used.
-pub const PINS: [Pin; 46] = [
-    pin('A', 8, 41, "TIM1_CH1 (AF1)", phase(0, 0)),
-    pin('A', 9, 42, "TIM1_CH2 (AF1)", phase(0, 1)),
-    pin('A', 10, 43, "TIM1_CH3 (AF1)", phase(0, 2)),
-    pin('C', 6, 37, "TIM8_CH1 (AF3)", phase(1, 0)),
-    pin('C', 7, 38, "TIM8_CH2 (AF3)", phase(1, 1)),
-    pin('C', 8, 39, "TIM8_CH3 (AF3)", phase(1, 2)),
-    pin('A', 6, 22, "TIM3_CH1 (AF2)", phase(2, 0)),
-    pin('A', 7, 23, "TIM3_CH2 (AF2)", phase(2, 1)),
-    pin('B', 0, 26, "TIM3_CH3 (AF2)", phase(2, 2)),
-    pin('B', 6, 58, "TIM4_CH1 (AF2)", phase(3, 0)),
-    pin('B', 7, 59, "TIM4_CH2 (AF2)", phase(3, 1)),
-    pin('B', 8, 61, "TIM4_CH3 (AF2)", phase(3, 2)),
-    pin('A', 4, 20, "ADC1_IN4", current(0, 0)),
-    pin('A', 0, 14, "ADC2_IN0", current(0, 1)),
-    pin('C', 0, 8, "ADC3_IN10", current(0, 2)),
-    pin('A', 5, 21, "ADC1_IN5", current(1, 0)),
-    pin('A', 1, 15, "ADC2_IN1", current(1, 1)),
-    pin('C', 1, 9, "ADC3_IN11", current(1, 2)),
-    pin('C', 4, 24, "ADC1_IN14", current(2, 0)),
-    pin('A', 2, 16, "ADC2_IN2", current(2, 1)),
-    pin('C', 2, 10, "ADC3_IN12", current(2, 2)),
-    pin('C', 5, 25, "ADC1_IN15", current(3, 0)),
-    pin('A', 3, 17, "ADC2_IN3", current(3, 1)),
-    pin('C', 3, 11, "ADC3_IN13", current(3, 2)),
-    pin('B', 1, 27, "ADC1_IN9", Job::Bus),
-    pin('B', 3, 55, "GPIO in, pull-up", hall(0, 0)),
-    pin('B', 4, 56, "GPIO in, pull-up", hall(0, 1)),
-    pin('B', 5, 57, "GPIO in, pull-up", hall(0, 2)),
-    pin('B', 9, 62, "GPIO in, pull-up", hall(1, 0)),
-    pin('C', 9, 40, "GPIO in, pull-up", hall(1, 1)),
-    pin('C', 12, 53, "GPIO in, pull-up", hall(1, 2)),
-    pin('B', 12, 33, "GPIO in, pull-up", hall(2, 0)),
-    pin('B', 13, 34, "GPIO in, pull-up", hall(2, 1)),
-    pin('B', 14, 35, "GPIO in, pull-up", hall(2, 2)),
-    pin('B', 15, 36, "GPIO in, pull-up", hall(3, 0)),
-    pin('D', 2, 54, "GPIO in, pull-up", hall(3, 1)),
-    pin('A', 15, 50, "GPIO in, pull-up", hall(3, 2)),
-    pin('B', 10, 29, "GPIO out", enable(0)),
-    pin('B', 11, 30, "GPIO out", enable(1)),
-    pin('A', 11, 44, "GPIO out", enable(2)),
-    pin('A', 12, 45, "GPIO out", enable(3)),
-    pin('C', 13, 2, "GPIO in, pull-up", Job::Fault),
-    pin('C', 10, 51, "USART3_TX (AF7)", Job::LinkOut),
-    pin('C', 11, 52, "USART3_RX (AF7)", Job::LinkIn),
-    pin('A', 13, 46, "SWDIO", Job::ProbeData),
-    pin('A', 14, 49, "SWCLK", Job::ProbeClock),
+pub const PINS: [Pin; 54] = [
+    pin('A', 8, 67, "TIM1_CH1 (AF1)", phase(0, 0)),
+    pin('A', 9, 68, "TIM1_CH2 (AF1)", phase(0, 1)),
+    pin('A', 10, 69, "TIM1_CH3 (AF1)", phase(0, 2)),
+    pin('C', 6, 63, "TIM8_CH1 (AF3)", phase(1, 0)),
+    pin('C', 7, 64, "TIM8_CH2 (AF3)", phase(1, 1)),
+    pin('C', 8, 65, "TIM8_CH3 (AF3)", phase(1, 2)),
+    pin('A', 6, 31, "TIM3_CH1 (AF2)", phase(2, 0)),
+    pin('A', 7, 32, "TIM3_CH2 (AF2)", phase(2, 1)),
+    pin('B', 0, 35, "TIM3_CH3 (AF2)", phase(2, 2)),
+    pin('B', 6, 92, "TIM4_CH1 (AF2)", phase(3, 0)),
+    pin('B', 7, 93, "TIM4_CH2 (AF2)", phase(3, 1)),
+    pin('B', 8, 95, "TIM4_CH3 (AF2)", phase(3, 2)),
+    pin('A', 4, 29, "ADC1_IN4", current(0, 0)),
+    pin('A', 0, 23, "ADC2_IN0", current(0, 1)),
+    pin('C', 0, 15, "ADC3_IN10", current(0, 2)),
+    pin('A', 5, 30, "ADC1_IN5", current(1, 0)),
+    pin('A', 1, 24, "ADC2_IN1", current(1, 1)),
+    pin('C', 1, 16, "ADC3_IN11", current(1, 2)),
+    pin('C', 4, 33, "ADC1_IN14", current(2, 0)),
+    pin('A', 2, 25, "ADC2_IN2", current(2, 1)),
+    pin('C', 2, 17, "ADC3_IN12", current(2, 2)),
+    pin('C', 5, 34, "ADC1_IN15", current(3, 0)),
+    pin('A', 3, 26, "ADC2_IN3", current(3, 1)),
+    pin('C', 3, 18, "ADC3_IN13", current(3, 2)),
+    pin('B', 1, 36, "ADC1_IN9", Job::Bus),
+    pin('D', 0, 81, "GPIO in, pull-up", hall(0, 0)),
+    pin('D', 1, 82, "GPIO in, pull-up", hall(0, 1)),
+    pin('D', 3, 84, "GPIO in, pull-up", hall(0, 2)),
+    pin('B', 9, 96, "GPIO in, pull-up", hall(1, 0)),
+    pin('C', 9, 66, "GPIO in, pull-up", hall(1, 1)),
+    pin('C', 12, 80, "GPIO in, pull-up", hall(1, 2)),
+    pin('B', 12, 51, "GPIO in, pull-up", hall(2, 0)),
+    pin('B', 13, 52, "GPIO in, pull-up", hall(2, 1)),
+    pin('B', 14, 53, "GPIO in, pull-up", hall(2, 2)),
+    pin('B', 15, 54, "GPIO in, pull-up", hall(3, 0)),
+    pin('D', 2, 83, "GPIO in, pull-up", hall(3, 1)),
+    pin('A', 15, 77, "GPIO in, pull-up", hall(3, 2)),
+    pin('B', 10, 47, "GPIO out", enable(0)),
+    pin('B', 11, 48, "GPIO out", enable(1)),
+    pin('A', 11, 70, "GPIO out", enable(2)),
+    pin('A', 12, 71, "GPIO out", enable(3)),
+    pin('C', 13, 7, "GPIO in, pull-up", Job::Fault),
+    pin('C', 10, 78, "USART3_TX (AF7)", Job::LinkOut),
+    pin('C', 11, 79, "USART3_RX (AF7)", Job::LinkIn),
+    pin('B', 3, 89, "SPI1_SCK (AF5)", Job::SensorClock),
+    pin('B', 4, 90, "SPI1_MISO (AF5)", Job::SensorIn),
+    pin('B', 5, 91, "SPI1_MOSI (AF5)", Job::SensorOut),
+    pin('D', 8, 55, "GPIO out", Job::GyroSelect),
+    pin('D', 4, 85, "GPIO out", select(0)),
+    pin('D', 5, 86, "GPIO out", select(1)),
+    pin('D', 6, 87, "GPIO out", select(2)),
+    pin('D', 7, 88, "GPIO out", select(3)),
+    pin('A', 13, 72, "SWDIO", Job::ProbeData),
+    pin('A', 14, 76, "SWCLK", Job::ProbeClock),
 ];
 
 /// The pin that measures the current of a phase.

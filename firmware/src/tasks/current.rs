@@ -12,9 +12,9 @@ pub fn current(mut cx: app::current::Context<'_>) {
     let entered = board::cycles();
     let bridges = cx.local.bridges;
     let codes = bridges.read();
-    let (command, motion_due) = cx.shared.windings.lock(|windings| {
+    let (command, motion_due, sensors_due) = cx.shared.windings.lock(|windings| {
         let command = windings.tick(&codes);
-        (command, windings.motion_is_due())
+        (command, windings.motion_is_due(), windings.sensors_are_due())
     });
     bridges.drive(&command.duties, command.enabled);
 
@@ -27,6 +27,9 @@ pub fn current(mut cx: app::current::Context<'_>) {
     }
     if motion_due {
         rtic::pend(Interrupt::EXTI0);
+    }
+    if sensors_due {
+        rtic::pend(Interrupt::EXTI3);
     }
     cx.shared.heartbeats.beat(Task::Current);
 }

@@ -7,4 +7,5 @@ pub mod listen;
 pub mod load;
 pub mod motion;
 pub mod record;
+pub mod sense;
 pub mod start;

@@ -9,7 +9,9 @@ use crate::tasks::event_log::Report;
 
 /// One turn, 1 ms.
 pub fn motion(mut cx: app::motion::Context<'_>) {
-    let feedback = cx.shared.windings.lock(|windings| windings.feedback());
+    let mut feedback = cx.shared.windings.lock(|windings| windings.feedback());
+    let fitted = cx.local.motion_control.fitted();
+    feedback.sensors = cx.shared.sensing.lock(|sensing| sensing.take(fitted));
     let output = cx.shared.inbox.lock(|inbox| cx.local.motion_control.tick(&feedback, inbox));
     cx.shared.windings.lock(|windings| windings.apply(&output));
     board::burn_motion();

@@ -5,6 +5,7 @@ use firmware::command_receiver::CommandReceiver;
 use firmware::drivers::heartbeat::Heartbeats;
 use firmware::inbox::Inbox;
 use firmware::motion::Motion;
+use firmware::sensing::Sensing;
 use firmware::to_store::BlockToStore;
 use firmware::tx_queue;
 use firmware::windings::Windings;
@@ -16,7 +17,7 @@ use crate::tasks::load::Load;
 
 /// Takes the board, reads the parameters that were kept, and lets the periods begin.
 pub fn init(cx: app::init::Context<'_>) -> (app::Shared, app::Local) {
-    let board::Parts { mut bridges, serial, watchdog, flash_store } = board::take(cx.core, cx.device);
+    let board::Parts { mut bridges, serial, watchdog, flash_store, sensors } = board::take(cx.core, cx.device);
     let (tx_producer, tx_consumer) = tx_queue::split(cx.local.tx_storage);
     let mut receiver = CommandReceiver::default();
     let mut inbox = Inbox::default();
@@ -36,6 +37,7 @@ pub fn init(cx: app::init::Context<'_>) -> (app::Shared, app::Local) {
             inbox,
             load: Load::default(),
             serial,
+            sensing: Sensing::default(),
             to_store: BlockToStore::default(),
             report: Report::default(),
             heartbeats: Heartbeats::new(),
@@ -49,6 +51,7 @@ pub fn init(cx: app::init::Context<'_>) -> (app::Shared, app::Local) {
             tx_consumer,
             watchdog,
             flash_store,
+            sensors,
         },
     )
 }

@@ -5,6 +5,7 @@ use firmware::codes::{Codes, MOTORS, PERIODS_PER_TICK};
 use firmware::command_receiver::CommandReceiver;
 use firmware::inbox::Inbox;
 use firmware::motion::{Motion, MotionOutput};
+use firmware::sensing::Sensing;
 use firmware::tx_queue::{self, TxConsumer, TxProducer, TxStorage};
 use firmware::windings::{BridgeCommand, Windings};
 use model_core::control::calibration::AdcCode;
@@ -15,6 +16,7 @@ use model_core::link::command::{Command, MAX_CHUNK};
 use model_core::link::framing::{FrameDecoder, FrameKind, MAX_FRAME};
 use model_core::link::hello::Commutation;
 use model_core::link::record::TelemetryRecord;
+use model_core::link::sensor_codes::{SensorCodes, SensorScales};
 use model_core::plant::robot::Robot;
 
 /// A block for the paper's robot.
@@ -43,6 +45,7 @@ pub fn block<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
         heating_time: 10.0,
         effects: BlockEffects::default(),
         wiring: [None; N],
+        sensors: SensorScales::default(),
     }
 }
 
@@ -68,6 +71,9 @@ pub struct Program {
     pub windings: Windings,
     pub motion: Motion,
     pub inbox: Inbox,
+    pub sensing: Sensing,
+    /// What gyro and encoders say
+    pub sensors: SensorCodes,
     pub receiver: CommandReceiver,
     tx_producer: TxProducer,
     tx_consumer: TxConsumer,
@@ -87,6 +93,8 @@ impl Program {
             windings: Windings::default(),
             motion: Motion::default(),
             inbox: Inbox::default(),
+            sensing: Sensing::default(),
+            sensors: SensorCodes::default(),
             receiver: CommandReceiver::default(),
             tx_producer,
             tx_consumer,
@@ -148,8 +156,12 @@ impl Program {
         let protection = self.windings.protection();
         assert_eq!(drive.enabled & protection.disabled(), 0, "a lost wheel is open");
         assert!(protection.faults().is_empty() || drive.enabled == 0, "{protection:?} {drive:?}");
+        if self.windings.sensors_are_due() {
+            self.sensing.put(self.sensing.fitted().only(&self.sensors));
+        }
         if self.windings.motion_is_due() {
-            let feedback = self.windings.feedback();
+            let mut feedback = self.windings.feedback();
+            feedback.sensors = self.sensing.take(self.motion.fitted());
             self.output = self.motion.tick(&feedback, &mut self.inbox);
             self.refused.extend(self.output.reply.filter(|reply| !reply.taken).map(|reply| reply.reason));
             let setpoints = &self.output.setpoints;

@@ -176,6 +176,21 @@ pub const DMA_LIFCR: &[Field] = &[
     ("CHTIF3", 26, 1, &[]),
     ("CTCIF3", 27, 1, &[]),
 ];
+pub const SPI_CR1: &[Field] = &[
+    ("CPHA", 0, 1, &[(0, "the first edge samples"), (1, "the second edge samples")]),
+    ("CPOL", 1, 1, &[(0, "low when idle")]),
+    ("MSTR", 2, 1, &[(1, "master")]),
+    ("BR", 3, 3, &[(3, "by 16")]),
+    ("SPE", 6, 1, &[(0, "off"), (1, "on")]),
+    ("LSBFIRST", 7, 1, &[(0, "high bit first")]),
+    ("SSI", 8, 1, &[]),
+    ("SSM", 9, 1, &[(1, "selects by software")]),
+    ("RXONLY", 10, 1, &[(0, "both ways")]),
+    ("DFF", 11, 1, &[(0, "8 bits")]),
+    ("CRCEN", 13, 1, &[]),
+    ("BIDIMODE", 15, 1, &[(0, "two lines")]),
+];
+pub const SPI_SR: &[Field] = &[("RXNE", 0, 1, &[(1, "a byte has come")]), ("TXE", 1, 1, &[]), ("BSY", 7, 1, &[])];
 pub const IWDG_PR: &[Field] = &[("PR", 0, 3, &[(0, "by 4"), (5, "by 128")])];
 pub const IWDG_RLR: &[Field] = &[("RL", 0, 12, &[])];
 pub const RCC_CR: &[Field] =

@@ -3,6 +3,7 @@
 
 mod fields;
 mod instants;
+mod pins;
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -10,8 +11,8 @@ use std::path::Path;
 
 use fields::*;
 use firmware::codes::MOTORS;
-use firmware::registers::pins::{Job, PINS, Pin, RANKS};
-use firmware::registers::{adc, link, timers, timing, watchdog};
+use firmware::registers::pins::{Pin, RANKS};
+use firmware::registers::{adc, link, spi, timers, timing, watchdog};
 
 /// Every register that the board sets, with its fields.
 fn settings() -> Vec<(String, u32, &'static [Field])> {
@@ -24,7 +25,7 @@ fn settings() -> Vec<(String, u32, &'static [Field])> {
         all.push((name("SMPR1"), adc::SMPR1, ADC_SMPR1));
         all.push((name("SMPR2"), adc::SMPR2, ADC_SMPR2));
     }
-    let rest: [(&str, u32, &[Field]); 41] = [
+    let rest: [(&str, u32, &[Field]); 45] = [
         ("ADC1 SQR1", adc::SQR1, ADC_SQR1),
         ("ADC1 SQR3", adc::SQR3, ADC_SQR3),
         ("ADC1 CR2, started", adc::CR2_TRIGGERED, ADC_CR2),
@@ -59,6 +60,10 @@ fn settings() -> Vec<(String, u32, &'static [Field])> {
         ("DMA1 stream 1 CR, in", link::IN_CR, DMA_CR),
         ("DMA1 stream 3 CR, out", link::OUT_CR, DMA_CR),
         ("DMA1 LIFCR", link::OUT_CLEAR, DMA_LIFCR),
+        ("SPI1 CR1, gyro", u32::from(spi::CR1_GYRO), SPI_CR1),
+        ("SPI1 CR1, encoder", u32::from(spi::CR1_ENCODER), SPI_CR1),
+        ("SPI1 CR1, encoder, on", u32::from(spi::CR1_ENCODER | spi::SPE), SPI_CR1),
+        ("SPI1 SR", u32::from(spi::RXNE), SPI_SR),
         ("IWDG PR", u32::from(watchdog::PR), IWDG_PR),
         ("IWDG RLR", u32::from(watchdog::RLR), IWDG_RLR),
         ("IWDG PR, while erasing", u32::from(watchdog::PR_LONG), IWDG_PR),
@@ -184,109 +189,6 @@ fn every_rank_reads_three_pins_that_its_converters_reach() {
     assert!(adc::JSQR.iter().all(|jsqr| field(*jsqr, ADC_JSQR, "JL") == 3));
 }
 
-#[test]
-fn every_pin_is_used_once_and_every_job_is_done() {
-    let places: BTreeSet<_> = PINS.iter().map(|pin| (pin.port, pin.number)).collect();
-    let leads: BTreeSet<_> = PINS.iter().map(|pin| pin.lead).collect();
-    assert_eq!((places.len(), leads.len()), (PINS.len(), PINS.len()));
-    let count = |of: fn(&Job) -> bool| PINS.iter().filter(|pin| of(&pin.job)).count();
-    assert_eq!(count(|job| matches!(job, Job::Phase { .. })), 3 * MOTORS);
-    assert_eq!(count(|job| matches!(job, Job::Current { .. })), 3 * MOTORS);
-    assert_eq!(count(|job| matches!(job, Job::Hall { .. })), 3 * MOTORS);
-    assert_eq!(count(|job| matches!(job, Job::Enable { .. })), MOTORS);
-    let jobs: BTreeSet<_> = PINS.iter().map(|pin| format!("{:?}", pin.job)).collect();
-    assert_eq!(jobs.len(), PINS.len(), "no job is done twice");
-}
-
-#[test]
-fn the_board_takes_every_pin_of_the_list_for_its_job_and_no_other() {
-    let source =
-        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/board/f405/parts.rs")).unwrap();
-    // all pins in the order in which the source takes them: `gpioa.pa8`
-    let mut taken = Vec::new();
-    for (at, _) in source.match_indices("gpio") {
-        let name = &source.as_bytes()[at + 4..];
-        let [port, b'.', b'p', again, digit, ..] = name else { continue };
-        if port == again && digit.is_ascii_digit() {
-            let digits = name[4..].iter().take_while(|digit| digit.is_ascii_digit());
-            taken.push((port.to_ascii_uppercase() as char, digits.fold(0, |sum, digit| sum * 10 + digit - b'0')));
-        }
-    }
-    // the source takes enables, PWM, currents converter by converter, supply, halls, fault line, link, each motor by motor
-    let place = |job: Job| match job {
-        Job::Enable { motor } => Some((0, 0, motor)),
-        Job::Phase { motor, phase } => Some((1, motor, phase)),
-        Job::Current { motor, phase } => Some((2, phase, motor)),
-        Job::Bus => Some((3, 0, 0)),
-        Job::Hall { motor, line } => Some((4, motor, line)),
-        Job::Fault => Some((5, 0, 0)),
-        Job::LinkOut => Some((6, 0, 0)),
-        Job::LinkIn => Some((6, 1, 0)),
-        // the probe's pins stay as the reset leaves them
-        Job::ProbeData | Job::ProbeClock => None,
-    };
-    let mut listed: Vec<_> = PINS.iter().filter_map(|pin| Some((place(pin.job)?, pin))).collect();
-    listed.sort_by_key(|(place, _)| *place);
-    assert_eq!(taken, listed.iter().map(|(_, pin)| (pin.port, pin.number)).collect::<Vec<_>>());
-
-    // and each goes through the check of the peripheral that the list names
-    for pin in PINS {
-        let port = pin.port.to_ascii_lowercase();
-        let name = format!("gpio{port}.p{port}{}", pin.number);
-        let check = match pin.job {
-            Job::Phase { phase, .. } => {
-                let (timer, rest) = pin.inside.split_once("_CH").unwrap();
-                assert!(rest.starts_with(&(phase + 1).to_string()), "{}", pin.inside);
-                format!("pwm::<pac::{timer}, {phase}>({name})")
-            }
-            Job::Current { .. } | Job::Bus => format!("reaches::<pac::{}, _>({name}.", &pin.inside[..4]),
-            Job::LinkOut => format!("sends::<pac::USART3>({name})"),
-            Job::LinkIn => format!("receives::<pac::USART3>({name})"),
-            _ => continue,
-        };
-        assert!(source.contains(&check), "{check}");
-    }
-}
-
-#[test]
-fn the_page_for_the_soldering_iron_has_the_same_pins() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("HARDWARE.md");
-    let page = std::fs::read_to_string(&path).unwrap();
-    let (begin, end) = ("<!-- pins -->\n", "<!-- end of pins -->");
-    let (before, rest) = page.split_once(begin).expect("the table's begin");
-    let (table, after) = rest.split_once(end).expect("the table's end");
-    let mut sorted = PINS;
-    sorted.sort_by_key(|pin| pin.lead);
-    let mut should = String::from("| lead | pin | inside | does |\n|---|---|---|---|\n");
-    for pin in sorted {
-        writeln!(should, "| {} | P{}{} | {} | {} |", pin.lead, pin.port, pin.number, pin.inside, does(pin.job))
-            .unwrap();
-    }
-    if std::env::var_os("BLESS").is_some() {
-        std::fs::write(&path, format!("{before}{begin}{should}{end}{after}")).unwrap();
-    } else {
-        assert_eq!(table, should, "the pins have changed: judge them, then BLESS=1");
-    }
-    let duty = format!("{:.3}", timing::MAX_DUTY);
-    assert!(page.contains(&duty), "HARDWARE.md should state the largest duty, {duty}");
-}
-
-fn does(job: Job) -> String {
-    let letter = |index: usize| ["a", "b", "c"][index];
-    match job {
-        Job::Phase { motor, phase } => format!("motor {motor}: PWM of phase {}", letter(phase)),
-        Job::Current { motor, phase } => format!("motor {motor}: current of phase {}", letter(phase)),
-        Job::Hall { motor, line } => format!("motor {motor}: hall line {}", letter(line)),
-        Job::Enable { motor } => format!("motor {motor}: enable of the gate driver"),
-        Job::Fault => "fault line of all gate drivers, low is a fault".into(),
-        Job::Bus => "supply, divided".into(),
-        Job::LinkOut => "link, robot to host".into(),
-        Job::LinkIn => "link, host to robot".into(),
-        Job::ProbeData => "probe, data".into(),
-        Job::ProbeClock => "probe, clock".into(),
-    }
-}
-
 /// Where a timer's count is, core cycles after the slaves' start, and whether it goes up.
 fn count(motor: usize, after: u32) -> (u32, bool) {
     let top = u32::from(timing::TOPS[motor]);
@@ -386,6 +288,17 @@ fn the_dog_bites_after_ten_to_thirty_milliseconds() {
     assert_eq!(typical, 16_000);
     // DS8626, flash programming: a sector of 128 KiB takes 4 s at most, byte by byte
     assert!(watchdog::timeout_us(watchdog::PR_LONG, watchdog::RLR_LONG, 47_000) > 8_000_000);
+}
+
+#[test]
+fn the_bus_of_the_sensors_is_as_fast_and_as_patient_as_their_data_sheets_ask() {
+    // both: 10 MHz at most; the AS5047P: 350 ns between selection and clock, and between two frames
+    assert_eq!(spi::HZ, 5_250_000);
+    assert!(us(spi::SELECT_CYCLES) >= 0.35 && us(spi::SELECT_CYCLES) < 0.36);
+    assert_eq!(spi::BYTE_CYCLES, 256);
+    // the BMI088 samples at the first edge of a clock that idles low, the AS5047P at the second
+    assert_eq!([spi::CR1_GYRO, spi::CR1_ENCODER].map(|cr1| field(cr1.into(), SPI_CR1, "CPHA")), [0, 1]);
+    assert_eq!([spi::CR1_GYRO, spi::CR1_ENCODER].map(|cr1| field(cr1.into(), SPI_CR1, "CPOL")), [0, 0]);
 }
 
 #[test]

@@ -57,6 +57,7 @@ impl<B: BoardProgram, const N: usize> Lockstep<B, N> {
             burn_current: std::mem::take(&mut self.burn_current),
             burn_motion: std::mem::take(&mut self.burn_motion),
             link: self.link.transmit(),
+            sensors: self.board.sensors(),
         };
         self.program.down(&down)?;
         self.last = Some(down);
@@ -91,7 +92,8 @@ impl<const N: usize> Lockstep<super::Qemu, N> {
         let up = self.program.up()?;
         let codes = self.board.period(&Outputs { compare: up.compare, enabled: up.enabled });
         let link = self.link.transmit();
-        let last = DownFrame { codes, end: true, crash: None, burn_current: 0, burn_motion: 0, link };
+        let sensors = self.board.sensors();
+        let last = DownFrame { codes, end: true, crash: None, burn_current: 0, burn_motion: 0, link, sensors };
         self.program.end(&last)
     }
 }

@@ -201,11 +201,13 @@ mod tests {
     use firmware::exchange::LinkBytes;
     use model_core::control::calibration::AdcCode;
     use model_core::control::halls::HallCode;
+    use model_core::link::sensor_codes::SensorCodes;
 
     fn down() -> DownFrame {
         let phases = [[AdcCode(2048); 3]; 4];
         let codes = Codes { phases, bus: AdcCode(1354), halls: [HallCode(1); 4], driver_fault: false };
-        DownFrame { codes, end: false, crash: None, burn_current: 0, burn_motion: 0, link: LinkBytes::default() }
+        let (link, sensors) = (LinkBytes::default(), SensorCodes::default());
+        DownFrame { codes, end: false, crash: None, burn_current: 0, burn_motion: 0, link, sensors }
     }
 
     /// A shell in the emulator's place.
@@ -218,8 +220,8 @@ mod tests {
     #[test]
     fn frames_go_both_ways_and_the_end_is_waited_for() {
         // an up frame of zeros, a down frame read, another up frame, and what is left
-        let script = "exec 3>omni-up 4<omni-down; head -c 44 /dev/zero >&3; head -c 48 <&4 >seen; \
-                      head -c 44 /dev/zero >&3; head -c 48 <&4 >seen; cat seen";
+        let script = "exec 3>omni-up 4<omni-down; head -c 44 /dev/zero >&3; head -c 58 <&4 >seen; \
+                      head -c 44 /dev/zero >&3; head -c 58 <&4 >seen; cat seen";
         let mut qemu = shell(script, Duration::from_secs(20));
         assert_eq!(qemu.up().expect("a frame"), UpFrame::default());
         qemu.down(&down()).expect("taken");

@@ -11,6 +11,7 @@ use firmware::command_receiver::CommandReceiver;
 use firmware::exchange::{DownFrame, LINK_BYTES, LinkBytes, TOPS, UpFrame, compare};
 use firmware::inbox::Inbox;
 use firmware::motion::Motion;
+use firmware::sensing::Sensing;
 use firmware::to_store::BlockToStore;
 use firmware::tx_queue::{self, TxConsumer, TxProducer, TxStorage};
 use firmware::windings::Windings;
@@ -25,6 +26,7 @@ pub struct HostProgram {
     motion: Motion,
     receiver: CommandReceiver,
     inbox: Inbox,
+    sensing: Sensing,
     to_store: BlockToStore,
     /// What is in the flash
     stored: Vec<u8>,
@@ -46,6 +48,7 @@ impl Default for HostProgram {
             motion: Motion::default(),
             receiver: CommandReceiver::default(),
             inbox: Inbox::default(),
+            sensing: Sensing::default(),
             to_store: BlockToStore::default(),
             stored: Vec::new(),
             tx_producer,
@@ -120,8 +123,12 @@ impl BoardProgram for HostProgram {
             *counts = duties.map(|duty| compare(duty, top));
         }
         self.next.enabled = command.enabled;
+        if self.windings.sensors_are_due() {
+            self.sensing.put(self.sensing.fitted().only(&down.sensors));
+        }
         if self.windings.motion_is_due() {
-            let feedback = self.windings.feedback();
+            let mut feedback = self.windings.feedback();
+            feedback.sensors = self.sensing.take(self.motion.fitted());
             let mut output = self.motion.tick(&feedback, &mut self.inbox);
             if let Some(law) = &mut self.wheel_pi {
                 law.turn(&feedback, &mut output);

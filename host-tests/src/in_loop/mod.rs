@@ -7,6 +7,7 @@
 //! - [`robots`]: what is believed of the paper's robots, and what is true;
 //! - [`ramps`]: a speed on one axis, with the acceleration measured;
 //! - [`figure_eight`]: a path with curves to both sides;
+//! - [`heading`]: what a lap leaves of the direction that a robot faces, with a gyro and without;
 //! - [`saturation`]: a diagonal acceleration for which the bus has not enough;
 //! - [`command_timeout`]: commands that end;
 //! - [`margin`]: all of it on a processor that is slow;
@@ -28,6 +29,7 @@ pub mod faults;
 pub mod figure_eight;
 pub mod gap;
 pub mod gap_page;
+pub mod heading;
 mod host_program;
 mod link_jitter;
 pub mod margin;

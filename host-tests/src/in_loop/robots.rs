@@ -18,6 +18,7 @@ use model_core::effects::active::Effects;
 use model_core::geometry::kinematics::Wheels;
 use model_core::link::block::{Block, BlockEffects, ControlMode, Limits, Parameters};
 use model_core::link::hello::Commutation;
+use model_core::link::sensor_codes::SensorScales;
 use model_core::plant::robot::Robot;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -87,6 +88,7 @@ pub fn block<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
         heating_time: 10.0,
         effects: BlockEffects::default(),
         wiring: [None; N],
+        sensors: SensorScales::default(),
     }
 }
 

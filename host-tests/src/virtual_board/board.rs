@@ -30,6 +30,7 @@ use model_core::effects::card::Seam;
 use model_core::effects::electrical::supply_sag::SupplySag;
 use model_core::effects::{Effect, EffectSet, EffectState};
 use model_core::geometry::frames::{BodyTwist, Pose};
+use model_core::link::sensor_codes::SensorCodes;
 use model_core::plant::{Input, Plant, State};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -40,6 +41,7 @@ use super::faults::{InjectedFault, OnBoard};
 use super::instants::Instants;
 pub use super::instants::PERIOD;
 use super::machine::{BridgeLegs, RotorFlux};
+use super::motion_sensors::MotionSensors;
 use super::motor::BoardMotor;
 pub use super::setup::BoardSetup;
 
@@ -73,6 +75,7 @@ pub struct VirtualBoard<const N: usize> {
     /// Current drawn from the battery in the last period [A]
     drawn: f64,
     bus_channel: AdcChannel,
+    sensors: MotionSensors<N>,
     rng: ChaCha8Rng,
     faults: Vec<InjectedFault>,
 }
@@ -120,6 +123,7 @@ impl<const N: usize> VirtualBoard<N> {
             bus: battery.bus(0.0),
             drawn: 0.0,
             bus_channel: AdcChannel { step: setup.bus_volts_per_count, offset: 0.0, noise: setup.noise },
+            sensors: MotionSensors::new(setup.gyro, setup.encoders, setup.seed),
             rng,
             faults: Vec::new(),
             setup,
@@ -154,8 +158,14 @@ impl<const N: usize> VirtualBoard<N> {
         codes.bus = AdcCode(self.bus_channel.code(self.bus, &mut self.rng));
         self.drawn = self.motors.iter().map(|motor| motor.outcome.bus_current).sum();
         self.move_on();
+        self.sensors.turn(speeds, PERIOD);
         self.spoil(&mut codes, outputs.enabled);
         codes
+    }
+
+    /// What gyro and encoders say at the end of the last period.
+    pub fn sensors(&mut self) -> SensorCodes {
+        self.sensors.read(self.state.twist.w, self.setup.robot.motor.gear_ratio)
     }
 
     /// Robot or wheels, a period on.

@@ -11,7 +11,8 @@
 //!
 //! The windings are solved here and share no line with the robot's code; body, wheels and their effects are the core's
 //! plant, driven by the mean current of each motor; on a [`stand`] the wheels turn in the air. [`board`] puts it together,
-//! [`instants`] says when it samples, [`wiring`] which lead is soldered where, [`faults`] is what can go wrong with it.
+//! [`instants`] says when it samples, [`wiring`] which lead is soldered where, [`faults`] is what can go wrong with it,
+//! [`motion_sensors`] are the gyro and the encoders of a board that has them.
 
 pub mod adc;
 pub mod battery;
@@ -20,6 +21,7 @@ pub mod faults;
 pub mod halls;
 pub mod instants;
 pub mod machine;
+pub mod motion_sensors;
 mod motor;
 mod setup;
 pub mod stand;

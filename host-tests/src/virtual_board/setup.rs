@@ -4,6 +4,7 @@ use model_core::effects::active::Effects;
 use model_core::plant::robot::Robot;
 
 use super::instants::Instants;
+use super::motion_sensors::GyroErrors;
 use super::stand::Stand;
 use super::wiring::BoardWiring;
 
@@ -36,6 +37,10 @@ pub struct BoardSetup<const N: usize> {
     pub instants: Instants,
     /// Which leads of the motors are soldered where
     pub wirings: [BoardWiring; N],
+    /// The gyro; none of a board without one
+    pub gyro: Option<GyroErrors>,
+    /// There is an encoder at every motor
+    pub encoders: bool,
     /// The wheels are off the ground; none where they stand on it
     pub stand: Option<Stand>,
     /// What zeros, placements, rotor angles and noise are drawn with
@@ -59,6 +64,8 @@ impl<const N: usize> BoardSetup<N> {
             hall_chatter: 0.0,
             instants: Instants::default(),
             wirings: [BoardWiring::default(); N],
+            gyro: None,
+            encoders: false,
             stand: None,
             seed,
         }

@@ -4,12 +4,14 @@
 //! the numbers of the three or four motors come and go in arrays for all that a board has bridges for.
 //!
 //! What the controller gets for the wheels' speeds is what their [`observer`](crate::control::observer) makes of hall
-//! edges and reference. While the reference rests, what the integral holds fades: it was friction, and that turns
+//! edges and reference, less what a gyro finds that the body's turning is behind ([`heading`](crate::control::heading)). While the reference rests, what the integral holds fades: it was friction, and that turns
 //! round.
 
 use crate::control::braking::BrakingBand;
 use crate::control::calibration::Calibration;
 use crate::control::compensation::Compensation;
+use crate::control::halls::REST;
+use crate::control::heading::HeadingHold;
 use crate::control::motion_controller::{Controller, Measurement, Memory, Settings};
 use crate::control::observer::{HallReading, SpeedObserver, WheelEstimate};
 use crate::control::thermal::{Heat, ThermalLimit};
@@ -66,6 +68,7 @@ pub struct WheeledDrive<const N: usize> {
     parity: [f32; N],
     /// The wheels as they are, the effects of their geometry counted in
     own_wheels: Wheels<N>,
+    heading: HeadingHold,
 }
 
 /// Acceleration that a robot stops with where nobody commands it, if its block allows less [m/s²]: at rest from 1 m/s after
@@ -96,8 +99,8 @@ impl RobotDrive {
     /// their speeds begin anew.
     pub fn take_over(&mut self, old: &RobotDrive) {
         match (self, old) {
-            (RobotDrive::Three(new), RobotDrive::Three(old)) => (new.memory, new.heat) = (old.memory, old.heat),
-            (RobotDrive::Four(new), RobotDrive::Four(old)) => (new.memory, new.heat) = (old.memory, old.heat),
+            (RobotDrive::Three(new), RobotDrive::Three(old)) => new.take_over(old),
+            (RobotDrive::Four(new), RobotDrive::Four(old)) => new.take_over(old),
             _ => {}
         }
     }
@@ -144,6 +147,23 @@ impl RobotDrive {
         match self {
             RobotDrive::Three(drive) => drive.observe(halls),
             RobotDrive::Four(drive) => drive.observe(halls),
+        }
+    }
+
+    /// A turn of the gyro, before that of the motion: its code, and for how many periods each wheel has passed no edge.
+    #[inline(never)]
+    pub fn observe_yaw(&mut self, code: Option<i16>, since_edge: &[u16; MOTORS]) {
+        match self {
+            RobotDrive::Three(drive) => drive.observe_yaw(code, since_edge),
+            RobotDrive::Four(drive) => drive.observe_yaw(code, since_edge),
+        }
+    }
+
+    /// What is known of the heading.
+    pub fn heading(&self) -> &HeadingHold {
+        match self {
+            RobotDrive::Three(drive) => &drive.heading,
+            RobotDrive::Four(drive) => &drive.heading,
         }
     }
 
@@ -236,7 +256,19 @@ impl<const N: usize> WheeledDrive<N> {
             over_voltage: block.limits.over_voltage,
             parity: [0.0; N],
             own_wheels: compensation.own_wheels(&block.robot.wheels),
+            heading: HeadingHold::new(&block.sensors, dt),
         }
+    }
+
+    fn take_over(&mut self, old: &Self) {
+        (self.memory, self.heat) = (old.memory, old.heat);
+        self.heading.take_over(&old.heading);
+    }
+
+    fn observe_yaw(&mut self, code: Option<i16>, since_edge: &[u16; MOTORS]) {
+        let stands = since_edge.iter().take(N).all(|periods| *periods >= REST);
+        let reference = self.memory.reference;
+        self.heading.turn(code, reference.w, stands && reference == BodyTwist::default());
     }
 
     fn observe(&mut self, halls: &[HallReading; MOTORS]) {
@@ -307,11 +339,26 @@ impl<const N: usize> WheeledDrive<N> {
         self.memory = Memory { heading: self.memory.heading, ..Memory::default() };
         self.wheels = [WheelEstimate::default(); N];
         self.wanted = [0.0; N];
+        self.heading.forget();
+    }
+
+    /// Speeds of the wheels for the motion controller [rad/s].
+    #[inline]
+    fn measured(&self) -> [f32; N] {
+        let mut speeds = self.wheels.map(|wheel| wheel.speed);
+        if self.heading.has_gyro() {
+            // ω̂_j ← ω̂_j − G_j·(0, 0, Δω)/r_j
+            let turning = self.own_wheels.wheel_speeds(BodyTwist { v: 0.0, vn: 0.0, w: self.heading.correction() });
+            for j in 0..N {
+                speeds[j] -= turning[j];
+            }
+        }
+        speeds
     }
 
     #[inline]
     fn tick(&mut self, bus: f32, want: BodyTwist) -> DriveOutput {
-        let measured = Measurement { wheel_speed: self.wheels.map(|wheel| wheel.speed), bus };
+        let measured = Measurement { wheel_speed: self.measured(), bus };
         let want = self.limit_speed(want);
         let reference = self.memory.reference;
         let motors = self.controller.tick(&mut self.memory, &measured, want);

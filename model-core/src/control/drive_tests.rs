@@ -1,5 +1,7 @@
 use super::*;
+use crate::control::heading::WINDOW;
 use crate::link::block::Limits;
+use crate::link::sensor_codes::SensorScales;
 use crate::plant::paper::{four_wheels, three_wheels};
 use crate::plant::robot::Robot;
 
@@ -78,4 +80,52 @@ fn a_robot_that_is_held_pushes_with_its_largest_current_and_later_with_its_conti
     let ((cold, _), (warm, headroom)) = (held(1_000), held(60_000));
     assert!((cold - 4.0).abs() < 0.01 && (warm - 2.0).abs() < 0.05, "{cold} A, {warm} A");
     assert!(headroom < 1.0, "the controller knows of it: {headroom}");
+}
+
+/// A robot with a gyro of 1 mrad/s a count, that has stood for a window and reads 20 counts of a body at rest.
+fn with_gyro() -> RobotDrive {
+    let sensors = SensorScales { gyro: 0.001, encoder: 0.0 };
+    let mut drive =
+        RobotDrive::new(&Parameters::Four(Block { sensors, feedback: 0.1, ..block(four_wheels()) }), 0.9, 1e-3);
+    (0..WINDOW).for_each(|_| drive.observe_yaw(Some(20), &[REST; MOTORS]));
+    drive
+}
+
+/// What a robot that was told to turn for 0.2 s asks of its motors [A], with wheels that do as they should and this code of the gyro.
+fn turning(mut drive: RobotDrive, code: Option<i16>) -> [f32; MOTORS] {
+    let mut output = DriveOutput::default();
+    for _ in 0..200 {
+        drive.observe_yaw(code, &[0; MOTORS]);
+        output = drive.tick(&[HallReading::default(); MOTORS], 12.0, BodyTwist { v: 0.0, vn: 0.0, w: 1.0 });
+    }
+    output.current
+}
+
+#[test]
+fn a_body_that_turns_less_than_its_reference_gets_more_current_about_the_vertical_and_one_that_turns_more_gets_less() {
+    // positive about the vertical for all four wheels of this robot
+    let about = |current: [f32; MOTORS]| current.iter().sum::<f32>();
+    let as_wanted = about(turning(with_gyro(), None));
+    assert!(about(turning(with_gyro(), Some(20))) > as_wanted + 0.05);
+    assert!(about(turning(with_gyro(), Some(2020))) < as_wanted - 0.05);
+}
+
+#[test]
+fn a_robot_without_a_gyro_does_not_look_at_its_codes() {
+    assert_eq!(turning(four(), Some(5000)).map(f32::to_bits), turning(four(), None).map(f32::to_bits));
+    assert_eq!(four().heading().bias(), None);
+}
+
+#[test]
+fn other_parameters_on_the_way_leave_the_gyros_bias() {
+    let mut new = with_gyro();
+    let learned = new.heading().bias();
+    let fresh = RobotDrive::new(
+        &Parameters::Four(Block { sensors: SensorScales { gyro: 0.001, encoder: 0.0 }, ..block(four_wheels()) }),
+        0.9,
+        1e-3,
+    );
+    let old = core::mem::replace(&mut new, fresh);
+    new.take_over(&old);
+    assert!(learned.is_some() && new.heading().bias() == learned);
 }

@@ -13,7 +13,7 @@
 //! · current of one count (below zero where the code falls with the current), bus voltage of one count f32
 //! · linear range of the current amplifiers, continuous current of a motor, its thermal time constant f32
 //! · effects u8 × (code u8 · wheel u8, 0xff where on all · its card's parameters f32)
-//! · how motors are wired, where any was commissioned
+//! · how motors are wired, where any was commissioned, and what gyro and encoders are worth, where there are any
 //! · CRC-32 of all before (ISO HDLC)
 //! ```
 //!
@@ -27,6 +27,7 @@ use crate::effects::card::MAX_PARAMS;
 use crate::geometry::kinematics::{Wheel, Wheels};
 use crate::link::bytes::{Reader, Writer};
 use crate::link::hello::Commutation;
+use crate::link::sensor_codes::SensorScales;
 use crate::plant::robot::{Friction, Robot};
 use crate::plant::winding::Motor;
 
@@ -34,6 +35,7 @@ mod bounds;
 mod effects;
 mod error;
 mod limits;
+mod sensors;
 mod wirings;
 
 pub use bounds::{BoundedField, MAX_TRIP_COUNTS, TRIP_OVER_LIMIT, USABLE_COUNTS, trip_current};
@@ -56,7 +58,7 @@ const LONGEST: usize = HEADER
     + 4 * (4 * 3 + bounds::SCALARS.len())
     + 1
     + MOST_UNDONE * (2 + 4 * MAX_PARAMS)
-    + (1 + 4 * wirings::BYTES)
+    + (1 + 4 * wirings::BYTES + SensorScales::BYTES)
     + 4;
 const _: () = assert!(LONGEST <= MAX_BYTES, "every block fits");
 
@@ -108,6 +110,8 @@ pub struct Block<const N: usize> {
     pub effects: BlockEffects,
     /// How the motors are wired; none of one that was never commissioned.
     pub wiring: [Option<MotorWiring>; N],
+    /// What counts of gyro and encoders are worth; zeros of a robot without them.
+    pub sensors: SensorScales,
 }
 
 impl<const N: usize> Default for Block<N> {
@@ -138,6 +142,7 @@ impl<const N: usize> Default for Block<N> {
             heating_time: 0.0,
             effects: BlockEffects::default(),
             wiring: [None; N],
+            sensors: SensorScales::default(),
         }
     }
 }
@@ -215,6 +220,7 @@ impl<const N: usize> Block<N> {
         bounds::check_limits(self.robot.supply, &self.limits, self.amps_per_count, self.bus_volts_per_count)?;
         bounds::check_currents(self.limits.current, self.amps_per_count, self.linear_range, self.continuous_current)?;
         self.effects.check(N)?;
+        sensors::check(&self.sensors)?;
         wirings::check(&self.wiring)
     }
 
@@ -226,7 +232,12 @@ impl<const N: usize> Block<N> {
         self.check()?;
         let mut copy = *self;
         let effects = self.effects.iter().map(|effect| 2 + 4 * effect.params().len()).sum::<usize>();
-        let length = HEADER + 4 * (3 * N + bounds::SCALARS.len()) + 1 + effects + wirings::length(&self.wiring) + 4;
+        let length = HEADER
+            + 4 * (3 * N + bounds::SCALARS.len())
+            + 1
+            + effects
+            + sensors::tail_length(&self.wiring, &self.sensors)
+            + 4;
         let mut writer = Writer::new(out);
         writer.bytes(&MAGIC);
         writer.u16(VERSION);
@@ -242,7 +253,7 @@ impl<const N: usize> Block<N> {
             writer.bytes(&[effect.code(), effect.wheel().unwrap_or(effects::EVERY_WHEEL)]);
             effect.params().iter().for_each(|x| writer.f32(*x));
         }
-        wirings::write(&self.wiring, &mut writer);
+        sensors::write_tail(&self.wiring, &self.sensors, &mut writer);
         writer.u32(CHECK.checksum(writer.written()));
         writer.len().filter(|written| *written == length).ok_or(BlockError::because(BlockErrorKind::Length, "length"))
     }
@@ -290,7 +301,7 @@ impl<const N: usize> Block<N> {
             let effect = BlockEffect::read(reader, short)?;
             block.effects.push(effect)?;
         }
-        block.wiring = wirings::read(reader, short)?;
+        (block.wiring, block.sensors) = sensors::read_tail(reader, short)?;
         block.check()?;
         Ok(block)
     }

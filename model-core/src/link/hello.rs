@@ -16,11 +16,18 @@
 //! 19      4  gear ratio f32 [1]
 //! 23      4  period of the current turn f32 [s]
 //! 27     24  zeros of the current sensors 4 × (a, b, c) u16 [1/16 count]
+//! 51      4  yaw rate of one count of the gyro f32 [rad/s], 0 without one
+//! 55      4  angle of one count of an encoder f32 [rad of the wheel], 0 without them
 //! ```
+//!
+//! A hello of a robot without gyro and encoders ends before them, as all did before there were any.
+
+use core::ops::Deref;
 
 use crate::control::calibration::Calibration;
 use crate::link::bytes::{Reader, Writer};
 use crate::link::record::MOTORS;
+use crate::link::sensor_codes::SensorScales;
 
 /// How a motor's phases are driven.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -68,18 +75,38 @@ pub struct Hello {
     pub gear_ratio: f32,
     /// Zeros of the current sensors (a, b, c) of every motor [1/16 count]
     pub offsets: [[u16; 3]; MOTORS],
+    /// What counts of gyro and encoders are worth
+    pub sensors: SensorScales,
+}
+
+/// The payload of a hello.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HelloBytes {
+    bytes: [u8; Hello::MOST_BYTES],
+    len: usize,
+}
+
+impl Deref for HelloBytes {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        self.bytes.get(..self.len).unwrap_or(&self.bytes)
+    }
 }
 
 /// Parts of a count in which zeros are told.
 pub const OFFSET_PARTS: u16 = 16;
 
 impl Hello {
-    /// Length of its payload.
+    /// Length of its payload, of a robot without gyro and encoders.
     pub const BYTES: usize = 51;
 
+    /// Length of its payload, of a robot with them.
+    pub const MOST_BYTES: usize = Self::BYTES + SensorScales::BYTES;
+
     /// Its payload.
-    pub fn to_bytes(&self) -> [u8; Self::BYTES] {
-        let mut bytes = [0; Self::BYTES];
+    pub fn to_bytes(&self) -> HelloBytes {
+        let mut bytes = [0; Self::MOST_BYTES];
         let mut writer = Writer::new(&mut bytes);
         writer.u16(self.firmware);
         writer.u16(self.block_version);
@@ -92,12 +119,23 @@ impl Hello {
         writer.f32(self.gear_ratio);
         writer.f32(self.calibration.period);
         self.offsets.iter().flatten().for_each(|x| writer.u16(*x));
-        bytes
+        let mut len = Self::BYTES;
+        if !self.sensors.are_none() {
+            self.sensors.write(&mut writer);
+            len = Self::MOST_BYTES;
+        }
+        HelloBytes { bytes, len }
     }
 
     /// Reads a payload; `None` where it is not one, or says what no robot has.
     pub fn from_bytes(payload: &[u8]) -> Option<Hello> {
-        let payload: &[u8; Self::BYTES] = payload.try_into().ok()?;
+        let (payload, behind) = payload.split_first_chunk::<{ Self::BYTES }>()?;
+        let sensors = match behind {
+            [] => SensorScales::default(),
+            behind if behind.len() == SensorScales::BYTES => SensorScales::read(&mut Reader::new(behind))?,
+            _ => return None,
+        };
+        let sound = sensors.gyro.is_finite() && sensors.encoder.is_finite();
         let mut reader = Reader::new(payload);
         let (firmware, block_version, block_check) = (reader.u16()?, reader.u16()?, reader.u32()?);
         let (wheels, commutation, pole_pairs) =
@@ -116,6 +154,7 @@ impl Hello {
             calibration: Calibration { amps_per_count, bus_volts_per_count, pole_pairs, period },
             gear_ratio,
             offsets: reader.each(|reader| reader.each(Reader::u16))?,
+            sensors: Some(sensors).filter(|_| sound)?,
         })
     }
 }
@@ -133,6 +172,7 @@ mod tests {
         calibration: Calibration { amps_per_count: 0.0049, bus_volts_per_count: 0.00886, pole_pairs: 8, period: 50e-6 },
         gear_ratio: 5.0,
         offsets: [[32768, 32700, 32800], [1, 2, 3], [4, 5, 6], [7, 8, 0xffff]],
+        sensors: SensorScales { gyro: 0.0, encoder: 0.0 },
     };
 
     #[test]
@@ -143,24 +183,28 @@ mod tests {
         assert_eq!(Hello::from_bytes(&turned.to_bytes()), Some(turned));
         let three = Hello { wheels: 3, commutation: Commutation::FieldOriented, ..HELLO };
         assert_eq!(Hello::from_bytes(&three.to_bytes()), Some(three));
+        let sees = Hello { sensors: SensorScales { gyro: -0.001, encoder: 0.0 }, ..HELLO };
+        assert_eq!((Hello::from_bytes(&sees.to_bytes()), sees.to_bytes().len()), (Some(sees), 59));
+        assert_eq!((Hello::from_bytes(&sees.to_bytes()[..51]), HELLO.to_bytes().len()), (Some(HELLO), 51));
     }
 
     #[test]
     fn what_no_robot_has_is_refused() {
         for (at, value) in [(8, 2), (8, 5), (9, 2), (10, 0)] {
-            let mut bytes = HELLO.to_bytes();
+            let mut bytes: [u8; Hello::BYTES] = (*HELLO.to_bytes()).try_into().expect("51 bytes");
             bytes[at] = value;
             assert_eq!(Hello::from_bytes(&bytes), None, "byte {at} = {value}");
         }
         for at in [11, 15, 19, 23] {
             for x in [0.0, -1.0, f32::NAN, f32::INFINITY].into_iter().filter(|x| at != 11 || *x != -1.0) {
-                let mut bytes = HELLO.to_bytes();
+                let mut bytes: [u8; Hello::BYTES] = (*HELLO.to_bytes()).try_into().expect("51 bytes");
                 bytes[at..at + 4].copy_from_slice(&x.to_le_bytes());
                 assert_eq!(Hello::from_bytes(&bytes), None, "{x} at {at}");
             }
         }
-        for len in 0..Hello::BYTES {
-            assert_eq!(Hello::from_bytes(&HELLO.to_bytes()[..len]), None);
+        let sees = Hello { sensors: SensorScales { gyro: f32::NAN, encoder: 1.0 }, ..HELLO }.to_bytes();
+        for len in (0..=Hello::MOST_BYTES).filter(|len| *len != Hello::BYTES) {
+            assert_eq!(Hello::from_bytes(&sees[..len]), None);
         }
     }
 }

@@ -6,6 +6,7 @@
 //! robot drives with ([`block`]). All numbers are little-endian.
 
 mod bytes;
+mod motors;
 
 pub mod framing;
 

@@ -24,15 +24,20 @@
 //! 99      2  load u16 [‰ of a current turn], the worst of the motion turn
 //! 101     2  jitter u16 [cycles], the worst of the motion turn
 //! 103     2  dropped u16, records that found no room since the one before
+//! 105    10  gyro and encoders, of a robot that has one or the other (see `sensor_codes.rs`)
 //! ```
+//!
+//! A record of a robot without gyro and encoders ends before them, as all did before there were any: the length tells.
+
+use core::ops::Deref;
 
 use crate::control::calibration::AdcCode;
 use crate::link::bytes::{Reader, Writer};
 use crate::link::events::Events;
 use crate::link::faults::Faults;
+use crate::link::sensor_codes::SensorCodes;
 
-/// The most motors that a record holds; a robot of three wheels leaves the last at zero.
-pub const MOTORS: usize = 4;
+pub use crate::link::motors::MOTORS;
 
 /// What the robot is doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -126,15 +131,35 @@ pub struct TelemetryRecord {
     pub jitter: u16,
     /// Records that found no room since the one before.
     pub dropped: u16,
+    /// What gyro and encoders said in the turn that has just ended; none where the robot has neither.
+    pub sensors: Option<SensorCodes>,
+}
+
+/// The payload of a record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RecordBytes {
+    bytes: [u8; TelemetryRecord::MOST_BYTES],
+    len: usize,
+}
+
+impl Deref for RecordBytes {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        self.bytes.get(..self.len).unwrap_or(&self.bytes)
+    }
 }
 
 impl TelemetryRecord {
-    /// Length of its payload.
+    /// Length of its payload, of a robot without gyro and encoders.
     pub const BYTES: usize = 105;
 
+    /// Length of its payload, of a robot with them.
+    pub const MOST_BYTES: usize = Self::BYTES + SensorCodes::BYTES;
+
     /// Its payload.
-    pub fn to_bytes(&self) -> [u8; Self::BYTES] {
-        let mut bytes = [0; Self::BYTES];
+    pub fn to_bytes(&self) -> RecordBytes {
+        let mut bytes = [0; Self::MOST_BYTES];
         let mut writer = Writer::new(&mut bytes);
         writer.u32(self.sequence);
         writer.u32(self.time);
@@ -153,12 +178,21 @@ impl TelemetryRecord {
         writer.u16(self.load);
         writer.u16(self.jitter);
         writer.u16(self.dropped);
-        bytes
+        let mut len = Self::BYTES;
+        if let Some(sensors) = &self.sensors {
+            writer.bytes(&sensors.to_bytes());
+            len = Self::MOST_BYTES;
+        }
+        RecordBytes { bytes, len }
     }
 
     /// Reads a payload; `None` where it is not one.
     pub fn from_bytes(payload: &[u8]) -> Option<TelemetryRecord> {
-        let payload: &[u8; Self::BYTES] = payload.try_into().ok()?;
+        let (payload, behind) = payload.split_first_chunk::<{ Self::BYTES }>()?;
+        let sensors = match behind {
+            [] => None,
+            behind => Some(SensorCodes::from_bytes(behind.try_into().ok()?)),
+        };
         let mut reader = Reader::new(payload);
         let (sequence, time, doing) = (reader.u32()?, reader.u32()?, reader.u8()?);
         let code = |reader: &mut Reader| reader.u16().map(AdcCode);
@@ -181,6 +215,7 @@ impl TelemetryRecord {
             load: reader.u16()?,
             jitter: reader.u16()?,
             dropped: reader.u16()?,
+            sensors,
         })
     }
 
@@ -210,7 +245,7 @@ mod tests {
     fn all_values_of_every_byte_come_back() {
         for value in 0..=u8::MAX {
             let (bytes, record) = from(|k| (k as u8).wrapping_mul(37).wrapping_add(value));
-            assert_eq!(record.to_bytes(), bytes);
+            assert_eq!(*record.to_bytes(), bytes);
             assert_eq!(TelemetryRecord::from_bytes(&record.to_bytes()), Some(record));
         }
     }
@@ -231,18 +266,30 @@ mod tests {
         assert_eq!((bytes[8], &bytes[36..38], &bytes[48..50]), (0x53, &[0xed, 0x0f][..], &[0xfe, 0xff][..]));
         assert_eq!((&bytes[70..74], &bytes[94..98]), (&1.0_f32.to_le_bytes()[..], &(-2.0_f32).to_le_bytes()[..]));
         assert_eq!(bytes[103..], [0x01, 0x02]);
+        let sensors = Some(SensorCodes::of(Some(0x0304), [None, Some(0x0506), None, None]));
+        let bytes = TelemetryRecord { sensors, ..record }.to_bytes();
+        assert_eq!(bytes[103..], [0x01, 0x02, 0x04, 0x03, 0xff, 0xff, 0x06, 0x05, 0xff, 0xff, 0xff, 0xff]);
         assert!(record.drives(0) && !record.drives(1) && record.drives(2) && !record.drives(4));
     }
 
     #[test]
+    fn what_gyro_and_encoders_said_comes_back_and_a_record_from_before_them_is_read() {
+        let sensors = Some(SensorCodes::of(Some(-7), [Some(1), Some(2), None, Some(4)]));
+        let record = TelemetryRecord { sequence: 9, sensors, ..TelemetryRecord::default() };
+        assert_eq!(TelemetryRecord::from_bytes(&record.to_bytes()), Some(record));
+        let before = TelemetryRecord { sensors: None, ..record };
+        assert_eq!(TelemetryRecord::from_bytes(&record.to_bytes()[..105]), Some(before));
+    }
+
+    #[test]
     fn other_lengths_and_stages_that_do_not_exist_are_refused() {
-        let bytes = TelemetryRecord::default().to_bytes();
-        let long = [0; TelemetryRecord::BYTES + 1];
-        for len in (0..=TelemetryRecord::BYTES + 1).filter(|len| *len != TelemetryRecord::BYTES) {
-            assert_eq!(TelemetryRecord::from_bytes(&long[..len]), None);
+        let long = [0; TelemetryRecord::MOST_BYTES + 1];
+        for len in 0..=TelemetryRecord::MOST_BYTES + 1 {
+            let is_one = [105, 115].contains(&len);
+            assert_eq!(TelemetryRecord::from_bytes(&long[..len]).is_some(), is_one, "{len} bytes");
         }
         for stage in 6..16 {
-            let mut bad = bytes;
+            let mut bad = [0; TelemetryRecord::BYTES];
             bad[8] = stage;
             assert_eq!(TelemetryRecord::from_bytes(&bad), None);
         }

@@ -9,7 +9,7 @@
 //! What a count is worth stands in the parameter block and in the hello ([`SensorScales`]).
 
 use crate::link::bytes::{Reader, Writer};
-use crate::link::record::MOTORS;
+use crate::link::motors::MOTORS;
 
 /// Current turns before the codes of a record at which its sensors are read: 0.2 ms.
 pub const LEAD_PERIODS: u32 = 4;

@@ -22,6 +22,8 @@
 //! linear_range_A = 9.4             # phase current up to which the amplifiers are straight; the trip has to lie within
 //! continuous_current_A = 2.0       # what a motor bears for ever; default half of [limits] current_A
 //! heating_time_s = 10.0            # thermal time constant of its winding
+//! gyro_rad_s_per_count = 0.001065  # a robot with a gyro: yaw rate of one count; below zero where it is upside down
+//! encoder_rad_per_count = 7.67e-5  # a robot with encoders: angle at the wheel of 1/16384 turn; below zero where they count backwards
 //! ```
 
 use super::toml_walk::Section;
@@ -65,6 +67,10 @@ pub struct ControllerFile {
     #[serde(rename = "continuous_current_A")]
     pub continuous_current_a: Option<f64>,
     pub heating_time_s: f64,
+    /// None: the robot has no gyro. Below zero where it is mounted upside down.
+    pub gyro_rad_s_per_count: Option<f64>,
+    /// None: the robot has no encoders. Below zero where they count backwards.
+    pub encoder_rad_per_count: Option<f64>,
 }
 
 impl Default for ControllerFile {
@@ -88,11 +94,13 @@ impl Default for ControllerFile {
             linear_range_a: 9.4,
             continuous_current_a: None,
             heating_time_s: 10.0,
+            gyro_rad_s_per_count: None,
+            encoder_rad_per_count: None,
         }
     }
 }
 
-const KEYS: [&str; 18] = [
+const KEYS: [&str; 20] = [
     "mode",
     "feedforward",
     "commutation",
@@ -111,6 +119,8 @@ const KEYS: [&str; 18] = [
     "linear_range_A",
     "continuous_current_A",
     "heating_time_s",
+    "gyro_rad_s_per_count",
+    "encoder_rad_per_count",
 ];
 
 pub(super) fn controller(s: &Section) -> Result<ControllerFile> {
@@ -118,6 +128,9 @@ pub(super) fn controller(s: &Section) -> Result<ControllerFile> {
     let default = ControllerFile::default();
     let positive = |key: &str, default: f64| s.number(key)?.map_or(Ok(default), |_| s.positive(key));
     let perhaps = |key: &str| s.number(key)?.map(|_| s.positive(key)).transpose();
+    let either_sign = |key: &str| {
+        s.number(key)?.map(|x| s.checked(key, x, x != 0.0, "a number above zero or below, or no such key")).transpose()
+    };
     let pole_pairs = match s.whole("pole_pairs")? {
         None => default.pole_pairs,
         Some(pairs @ 1..=50) => pairs as u8,
@@ -145,6 +158,8 @@ pub(super) fn controller(s: &Section) -> Result<ControllerFile> {
         linear_range_a: positive("linear_range_A", default.linear_range_a)?,
         continuous_current_a: perhaps("continuous_current_A")?,
         heating_time_s: positive("heating_time_s", default.heating_time_s)?,
+        gyro_rad_s_per_count: either_sign("gyro_rad_s_per_count")?,
+        encoder_rad_per_count: either_sign("encoder_rad_per_count")?,
     })
 }
 

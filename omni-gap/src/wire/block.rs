@@ -10,6 +10,7 @@ use model_core::link::block::{
     MAX_TRIP_COUNTS, TRIP_OVER_LIMIT, USABLE_COUNTS, checksum,
 };
 use model_core::link::hello::Commutation;
+use model_core::link::sensor_codes::SensorScales;
 
 use crate::error::{Error, InputKind, Result};
 use crate::log::{CommissionedFile, ControllerFile, EffectEntry, RobotFile};
@@ -95,6 +96,10 @@ fn export_of<const N: usize>(file: &RobotFile, path: &Path) -> Result<Exported> 
         wiring: std::array::from_fn(|j| {
             file.commissioned.iter().find(|motor| motor.wheel == j).map(CommissionedFile::wiring)
         }),
+        sensors: SensorScales {
+            gyro: controller.gyro_rad_s_per_count.unwrap_or_default() as f32,
+            encoder: controller.encoder_rad_per_count.unwrap_or_default() as f32,
+        },
     };
     let (undone, left) = effects_of(file, path, &mut block)?;
     let mut bytes = [0; MAX_BYTES];
@@ -240,6 +245,22 @@ mod tests {
         assert!(told.contains("does not state the supply") && told.contains("Add [supply]"), "{told}");
         let told = exported(&format!("{FOUR}\n[controller]\namps_per_count = 0.0001\n[limits]\ncurrent_A = 3\n"));
         assert!(told.unwrap_err().to_string().contains("column `current_A`"));
+    }
+
+    #[test]
+    fn gyro_and_encoders_are_in_the_block_where_the_file_states_them() {
+        let sensors = |text: &str| {
+            let told = exported(text)?;
+            let Ok(Parameters::Four(block)) = Parameters::decode(&told.bytes) else { panic!("four") };
+            Ok::<_, Error>(block.sensors)
+        };
+        assert!(sensors(FOUR).unwrap().are_none());
+        let both = format!("{FOUR}\n[controller]\ngyro_rad_s_per_count = -0.001\nencoder_rad_per_count = 7.5e-5\n");
+        assert_eq!(sensors(&both).unwrap(), SensorScales { gyro: -0.001, encoder: 7.5e-5 });
+        let told = sensors(&format!("{FOUR}\n[controller]\ngyro_rad_s_per_count = 0\n")).unwrap_err().to_string();
+        assert!(told.contains("gyro_rad_s_per_count") && told.contains("no such key"), "{told}");
+        let told = sensors(&format!("{FOUR}\n[controller]\ngyro_rad_s_per_count = 0.5\n")).unwrap_err().to_string();
+        assert!(told.contains("column `gyro_rad_s_per_count`"), "{told}");
     }
 
     #[test]

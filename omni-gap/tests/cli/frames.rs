@@ -53,6 +53,7 @@ pub fn sent(records: impl IntoIterator<Item = TelemetryRecord>) -> Vec<u8> {
         commutation: Commutation::FieldOriented,
         calibration: Calibration::of_board(POLE_PAIRS),
         gear_ratio: 5.0,
+        sensors: model_core::link::sensor_codes::SensorScales::default(),
         offsets: [[ZERO * 16; 3]; 4],
     };
     let mut out = [0; MAX_FRAME];

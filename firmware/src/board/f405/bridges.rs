@@ -6,8 +6,8 @@ use core::sync::atomic::{AtomicBool, AtomicU8, AtomicU16, Ordering, compiler_fen
 use cortex_m::peripheral::NVIC;
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
 use model_core::control::calibration::AdcCode;
-use stm32f4xx_hal::gpio::{Input, Output, PA11, PA12, PA15, PB3, PB4, PB5, PB9, PB10, PB11, PB12, PB13, PB14, PB15};
-use stm32f4xx_hal::gpio::{PC9, PC12, PC13, PD2};
+use stm32f4xx_hal::gpio::{Input, Output, PA11, PA12, PA15, PB9, PB10, PB11, PB12, PB13, PB14, PB15};
+use stm32f4xx_hal::gpio::{PC9, PC12, PC13, PD0, PD1, PD2, PD3};
 use stm32f4xx_hal::pac::{self, Interrupt, adc1, interrupt};
 
 use crate::codes::{Codes, MOTORS};
@@ -87,7 +87,7 @@ pub struct Gates {
 
 /// The hall lines.
 pub struct AllHalls {
-    pub(super) first: HallLines<PB3<Input>, PB4<Input>, PB5<Input>>,
+    pub(super) first: HallLines<PD0<Input>, PD1<Input>, PD3<Input>>,
     pub(super) second: HallLines<PB9<Input>, PC9<Input>, PC12<Input>>,
     pub(super) third: HallLines<PB12<Input>, PB13<Input>, PB14<Input>>,
     pub(super) fourth: HallLines<PB15<Input>, PD2<Input>, PA15<Input>>,

@@ -66,7 +66,7 @@ struct Mapped;
 
 impl Mapped {
     fn bytes() -> &'static [u8] {
-        // SAFETY: the flash is mapped there, a mebibyte on the STM32F405RG, and any byte of it is a `u8`. It only
+        // SAFETY: the flash is mapped there, a mebibyte on the STM32F405VG, and any byte of it is a `u8`. It only
         // changes within `save`, which has `FlashStore` exclusively; a block of `load` that is still held shows the
         // slot that `save` leaves alone.
         unsafe { core::slice::from_raw_parts(FLASH_AT as *const u8, FLASH_LEN) }

@@ -6,8 +6,9 @@
 
 use cortex_m::asm;
 use model_core::control::calibration::AdcCode;
-use stm32f4xx_hal::gpio::alt::{SerialAsync, TimCPin};
-use stm32f4xx_hal::gpio::{PinPull, PinSpeed, PinState, Pull, PushPull, Speed};
+use stm32f4xx_hal::gpio::alt::{SerialAsync, SpiCommon, TimCPin};
+use stm32f4xx_hal::gpio::gpiod::PDn;
+use stm32f4xx_hal::gpio::{Output, Pin, PinPull, PinSpeed, PinState, Pull, PushPull, Speed};
 use stm32f4xx_hal::hal_02::adc::Channel;
 use stm32f4xx_hal::pac::{self, Interrupt};
 use stm32f4xx_hal::prelude::*;
@@ -15,12 +16,13 @@ use stm32f4xx_hal::rcc::{Config, Enable};
 
 use super::bridges::{AllHalls, Bridges, Gates, Phase};
 use super::flash_store::FlashStore;
+use super::sensor_bus::{MotionSensors, SensorDevice};
 use super::serial::SerialLink;
 use super::watchdog::Watchdog;
 use crate::drivers::fault::FaultLine;
 use crate::drivers::gate::GateDriver;
 use crate::drivers::halls::HallLines;
-use crate::registers::{adc, timers, timing, watchdog};
+use crate::registers::{adc, spi, timers, timing, watchdog};
 
 /// The board's crystal [Hz]; 4 to 26 MHz.
 pub const HSE_HZ: u32 = 8_000_000;
@@ -35,6 +37,8 @@ pub struct Parts {
     pub watchdog: Watchdog,
     /// Where the parameter block is stored
     pub flash_store: FlashStore,
+    /// Gyro and encoders
+    pub sensors: MotionSensors,
 }
 
 /// Takes the board, everything asleep: bridges open, timers standing, converters on but not triggered, no watchdog.
@@ -123,9 +127,9 @@ pub fn take(mut core: cortex_m::Peripherals, device: pac::Peripherals) -> Parts 
     let Ok(fourth) = GateDriver::new(a, b, c, enables.3);
     let halls = AllHalls {
         first: HallLines::new(
-            gpiob.pb3.into_pull_up_input(),
-            gpiob.pb4.into_pull_up_input(),
-            gpiob.pb5.into_pull_up_input(),
+            gpiod.pd0.into_pull_up_input(),
+            gpiod.pd1.into_pull_up_input(),
+            gpiod.pd3.into_pull_up_input(),
         ),
         second: HallLines::new(
             gpiob.pb9.into_pull_up_input(),
@@ -149,6 +153,16 @@ pub fn take(mut core: cortex_m::Peripherals, device: pac::Peripherals) -> Parts 
     receives::<pac::USART3>(gpioc.pc11);
     pac::USART3::enable(&mut rcc);
     pac::DMA1::enable(&mut rcc);
+
+    // no device is selected while the bus comes up
+    let gyro = SensorDevice::new(select(gpiod.pd8), spi::CR1_GYRO);
+    let encoders = [select(gpiod.pd4), select(gpiod.pd5), select(gpiod.pd6), select(gpiod.pd7)]
+        .map(|pin| SensorDevice::new(pin, spi::CR1_ENCODER));
+    // the reset leaves two of these pins to a probe of more lines than two
+    beats::<pac::SPI1>(gpiob.pb3.into_floating_input());
+    hears::<pac::SPI1>(gpiob.pb4.into_floating_input());
+    speaks::<pac::SPI1>(gpiob.pb5);
+    pac::SPI1::enable(&mut rcc);
     Parts {
         bridges: Bridges {
             gates: Gates { first, second, third, fourth },
@@ -161,6 +175,7 @@ pub fn take(mut core: cortex_m::Peripherals, device: pac::Peripherals) -> Parts 
         serial: SerialLink::new(device.USART3, device.DMA1),
         watchdog: Watchdog::new(device.IWDG, &rcc),
         flash_store: FlashStore::new(device.FLASH),
+        sensors: MotionSensors::new(gyro, encoders),
     }
 }
 
@@ -190,6 +205,39 @@ where
 {
     let mut pin: USART::Rx<PushPull> = pin.into();
     pin.set_internal_resistor(Pull::Up);
+}
+
+/// Gives a pin to the clock of an SPI, held low while the bus is off; compiles only where it comes out.
+fn beats<SPI: SpiCommon>(pin: impl Into<SPI::Sck>)
+where
+    SPI::Sck: PinSpeed + PinPull,
+{
+    let mut pin: SPI::Sck = pin.into();
+    pin.set_speed(Speed::Medium);
+    pin.set_internal_resistor(Pull::Down);
+}
+
+/// Gives a pin to the input of an SPI, high while nothing answers; compiles only where it comes in.
+fn hears<SPI: SpiCommon>(pin: impl Into<SPI::Miso>)
+where
+    SPI::Miso: PinPull,
+{
+    let mut pin: SPI::Miso = pin.into();
+    pin.set_internal_resistor(Pull::Up);
+}
+
+/// Gives a pin to the output of an SPI; compiles only where it comes out.
+fn speaks<SPI: SpiCommon>(pin: impl Into<SPI::Mosi>)
+where
+    SPI::Mosi: PinSpeed,
+{
+    let mut pin: SPI::Mosi = pin.into();
+    pin.set_speed(Speed::Medium);
+}
+
+/// A chip select, high.
+fn select<const N: u8>(pin: Pin<'D', N>) -> PDn<Output> {
+    pin.into_push_pull_output_in_state(PinState::High).erase_number()
 }
 
 /// What all four timers have in common; they are of two types.

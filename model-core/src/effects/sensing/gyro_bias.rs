@@ -45,7 +45,7 @@ pub const CARD: Card = Card {
     signature: "a constant in the yaw rate",
     look_alikes: &[],
     code: 26,
-    undone: Undone::No("the control loop on the robot does not see the gyro"),
+    undone: Undone::No("a robot with a gyro learns its bias by itself whenever it stands"),
     physics: Physics {
         // in a mirror the robot turns the other way, its gyro does not
         mirrored: &[0],

@@ -35,6 +35,7 @@ fn with<const N: usize>(robot: Robot<N, f32>) -> Block<N> {
         heating_time: 10.0,
         effects,
         wiring: [None; N],
+        sensors: SensorScales::default(),
     }
 }
 
@@ -322,4 +323,36 @@ fn a_wiring_that_no_motor_has_is_refused() {
     let (mut bytes, length) = encoded(&Block { wiring, ..four() });
     bytes[length - 4 - wirings::BYTES - 1] = 0b1_0000;
     assert_eq!(refusal(&resealed(bytes, length)).reason, BlockErrorKind::Length);
+}
+
+#[test]
+fn what_gyro_and_encoders_are_worth_comes_back_behind_what_a_commissioning_found_or_alone() {
+    let scales = SensorScales { gyro: -0.001_065, encoder: 7.7e-5 };
+    for wiring in [[None; 4], [Some(MotorWiring::default()), None, None, None]] {
+        let without = encoded(&Block { wiring, ..four() });
+        let (bytes, length) = encoded(&Block { wiring, sensors: scales, ..four() });
+        let behind = usize::from(wiring[0].is_none()) + 8;
+        assert_eq!(length, without.1 + behind);
+        let Ok(Parameters::Four(block)) = Parameters::decode(&bytes[..length]) else { panic!("four wheels") };
+        assert_eq!((block.sensors, block.wiring), (scales, wiring));
+    }
+}
+
+#[test]
+fn sensors_that_are_none_or_none_that_there_can_be_are_refused() {
+    let field = |sensors| Block { sensors, ..four() }.check().map_err(|why| why.field);
+    assert_eq!(field(SensorScales { gyro: 0.5, encoder: 0.0 }), Err("gyro_rad_s_per_count"));
+    assert_eq!(field(SensorScales { gyro: f32::NAN, encoder: 0.0 }), Err("gyro_rad_s_per_count"));
+    assert_eq!(field(SensorScales { gyro: 0.0, encoder: -2.0 }), Err("encoder_rad_per_count"));
+    assert_eq!(field(SensorScales { gyro: 0.0, encoder: -1.0 }), Ok(()));
+    let (bytes, length) = encoded(&Block { sensors: SensorScales { gyro: 0.001, encoder: 0.0 }, ..four() });
+    let mut none = bytes;
+    none[length - 12..length - 4].fill(0);
+    assert_eq!(refusal(&resealed(none, length)).field, "gyro_rad_s_per_count");
+    // a byte that says nothing of what follows it, and one that says that there is more
+    for which in [0, 0x81] {
+        let mut other = bytes;
+        other[length - 13] = which;
+        assert_eq!(refusal(&resealed(other, length)).reason, BlockErrorKind::Length);
+    }
 }

@@ -1,7 +1,7 @@
-//! What a commissioning found of the motors, in a block: behind the effects, where there is anything to tell.
+//! What a commissioning found of the motors, in a block: behind the effects, where there is anything to tell (`sensors.rs`).
 //!
 //! ```text
-//! motors u8, one bit each · for each of them: outputs 3 × u8 · converters 3 × u8, + 128 where inverted
+//! for each motor with a bit: outputs 3 × u8 · converters 3 × u8, + 128 where inverted
 //!                           · hall codes of the sectors 6 × u8 · edges 6 × u16 [2⁻¹⁶ turn]
 //! ```
 
@@ -20,10 +20,7 @@ const WRONG: BlockError = BlockError::because(BlockErrorKind::Wiring, "wiring");
 
 /// Bytes that are written for these motors.
 pub(super) fn length<const N: usize>(wirings: &[Option<MotorWiring>; N]) -> usize {
-    match wirings.iter().flatten().count() {
-        0 => 0,
-        motors => 1 + motors * BYTES,
-    }
+    wirings.iter().flatten().count() * BYTES
 }
 
 /// Refuses what no motor is wired like.
@@ -31,12 +28,13 @@ pub(super) fn check<const N: usize>(wirings: &[Option<MotorWiring>; N]) -> Resul
     if wirings.iter().flatten().all(MotorWiring::is_possible) { Ok(()) } else { Err(WRONG) }
 }
 
-/// Writes them; nothing where no motor was commissioned.
+/// One bit a motor that was commissioned.
+pub(super) fn motors<const N: usize>(wirings: &[Option<MotorWiring>; N]) -> u8 {
+    wirings.iter().enumerate().fold(0, |motors, (j, wiring)| motors | u8::from(wiring.is_some()) << j)
+}
+
+/// Writes them.
 pub(super) fn write<const N: usize>(wirings: &[Option<MotorWiring>; N], writer: &mut Writer) {
-    if length(wirings) == 0 {
-        return;
-    }
-    writer.u8(wirings.iter().enumerate().fold(0, |motors, (j, wiring)| motors | u8::from(wiring.is_some()) << j));
     for wiring in wirings.iter().flatten() {
         writer.bytes(&wiring.outputs);
         for (converter, inverted) in wiring.converters.iter().zip(wiring.inverted) {
@@ -47,15 +45,14 @@ pub(super) fn write<const N: usize>(wirings: &[Option<MotorWiring>; N], writer: 
     }
 }
 
-/// Reads them to the end of the block; `short` is what is wrong where that is elsewhere.
+/// Reads those of these motors; `short` is what is wrong where there are fewer.
 pub(super) fn read<const N: usize>(
+    motors: u8,
     reader: &mut Reader,
     short: BlockError,
 ) -> Result<[Option<MotorWiring>; N], BlockError> {
     let mut wirings = [None; N];
-    let Some(motors) = reader.u8() else { return Ok(wirings) };
-    // bytes that are no wirings of motors that are there
-    if motors == 0 || u32::from(motors) >> N != 0 || reader.rest().len() != motors.count_ones() as usize * BYTES {
+    if u32::from(motors) >> N != 0 {
         return Err(short);
     }
     for (_, slot) in wirings.iter_mut().enumerate().filter(|(j, _)| motors >> j & 1 != 0) {

@@ -4,7 +4,8 @@
 //! row k   t      when the codes of record k were sampled
 //!         u      the mean of record k + 1: it says what was applied over the turn that ended with it
 //!         i, vbat  the codes of record k, sampled before the voltage of the row was applied
-//!         w      from the edges, see `speeds.rs`
+//!         w      from the edges, see `speeds.rs`; of a robot with encoders from those, see `encoders.rs`
+//!         gyro   what the gyro of record k says, its bias in it: read 0.2 ms before the codes
 //!         enable what record k says of the bridges from then on
 //! ```
 //!
@@ -22,7 +23,7 @@ use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
 use model_core::link::record::{OperatingState, TelemetryRecord};
 
 use super::capture::Capture;
-use super::speeds::{edges_per_turn, intervals};
+use super::{encoders, speeds};
 use crate::error::{Error, InputKind, Result};
 use crate::log::channel::{Channel, Missing};
 use crate::log::edges::speeds_on_rows;
@@ -114,9 +115,12 @@ pub fn run(capture: &Capture, place: &Path, name: &str, wheels: Option<usize>) -
     }
     let t_s: Vec<f64> = t_s.into_iter().take(channels.enable.len()).collect();
     for (wheel, channel) in channels.w.iter_mut().enumerate() {
-        let edges = edges_per_turn(hello.calibration.pole_pairs, f64::from(hello.gear_ratio));
-        let speeds = speeds_on_rows(&intervals(records, &t, wheel, clock, edges), &t_s);
-        *channel = speeds.into_iter().map(|speed| speed.ok_or(Missing::Stale)).collect();
+        let edges = speeds::edges_per_turn(hello.calibration.pole_pairs, f64::from(hello.gear_ratio));
+        let (intervals, without) = match f64::from(hello.sensors.encoder) {
+            0.0 => (speeds::intervals(records, &t, wheel, clock, edges), Missing::Stale),
+            scale => (encoders::intervals(records, &t, wheel, clock, scale), Missing::Blank),
+        };
+        *channel = speeds_on_rows(&intervals, &t_s).into_iter().map(|speed| speed.ok_or(without)).collect();
     }
     Ok(Run {
         name: name.to_owned(),
@@ -125,6 +129,7 @@ pub fn run(capture: &Capture, place: &Path, name: &str, wheels: Option<usize>) -
         i: Some(Group::new(channels.i)),
         w: Some(Group::new(channels.w)),
         vbat: Some(channels.vbat),
+        gyro: Some(channels.gyro).filter(|_| hello.sensors.gyro != 0.0),
         enable: Some(channels.enable),
         currents_sampled: Sampled::Before,
         ..Run::default()
@@ -155,6 +160,7 @@ struct Channels {
     i: Vec<Channel>,
     w: Vec<Channel>,
     vbat: Channel,
+    gyro: Channel,
     enable: Channel,
 }
 
@@ -162,12 +168,12 @@ impl Channels {
     fn new(wheels: usize, rows: usize) -> Channels {
         let group = || vec![Channel::with_capacity(rows); wheels];
         let one = || Channel::with_capacity(rows);
-        Channels { u: group(), i: group(), w: group(), vbat: one(), enable: one() }
+        Channels { u: group(), i: group(), w: group(), vbat: one(), gyro: one(), enable: one() }
     }
 
     /// A row whose record did not arrive.
     fn lost(&mut self, why: Missing) {
-        let all = self.u.iter_mut().chain(&mut self.i).chain([&mut self.vbat, &mut self.enable]);
+        let all = self.u.iter_mut().chain(&mut self.i).chain([&mut self.vbat, &mut self.gyro, &mut self.enable]);
         all.for_each(|channel| channel.push_missing(why));
     }
 
@@ -186,6 +192,10 @@ impl Channels {
                 Ok(x) => i.push(x),
                 Err(why) => i.push_missing(why),
             }
+        }
+        match record.sensors.and_then(|sensors| sensors.yaw()) {
+            Some(yaw) => self.gyro.push(f64::from(hello.sensors.gyro) * f64::from(yaw)),
+            None => self.gyro.push_missing(Missing::Blank),
         }
         self.vbat.push(calibration.bus_voltage(record.bus));
         self.enable.push(if record.state == OperatingState::Driving && record.enabled != 0 { 1.0 } else { 0.0 });

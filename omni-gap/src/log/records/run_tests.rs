@@ -2,6 +2,7 @@ use super::super::capture::Progress;
 use super::*;
 use model_core::control::phases::q_current;
 use model_core::link::framing::{FrameKind, MAX_FRAME, encode_frame};
+use model_core::link::sensor_codes::{SensorCodes, SensorScales};
 
 /// What the robot says of itself; its zeros are not in the middle.
 fn hello(wheels: u8) -> Hello {
@@ -14,6 +15,7 @@ fn hello(wheels: u8) -> Hello {
         calibration: Calibration::of_board(8),
         gear_ratio: 5.0,
         offsets: [[2050 * 16 + 5, 2040 * 16 + 11, 2048 * 16]; 4],
+        sensors: SensorScales::default(),
     }
 }
 
@@ -64,6 +66,45 @@ fn captured(bytes: &[u8]) -> Capture {
     let mut capture = Capture::new(None);
     capture.take(bytes);
     capture
+}
+
+/// The frames of a robot with sensors, and of these records.
+fn sent_with(sensors: SensorScales, records: &[TelemetryRecord]) -> Vec<u8> {
+    let mut out = [0; MAX_FRAME];
+    let hello = Hello { sensors, ..hello(4) }.to_bytes();
+    let mut bytes = encode_frame(FrameKind::Hello.code(), &hello, &mut out).unwrap().to_vec();
+    for record in records {
+        bytes.extend(encode_frame(FrameKind::Record.code(), &record.to_bytes(), &mut out).unwrap());
+    }
+    bytes
+}
+
+#[test]
+fn a_gyro_is_a_channel_of_its_own_and_encoders_tell_the_speeds() {
+    let sensors = |k: u32| SensorCodes::of((k != 5).then_some(-100 + k as i16), [Some((40 * k) as u16); 4]);
+    let with: Vec<TelemetryRecord> =
+        (0..10).map(|k| TelemetryRecord { sensors: Some(sensors(k)), ..record(k) }).collect();
+    let read = |scales| run(&captured(&sent_with(scales, &with)), Path::new("frames.bin"), "run", Some(4)).unwrap();
+    let both = read(SensorScales { gyro: -0.001, encoder: 1e-4 });
+    let gyro = both.gyro.as_ref().unwrap();
+    assert_eq!((gyro.len(), gyro.get(5)), (9, Err(Missing::Blank)));
+    // counts of −1 mrad/s each, as single precision has it
+    assert!((gyro.get(3).unwrap() - 0.097).abs() < 1e-8);
+    // 40 counts of 0.1 mrad in a millisecond
+    assert!((1..8).all(|row| (at(&both.w, 2, row).unwrap() - 4.0).abs() < 1e-6));
+    assert_eq!(
+        at(&both.w, 2, 8),
+        Err(Missing::Blank),
+        "its middle is told by the record that only ends the row before"
+    );
+    // without a scale neither is told: speeds are those of the halls
+    let neither = read(SensorScales::default());
+    assert_eq!((neither.gyro, at(&neither.w, 2, 3)), (None, Err(Missing::Stale)));
+    // and a record from before there were any is read beside those of a robot that has them
+    let old: Vec<TelemetryRecord> = (0..10).map(record).collect();
+    let old =
+        run(&captured(&sent_with(SensorScales { gyro: 0.001, encoder: 0.0 }, &old)), Path::new("f"), "run", Some(4));
+    assert_eq!(old.unwrap().gyro.unwrap().get(3), Err(Missing::Blank));
 }
 
 fn run_of(records: &[TelemetryRecord]) -> Run {

@@ -1,0 +1,86 @@
+//! # Sensor bus: SPI1 with a chip select for each device
+//!
+//! A byte is waited for, 1.5 µs: whoever reads sensors is below the turns of currents and motion, and an interrupt between two
+//! bytes only makes a transfer longer, because the clock is this side's. A wait ends after [`spi::MOST_LOOKS`].
+
+use cortex_m::asm;
+use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
+use stm32f4xx_hal::gpio::Output;
+use stm32f4xx_hal::gpio::gpiod::PDn;
+use stm32f4xx_hal::pac::{self, spi1};
+
+use crate::drivers::sensors::Sensors;
+use crate::registers::spi;
+
+/// Gyro and encoders.
+pub type MotionSensors = Sensors<SensorDevice>;
+
+/// A device on the bus.
+pub struct SensorDevice {
+    select: PDn<Output>,
+    /// CR1 of its mode, off
+    mode: u16,
+}
+
+impl SensorDevice {
+    /// All of them have to go to one owner: each takes the bus for a transfer as if it were its own.
+    pub(super) fn new(select: PDn<Output>, mode: u16) -> Self {
+        Self { select, mode }
+    }
+
+    fn run(operation: &mut Operation<'_, u8>) -> Result<(), ErrorKind> {
+        match operation {
+            Operation::Read(into) => into.iter_mut().try_for_each(|byte| exchange(0).map(|came| *byte = came)),
+            Operation::Write(out) => out.iter().try_for_each(|byte| exchange(*byte).map(|_| ())),
+            Operation::TransferInPlace(both) => {
+                both.iter_mut().try_for_each(|byte| exchange(*byte).map(|came| *byte = came))
+            }
+            // neither device's driver asks for these
+            Operation::Transfer(..) | Operation::DelayNs(_) => Err(ErrorKind::Other),
+        }
+    }
+}
+
+impl ErrorType for SensorDevice {
+    type Error = ErrorKind;
+}
+
+impl SpiDevice for SensorDevice {
+    fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
+        set_mode(self.mode);
+        self.select.set_low();
+        asm::delay(spi::SELECT_CYCLES);
+        let done = operations.iter_mut().try_for_each(Self::run);
+        asm::delay(spi::SELECT_CYCLES);
+        self.select.set_high();
+        asm::delay(spi::SELECT_CYCLES);
+        done
+    }
+}
+
+fn bus() -> &'static spi1::RegisterBlock {
+    // SAFETY: `take` has the one SPI1 and gives it to nobody; its registers are used here alone, by the devices, which have
+    // one owner.
+    unsafe { &*pac::SPI1::PTR }
+}
+
+/// Clock phase and polarity change while the bus is off and nothing is selected.
+fn set_mode(mode: u16) {
+    // SAFETY: the values are those of `registers`, whose test reads them back; no byte is on its way.
+    unsafe {
+        bus().cr1().write(|w| w.bits(mode));
+        bus().cr1().write(|w| w.bits(mode | spi::SPE));
+    }
+}
+
+/// Sends a byte; the one that came with it.
+fn exchange(byte: u8) -> Result<u8, ErrorKind> {
+    // SAFETY: every value of a byte is legal for the data register.
+    unsafe { bus().dr().write(|w| w.bits(u16::from(byte))) };
+    for _ in 0..spi::MOST_LOOKS {
+        if bus().sr().read().bits() & spi::RXNE != 0 {
+            return Ok(bus().dr().read().bits() as u8);
+        }
+    }
+    Err(ErrorKind::Other)
+}
