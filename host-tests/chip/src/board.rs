@@ -14,6 +14,7 @@ use firmware::exchange::{DownFrame, LINK_BYTES, LinkBytes, UpFrame};
 use firmware::registers::pins::{self, Job, PINS, Pin};
 use firmware::registers::timing;
 use host_tests::emulator::{BoardProgram, RunError};
+use model_core::link::sensor_codes::SensorCodes;
 
 use crate::core::{Chip, ChipError};
 use crate::peripherals::map::{GPIO, GPIO_STEP, TIMERS};
@@ -29,6 +30,8 @@ const LONGEST: u64 = 168_000_000;
 pub struct ChipBoard {
     /// The chip
     pub chip: Chip,
+    /// Gyro and encoders are not plugged in
+    pub unplugged: bool,
     period: u32,
     taken: usize,
     outward: VecDeque<u8>,
@@ -37,7 +40,7 @@ pub struct ChipBoard {
 impl ChipBoard {
     /// A chip that has just been switched on.
     pub fn new(chip: Chip) -> Self {
-        Self { chip, period: 0, taken: 0, outward: VecDeque::new() }
+        Self { chip, unplugged: false, period: 0, taken: 0, outward: VecDeque::new() }
     }
 
     /// Runs to where a period is handed over.
@@ -120,6 +123,8 @@ impl BoardProgram for ChipBoard {
                 _ => {}
             }
         }
+        let sensors = if self.unplugged { SensorCodes::default() } else { down.sensors };
+        self.chip.machine_mut().bus.spi.sensors = sensors;
         self.chip.send(down.link.as_slice());
         Ok(())
     }

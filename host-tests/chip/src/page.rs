@@ -97,12 +97,13 @@ pub fn page(seen: &Seen, pac: &Pac) -> String {
 }
 
 /// Interrupts by their numbers in the vector table, and what they do.
-const EXCEPTIONS: [(u16, &str); 5] = [
+const EXCEPTIONS: [(u16, &str); 6] = [
     (34, "`ADC`: the current turn"),
     (62, "`TIM8_CC`: the latch of duties"),
     (22, "`EXTI0`: the motion turn"),
     (23, "`EXTI1`: the link's bytes, a parameter block with them"),
     (24, "`EXTI2`: records"),
+    (25, "`EXTI3`: gyro and four encoders"),
 ];
 
 fn cycles(text: &mut String, seen: &Seen) {

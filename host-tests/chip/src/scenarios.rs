@@ -7,12 +7,14 @@ use std::collections::BTreeMap;
 
 use host_tests::emulator::RunError;
 use host_tests::in_loop::{ClosedLoopRun, robots};
+use host_tests::virtual_board::motion_sensors::{GyroErrors, scales};
 use host_tests::virtual_board::{BoardSetup, InjectedFault, VirtualBoard};
 use model_core::effects::active::Effects;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{Block, MAX_BYTES, Parameters, checksum};
 use model_core::link::faults::Fault;
 use model_core::link::record::OperatingState;
+use model_core::link::sensor_codes::SensorCodes;
 use model_core::plant::paper::four_wheels;
 
 use crate::board::ChipBoard;
@@ -138,6 +140,7 @@ pub fn play(image: &Image) -> Result<Seen, Failed> {
     let mut seen = Seen::default();
     drives(image, &mut seen)?;
     takes_its_time(image, &mut seen)?;
+    senses(image, &mut seen)?;
     for failure in Failure::ALL {
         fails(image, failure, &mut seen)?;
     }
@@ -207,6 +210,62 @@ fn drives(image: &Image, seen: &mut Seen) -> Result<(), Failed> {
     seen.take(image, &run.lockstep.program.chip);
     Ok(())
 }
+
+/// From a block with sensors to a gyro and encoders that were begun with [s]
+const BEGUN: f64 = 0.15;
+
+/// The same with a gyro and four encoders, at first without one of them.
+fn senses(image: &Image, seen: &mut Seen) -> Result<(), Failed> {
+    let sensors = scales(four_wheels::<f32>().motor.gear_ratio);
+    let block = Parameters::Four(Block { sensors, ..robots::block(four_wheels()) });
+    let quiet = GyroErrors { bias: 0.0, noise: 0.0, scale: 0.0 };
+    let setup =
+        BoardSetup { gyro: Some(quiet), encoders: true, ..BoardSetup::new(four_wheels(), Effects::default(), 1) };
+    let mut chip = Chip::new(&image.bytes, Pace::manual())?;
+    chip.machine_mut().bus.flash.erase = ERASE;
+    let mut run = ClosedLoopRun::new(ChipBoard::new(chip), VirtualBoard::new(setup));
+    run.lockstep.program.unplugged = true;
+    run.send_block(&block);
+    run.wait(STORED)?;
+    let said = |run: &Run| run.log.records.last().and_then(|record| record.sensors);
+    seen.promise("a gyro and encoders that do not answer: every record says so, and nothing else happens", {
+        said(&run) == Some(SensorCodes::default()) && !has_fault(&run, Fault::TurnOverrun)
+    });
+    run.lockstep.program.unplugged = false;
+    run.wait(BEGUN)?;
+    let before = run.lockstep.program.chip.machine().bus.spi.transfers;
+    run.follow(0.3, |_| BodyTwist { v: 0.3, vn: 0.0, w: 2.0 })?;
+    let after = run.lockstep.program.chip.machine().bus.spi.transfers;
+    let truth = run.log.truth.iter().rev().nth(2).map_or(0.0, |moment| moment.twist.w);
+    let told = said(&run).and_then(|codes| sensors.yaw_rate(&codes)).map_or(0.0, f64::from);
+    seen.promise(
+        "begun with within 0.15 s, the gyro's rate stands in every record, to 0.02 rad/s that of the robot",
+        (told - truth).abs() < 0.02 && truth > 1.5,
+    );
+    let speed = |wheel: usize| {
+        let [last, before] =
+            [0, 20].map(|back| run.log.records.iter().rev().nth(back).and_then(|r| r.sensors?.angle(wheel)));
+        let counts = i32::from(last?) - i32::from(before?);
+        Some(f64::from(sensors.encoder) * f64::from((counts + 8192).rem_euclid(16_384) - 8192) / 0.02)
+    };
+    let wheels = run.lockstep.board.wheel_speeds();
+    seen.promise(
+        "and so do the angles of all four encoders: over 20 ms their speeds are those of the wheels to 2 %",
+        (0..4).all(|j| speed(j).is_some_and(|told| (told - wheels[j]).abs() < 0.02 * wheels[j].abs() + 0.02)),
+    );
+    seen.promise("each of 300 motion turns has one transfer of the gyro and two of each encoder, none is late", {
+        let [gyro, encoders] = [0, 1].map(|k| after[k] - before[k]);
+        gyro.abs_diff(300) <= 1 && encoders.abs_diff(8 * 300) <= 8 && !has_fault(&run, Fault::TurnOverrun)
+    });
+    let machine = run.lockstep.program.chip.machine();
+    // the other tasks' longest are those of a robot without sensors, but for this one
+    seen.longest.extend(machine.profile.longest.get(&SENSE).map(|spent| (SENSE, *spent)));
+    seen.take(image, &run.lockstep.program.chip);
+    Ok(())
+}
+
+/// The task that reads the sensors, by its number in the vector table: EXTI3.
+const SENSE: u16 = 25;
 
 /// How a program fails while it drives.
 #[derive(Clone, Copy, Debug)]

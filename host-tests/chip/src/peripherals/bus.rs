@@ -15,6 +15,7 @@ use super::map::{
     ADCS, DMA1, FLASH, GPIO, GPIO_STEP, IWDG, PERIPHERALS, PERIPHERALS_LEN, PORTS, PWR, RCC, TIMERS, USART3,
     clock_enable,
 };
+use super::spi::{self, Spi};
 use super::timer::{CC4IF, Place, Timer, UIF, at};
 use super::watchdog::Watchdog;
 use super::words::Words;
@@ -42,6 +43,8 @@ pub struct Bus {
     pub converters: Converters,
     /// The serial line
     pub link: Link,
+    /// Gyro and encoders, and the bus that they are on
+    pub spi: Spi,
     /// The watchdog
     pub watchdog: Watchdog,
     /// The flash
@@ -89,6 +92,7 @@ impl Bus {
             timers: [0, 1, 2, 3].map(Timer::new),
             converters: Converters::default(),
             link: Link::default(),
+            spi: Spi::default(),
             watchdog: Watchdog::default(),
             flash: Flash::erased(),
             levels: [0xFFFF; PORTS],
@@ -109,7 +113,7 @@ impl Bus {
     /// The core cycle of what comes next.
     pub fn next(&self) -> u64 {
         let timers = self.timers.iter().filter_map(|timer| timer.next().map(|next| next.0));
-        let others = [self.converters.next(), self.link.next(), self.watchdog.next(&self.words)];
+        let others = [self.converters.next(), self.link.next(), self.spi.next(), self.watchdog.next(&self.words)];
         timers.chain(others.into_iter().flatten()).min().unwrap_or(u64::MAX)
     }
 
@@ -137,6 +141,7 @@ impl Bus {
         }
         self.converters.advance(self.now, &mut self.words, &mut self.log);
         self.link.advance(self.now, &mut self.words, &mut self.moves);
+        self.spi.advance(self.now, &mut self.words);
         if self.watchdog.next(&self.words).is_some_and(|at| at <= self.now) {
             self.reset = true;
             self.log.note(self.now, Event::Reset);
@@ -196,6 +201,9 @@ impl Bus {
         if let Some(adc) = ADCS.iter().position(|adc| adc + converters::DR == address) {
             Converters::data_read(&mut self.words, adc);
         }
+        if address == spi::DR {
+            Spi::data_read(&mut self.words);
+        }
         match address {
             _ if address & !0x3FF == IWDG && address - IWDG == 0xC => self.watchdog.status(self.now),
             _ if (GPIO..GPIO + GPIO_STEP * PORTS as u32).contains(&address) && address & 0x3FF == 0x10 => {
@@ -234,6 +242,7 @@ impl Bus {
             _ if address & !0x3FF == IWDG => self.write_watchdog(address, word),
             _ if address & !0x3FF == FLASH => self.write_flash(address, was, word),
             _ if address & !0x3FF == DMA1 => self.write_dma(address, was, word),
+            spi::DR => self.spi.send(self.now, &self.words, &mut self.log, word as u8),
             PWR => {
                 self.words.set(PWR, word);
                 // the regulator's output is ready
@@ -286,6 +295,12 @@ impl Bus {
             let port = ((base - GPIO) / GPIO_STEP) as usize;
             self.log.note(self.now, Event::Port { port, output: now as u16 });
         }
+        let words = &self.words;
+        // a pin that is no output is held high
+        self.spi.select(self.now, &mut self.log, |port, pin| {
+            let base = GPIO + GPIO_STEP * (u32::from(port) - u32::from('A'));
+            words.field(base, 2 * u32::from(pin), 2) != 1 || words.bit(base + 0x14, pin.into())
+        });
     }
 
     fn write_clocks(&mut self, address: u32, word: u32) {

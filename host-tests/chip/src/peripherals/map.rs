@@ -13,6 +13,8 @@ pub const TIMERS: [u32; 4] = [0x4001_0000, 0x4001_0400, 0x4000_0400, 0x4000_0800
 pub const ADCS: [u32; 3] = [0x4001_2000, 0x4001_2100, 0x4001_2200];
 /// The converters' common control register.
 pub const ADC_CCR: u32 = 0x4001_2304;
+/// SPI1.
+pub const SPI1: u32 = 0x4001_3000;
 /// Independent watchdog.
 pub const IWDG: u32 = 0x4000_3000;
 /// USART3.
@@ -45,6 +47,7 @@ pub fn clock_enable(address: u32) -> Option<(u32, u32)> {
         0x4001_0000 => (APB2ENR, 0),
         0x4001_0400 => (APB2ENR, 1),
         0x4001_2000 => (APB2ENR, 8 + (address >> 8 & 3).min(2)),
+        SPI1 => (APB2ENR, 12),
         DMA1 => (AHB1ENR, 21),
         base @ GPIO..0x4002_2400 => (AHB1ENR, (base - GPIO) / GPIO_STEP),
         _ => return None,

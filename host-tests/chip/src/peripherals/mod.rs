@@ -7,6 +7,7 @@ pub mod converters;
 pub mod flash;
 pub mod link;
 pub mod map;
+pub mod spi;
 pub mod timer;
 pub mod watchdog;
 pub mod words;
