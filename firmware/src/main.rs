@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | `current` | 4 | the converters are done, 20 kHz | codes → duties of all motors |
 //! | `motion` | 3 | every 20th of these, 1 kHz | command → currents and voltages, one record |
-//! | `sense` | 2 | four periods before a motion turn | gyro and encoders, those that are fitted |
+//! | `sense` | 2 | eight periods before a motion turn | gyro and encoders, those that are fitted |
 //! | `listen` | 2 | after each motion turn | bytes → commands, parameter blocks |
 //! | `record` | 1 | after each motion turn | records → bytes |
 //! | `idle` | 0 | otherwise | feeds the watchdog while the others keep their time; stores a new block while nothing is driven |

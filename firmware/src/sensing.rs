@@ -9,7 +9,7 @@ use model_core::link::sensor_codes::{LEAD_PERIODS, SensorCodes, SensorScales};
 use crate::codes::PERIODS_PER_TICK;
 use crate::drivers::sensors::FittedSensors;
 
-/// The period of a motion turn's twenty in which the sensors are read: 0.2 ms before the next, in which all five are read beside
+/// The period of a motion turn's twenty in which the sensors are read: 0.4 ms before the next, in which all five are read beside
 /// the current turns (`host-tests/golden/chip.md`).
 pub const DUE: u32 = PERIODS_PER_TICK - LEAD_PERIODS;
 

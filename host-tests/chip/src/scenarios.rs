@@ -253,6 +253,13 @@ fn senses(image: &Image, seen: &mut Seen) -> Result<(), Failed> {
         "and so do the angles of all four encoders: over 20 ms their speeds are those of the wheels to 2 %",
         (0..4).all(|j| speed(j).is_some_and(|told| (told - wheels[j]).abs() < 0.02 * wheels[j].abs() + 0.02)),
     );
+    // the last record is one of a drive; the first of it are 0.3 s before
+    let drive = run.log.records.iter().rev().take(290).filter_map(|record| record.sensors);
+    let whole = drive.filter(|codes| codes.yaw().is_some() && (0..4).all(|j| codes.angle(j).is_some())).count();
+    seen.promise(
+        "none of the last 290 records lacks a reading: all five are read in time for the motion turn",
+        whole == 290,
+    );
     seen.promise("each of 300 motion turns has one transfer of the gyro and two of each encoder, none is late", {
         let [gyro, encoders] = [0, 1].map(|k| after[k] - before[k]);
         gyro.abs_diff(300) <= 1 && encoders.abs_diff(8 * 300) <= 8 && !has_fault(&run, Fault::TurnOverrun)

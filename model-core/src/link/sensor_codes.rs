@@ -11,8 +11,8 @@
 use crate::link::bytes::{Reader, Writer};
 use crate::link::motors::MOTORS;
 
-/// Current turns before the codes of a record at which its sensors are read: 0.2 ms.
-pub const LEAD_PERIODS: u32 = 4;
+/// Current turns before the codes of a record at which its sensors are read: 0.4 ms.
+pub const LEAD_PERIODS: u32 = 8;
 
 /// Angles in a turn of an encoder; those of fewer bits tell theirs in these.
 pub const ENCODER_COUNTS: u16 = 1 << 14;

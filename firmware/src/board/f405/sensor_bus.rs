@@ -30,13 +30,12 @@ impl SensorDevice {
 
     fn run(operation: &mut Operation<'_, u8>) -> Result<(), ErrorKind> {
         match operation {
-            Operation::Read(into) => into.iter_mut().try_for_each(|byte| exchange(0).map(|came| *byte = came)),
             Operation::Write(out) => out.iter().try_for_each(|byte| exchange(*byte).map(|_| ())),
             Operation::TransferInPlace(both) => {
                 both.iter_mut().try_for_each(|byte| exchange(*byte).map(|came| *byte = came))
             }
             // neither device's driver asks for these
-            Operation::Transfer(..) | Operation::DelayNs(_) => Err(ErrorKind::Other),
+            Operation::Read(_) | Operation::Transfer(..) | Operation::DelayNs(_) => Err(ErrorKind::Other),
         }
     }
 }

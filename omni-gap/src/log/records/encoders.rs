@@ -45,11 +45,11 @@ mod tests {
     /// A magnet on the motor, behind a gear of 5
     const SCALE: f64 = TAU / 16_384.0 / 5.0;
 
-    /// The records of a wheel whose angle is φ(t), each read 0.2 ms before its codes.
+    /// The records of a wheel whose angle is φ(t), each read 0.4 ms before its codes.
     fn recorded(angle: impl Fn(f64) -> f64, rows: u32) -> (Vec<TelemetryRecord>, Vec<f64>) {
         let t: Vec<f64> = (1..=rows).map(|k| f64::from(k) * 1e-3).collect();
         let record = |(k, t): (usize, &f64)| {
-            let counts = (angle(t - 0.2e-3) / SCALE).floor() as i64;
+            let counts = (angle(t - 0.4e-3) / SCALE).floor() as i64;
             let sensors = Some(SensorCodes::of(None, [None, Some(counts.rem_euclid(16_384) as u16), None, None]));
             TelemetryRecord { sequence: k as u32, sensors, ..TelemetryRecord::default() }
         };

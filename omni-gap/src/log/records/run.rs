@@ -5,7 +5,7 @@
 //!         u      the mean of record k + 1: it says what was applied over the turn that ended with it
 //!         i, vbat  the codes of record k, sampled before the voltage of the row was applied
 //!         w      from the edges, see `speeds.rs`; of a robot with encoders from those, see `encoders.rs`
-//!         gyro   what the gyro of record k says, its bias in it: read 0.2 ms before the codes
+//!         gyro   what the gyro of record k says, its bias in it: read 0.4 ms before the codes
 //!         enable what record k says of the bridges from then on
 //! ```
 //!
