@@ -8,6 +8,7 @@ use model_core::link::command::{Command, MAX_CHUNK};
 use model_core::link::framing::{FrameKind, MAX_FRAME, encode_frame};
 use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
 use model_core::link::record::TelemetryRecord;
+use model_core::link::sensor_codes::SensorScales;
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
 use omni_gap::synthesize::{Scenario, synthesize};
@@ -81,7 +82,7 @@ pub fn seeds(door: &str) -> Vec<Vec<u8>> {
         "sqlite" => recordings(&["ros2-sqlite-foxy/ros2-sqlite-foxy.db3"]),
         "vision" => recordings(&["vision/game.log", "vision/game.log.gz"]),
         "records" => vec![records()],
-        "payloads" => vec![(0..10).flat_map(|k| record(k).to_bytes()).collect()],
+        "payloads" => vec![(0..10).flat_map(|k| record(k).to_bytes().to_vec()).collect()],
         "frames" => vec![records(), commands()],
         "block" => vec![block()],
         _ => Vec::new(),
@@ -114,6 +115,7 @@ pub fn hello() -> Vec<u8> {
         calibration: Calibration::of_board(8),
         gear_ratio: 5.0,
         offsets: [[2048 * OFFSET_PARTS; 3]; 4],
+        sensors: SensorScales::default(),
     };
     framed(FrameKind::Hello.code(), &hello.to_bytes())
 }
