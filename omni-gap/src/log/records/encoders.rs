@@ -80,7 +80,7 @@ mod tests {
         records.remove(20);
         t.remove(20);
         let told = intervals(&records, &t, 1, PERIOD, SCALE);
-        // 98 pairs; two for each reading that is missing, one for the record, one before the first row's middle is told
+        // 98 pairs; two for each reading that is missing, one for the record
         assert_eq!(told.len(), 98 - 2 - 2 - 1);
         assert!(told.iter().all(|x| (x.speed - 10.0).abs() < 2.0 * SCALE / 1e-3));
         assert_eq!(intervals(&records, &t, 0, PERIOD, SCALE), [], "a wheel without an encoder");
