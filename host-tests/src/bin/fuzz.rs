@@ -11,13 +11,13 @@ use std::process::{Command, ExitCode};
 use doors::{DOORS, Door, seeds};
 use host_tests::golden;
 
-/// What one door is given [s].
+/// What one door is given, in seconds.
 const SECONDS: u64 = 900;
 
-/// Longest that a door may take over one input [s].
+/// Longest that a door may take over one input, in seconds.
 const LONGEST: u32 = 2;
 
-/// Most memory of a door, with what finds errors in it [MB].
+/// Most memory of a door, with what finds errors in it, in MB.
 const MEMORY: u32 = 2048;
 
 const COMMAND: &str = "cargo xtask fuzz";
