@@ -113,9 +113,9 @@ impl Bridges {
                 let _full = serial.inward.enqueue(*byte);
             }
         });
+        SENSORS.with(|sensors| *sensors = Some(down.sensors));
         self.syst.enable_counter();
         self.began = cycles();
-        SENSORS.with(|sensors| *sensors = Some(down.sensors));
         BURN.with(|burn| *burn = (*burn).max(down.burn_motion));
         idle(down.burn_current);
         if let Some(crash) = down.crash {

@@ -23,7 +23,7 @@ pub const MOST_RAM: u64 = 16 * 1024;
 pub const CHIP_RAM: u64 = 128 * 1024;
 
 /// The tasks by the interrupts that they are bound to, with their priorities; a test compares them with `main.rs`.
-pub const TASKS: [(&str, u8); 4] = [("ADC", 4), ("EXTI0", 3), ("EXTI1", 2), ("EXTI2", 1)];
+pub const TASKS: [(&str, u8); 5] = [("ADC", 4), ("EXTI0", 3), ("EXTI3", 2), ("EXTI1", 2), ("EXTI2", 1)];
 
 /// Priorities from here on are the control path.
 pub const CONTROL: u8 = 3;

@@ -5,8 +5,8 @@
 
 use cortex_m::asm;
 use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
-use stm32f4xx_hal::gpio::Output;
 use stm32f4xx_hal::gpio::gpiod::PDn;
+use stm32f4xx_hal::gpio::{Output, PinExt};
 use stm32f4xx_hal::pac::{self, spi1};
 
 use crate::drivers::sensors::Sensors;
@@ -17,7 +17,9 @@ pub type MotionSensors = Sensors<SensorDevice>;
 
 /// A device on the bus.
 pub struct SensorDevice {
-    select: PDn<Output>,
+    _select: PDn<Output>,
+    /// Its pin of port D, a bit
+    pin: u32,
     /// CR1 of its mode, off
     mode: u16,
 }
@@ -25,7 +27,8 @@ pub struct SensorDevice {
 impl SensorDevice {
     /// All of them have to go to one owner: each takes the bus for a transfer as if it were its own.
     pub(super) fn new(select: PDn<Output>, mode: u16) -> Self {
-        Self { select, mode }
+        let pin = 1 << (select.pin_id() & 15);
+        Self { _select: select, pin, mode }
     }
 
     fn run(operation: &mut Operation<'_, u8>) -> Result<(), ErrorKind> {
@@ -47,11 +50,11 @@ impl ErrorType for SensorDevice {
 impl SpiDevice for SensorDevice {
     fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
         set_mode(self.mode);
-        self.select.set_low();
+        set_levels(self.pin << 16);
         asm::delay(spi::SELECT_CYCLES);
         let done = operations.iter_mut().try_for_each(Self::run);
         asm::delay(spi::SELECT_CYCLES);
-        self.select.set_high();
+        set_levels(self.pin);
         asm::delay(spi::SELECT_CYCLES);
         done
     }
@@ -61,6 +64,12 @@ fn bus() -> &'static spi1::RegisterBlock {
     // SAFETY: `take` has the one SPI1 and gives it to nobody; its registers are used here alone, by the devices, which have
     // one owner.
     unsafe { &*pac::SPI1::PTR }
+}
+
+/// BSRR of port D: ones in the upper half make pins low, in the lower half high; zeros leave theirs.
+fn set_levels(bits: u32) {
+    // SAFETY: one store that changes no pin but that of the device, which owns it.
+    unsafe { (*pac::GPIOD::PTR).bsrr().write(|w| w.bits(bits)) };
 }
 
 /// Clock phase and polarity change while the bus is off and nothing is selected.

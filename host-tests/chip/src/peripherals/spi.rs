@@ -265,7 +265,7 @@ mod tests {
         let mut bus = ready(1);
         transfer(&mut bus, 4, &[0xFF, 0xFF]);
         assert_eq!(transfer(&mut bus, 4, &[0xFF, 0xFC]), [0x00, 0x05]);
-        assert_eq!(transfer(&mut bus, 4, &[0x7F, 0xFF]), [0x81, 0x80]);
+        assert_eq!(transfer(&mut bus, 4, &[0x7F, 0xFF]), [0x01, 0x80]);
         assert_eq!(transfer(&mut bus, 4, &[0xFF, 0xFF]), [0xC0, 0x00], "parity was wrong");
         assert_eq!(transfer(&mut bus, 5, &[0xFF, 0xFF]), [0xFF, 0xFF], "nobody is there");
         assert!(bus.log.forbidden.is_empty(), "{:?}", bus.log.forbidden);
