@@ -9,7 +9,7 @@ use omni_gap::error::Error;
 use omni_gap::log::{Columns, RobotFile};
 use omni_gap::{Session, known_effects};
 
-use crate::Answer;
+use crate::answer::Answer;
 use crate::seeds::{ROBOT, TABLE, TOPICS, VISION, framed, hello};
 
 /// Refused with the message that a person reads, the place of the file left out.

@@ -5,10 +5,12 @@
 //! each spoiled in some thousand ways, and with whatever once broke one (`regressions/`); the programs in `fuzz/` look for
 //! more with a fuzzer that is led by what code the bytes reach.
 
+mod answer;
 mod files;
 mod seeds;
 mod wire;
 
+pub use answer::Answer;
 pub use seeds::seeds;
 
 /// One reader.
@@ -18,15 +20,6 @@ pub struct Door {
     pub name: &'static str,
     /// What is told of bytes.
     pub open: fn(&[u8]) -> Answer,
-}
-
-/// What a door tells of bytes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Answer {
-    /// They could be read.
-    Taken,
-    /// They could not, and why.
-    Refused(String),
 }
 
 /// All of them.

@@ -6,7 +6,7 @@ use model_core::link::command::Command;
 use model_core::link::framing::FrameDecoder;
 use model_core::link::message::Message;
 
-use crate::Answer;
+use crate::answer::Answer;
 
 /// The checksum of a block.
 const CHECK: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
