@@ -1,7 +1,6 @@
 //! A line to a robot: commands one way, what it says the other.
 
 use std::fmt;
-use std::io::{ErrorKind, Read, Write};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -9,7 +8,7 @@ use model_core::link::command::Command;
 use model_core::link::framing::{FrameDecoder, MAX_FRAME};
 use model_core::link::message::Message;
 
-use super::source::{Source, Stream};
+use super::source::{CABLE, Look, Source, Stream};
 use crate::error::{Error, InputKind, Result};
 
 /// An open line to a robot.
@@ -64,7 +63,10 @@ impl Line {
         let mut room = [0; MAX_FRAME];
         let frame = command.frame(&mut room).unwrap_or_default();
         let sent = self.stream.write_all(frame).and_then(|()| self.stream.flush());
-        sent.map_err(|why| self.error(format!("cannot be written to: {why}"), "Check the cable, then start again"))
+        sent.map_err(|why| match self.source.was_closed(&why) {
+            true => self.closed(),
+            false => self.error(format!("cannot be written to: {why}"), CABLE),
+        })
     }
 
     /// Listens until a time; `take` is told what comes, and ends it before with an answer.
@@ -74,15 +76,10 @@ impl Line {
     pub fn listen<T>(&mut self, until: Instant, mut take: impl FnMut(Message) -> Option<T>) -> Result<Option<T>> {
         let mut bytes = [0; 1 << 12];
         while Instant::now() < until {
-            let count = match self.stream.read(&mut bytes) {
-                Ok(0) => return Err(self.closed()),
-                Ok(count) => count,
-                Err(why)
-                    if matches!(why.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted) =>
-                {
-                    0
-                }
-                Err(why) => return Err(self.error(why.to_string(), "Check the cable, then start again")),
+            let count = match self.source.look(&mut *self.stream, &mut bytes)? {
+                Look::Bytes(count) => count,
+                Look::Nothing => 0,
+                Look::End => return Err(self.closed()),
             };
             let bytes = bytes.get(..count).unwrap_or_default();
             self.kept.iter_mut().for_each(|kept| kept.extend(bytes));

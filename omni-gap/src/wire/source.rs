@@ -42,6 +42,19 @@ pub enum End {
     Enough,
 }
 
+/// What one look for bytes found.
+pub(super) enum Look {
+    /// So many bytes.
+    Bytes(usize),
+    /// None yet.
+    Nothing,
+    /// The end of what there is: the other side closed the line, or a file ends here.
+    End,
+}
+
+/// What helps where a line is broken.
+pub(super) const CABLE: &str = "Check the cable, then start again";
+
 /// How bytes are waited for.
 struct Flow {
     /// What the end of what can be read means; none: more may come.
@@ -105,18 +118,16 @@ impl Source {
         let mut bytes = [0; 1 << 14];
         let mut heard = Instant::now();
         loop {
-            let progress = match open.read(&mut bytes) {
-                Ok(0) => match flow.end_of_file {
+            let progress = match self.look(&mut *open, &mut bytes)? {
+                Look::End => match flow.end_of_file {
                     Some(end) => return Ok(end),
                     None => {
                         std::thread::sleep(LOOK);
                         take(&[])
                     }
                 },
-                Ok(count) => take(bytes.get(..count).unwrap_or_default()),
-                Err(why) if matches!(why.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock) => take(&[]),
-                Err(why) if why.kind() == ErrorKind::Interrupted => continue,
-                Err(why) => return Err(self.error(why.to_string(), "Check the cable, then start again")),
+                Look::Bytes(count) => take(bytes.get(..count).unwrap_or_default()),
+                Look::Nothing => take(&[]),
             };
             match progress {
                 Progress::Enough => return Ok(End::Enough),
@@ -127,6 +138,28 @@ impl Source {
                 Progress::Nothing => {}
             }
         }
+    }
+
+    /// Looks once for bytes of this source.
+    ///
+    /// # Errors
+    /// Where the line is broken.
+    pub(super) fn look(&self, stream: &mut (impl Read + ?Sized), bytes: &mut [u8]) -> Result<Look> {
+        match stream.read(bytes) {
+            Ok(0) => Ok(Look::End),
+            Ok(count) => Ok(Look::Bytes(count)),
+            Err(why) if matches!(why.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted) => {
+                Ok(Look::Nothing)
+            }
+            Err(why) if self.was_closed(&why) => Ok(Look::End),
+            Err(why) => Err(self.error(why.to_string(), CABLE)),
+        }
+    }
+
+    /// True where a network tells so that the other side closed the line: one that does with bytes unread resets it.
+    pub(super) fn was_closed(&self, why: &std::io::Error) -> bool {
+        let kinds = [ErrorKind::ConnectionReset, ErrorKind::ConnectionAborted, ErrorKind::BrokenPipe];
+        matches!(self, Source::Tcp(_)) && kinds.contains(&why.kind())
     }
 
     fn open(&self, baud: u32) -> Result<Box<dyn Read>> {
@@ -215,6 +248,21 @@ mod tests {
         source.read(0, enough).unwrap();
         robot.join().unwrap();
         assert!(count > 1000);
+    }
+
+    #[test]
+    fn a_line_whose_other_side_ends_with_bytes_unread_was_closed() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let source = Source::named(&format!("tcp:{}", listener.local_addr().unwrap()));
+        let mut stream = source.connect(0).unwrap();
+        let (robot, _) = listener.accept().unwrap();
+        stream.write_all(&[1, 2, 3]).unwrap();
+        // until the bytes are there
+        robot.peek(&mut [0; 3]).unwrap();
+        drop(robot);
+        let found = std::iter::repeat_with(|| source.look(&mut *stream, &mut [0; 8]));
+        let found = found.map(|look| look.unwrap()).find(|look| !matches!(look, Look::Nothing));
+        assert!(matches!(found, Some(Look::End)));
     }
 
     #[test]
