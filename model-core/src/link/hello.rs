@@ -22,10 +22,9 @@
 //!
 //! A hello of a robot without gyro and encoders ends before them, as all did before there were any.
 
-use core::ops::Deref;
-
 use crate::control::calibration::Calibration;
-use crate::link::bytes::{Reader, Writer};
+use crate::link::bytes::Reader;
+use crate::link::payload::Payload;
 use crate::link::record::MOTORS;
 use crate::link::sensor_codes::SensorScales;
 
@@ -79,21 +78,6 @@ pub struct Hello {
     pub sensors: SensorScales,
 }
 
-/// The payload of a hello.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct HelloBytes {
-    bytes: [u8; Hello::MOST_BYTES],
-    len: usize,
-}
-
-impl Deref for HelloBytes {
-    type Target = [u8];
-
-    fn deref(&self) -> &[u8] {
-        self.bytes.get(..self.len).unwrap_or(&self.bytes)
-    }
-}
-
 /// Parts of a count in which zeros are told.
 pub const OFFSET_PARTS: u16 = 16;
 
@@ -105,26 +89,23 @@ impl Hello {
     pub const MOST_BYTES: usize = Self::BYTES + SensorScales::BYTES;
 
     /// Its payload.
-    pub fn to_bytes(&self) -> HelloBytes {
-        let mut bytes = [0; Self::MOST_BYTES];
-        let mut writer = Writer::new(&mut bytes);
-        writer.u16(self.firmware);
-        writer.u16(self.block_version);
-        writer.u32(self.block_check);
-        writer.u8(self.wheels);
-        writer.u8(self.commutation.code());
-        writer.u8(self.calibration.pole_pairs);
-        writer.f32(self.calibration.amps_per_count);
-        writer.f32(self.calibration.bus_volts_per_count);
-        writer.f32(self.gear_ratio);
-        writer.f32(self.calibration.period);
-        self.offsets.iter().flatten().for_each(|x| writer.u16(*x));
-        let mut len = Self::BYTES;
-        if !self.sensors.are_none() {
-            self.sensors.write(&mut writer);
-            len = Self::MOST_BYTES;
-        }
-        HelloBytes { bytes, len }
+    pub fn to_bytes(&self) -> Payload<{ Self::MOST_BYTES }> {
+        Payload::of(|writer| {
+            writer.u16(self.firmware);
+            writer.u16(self.block_version);
+            writer.u32(self.block_check);
+            writer.u8(self.wheels);
+            writer.u8(self.commutation.code());
+            writer.u8(self.calibration.pole_pairs);
+            writer.f32(self.calibration.amps_per_count);
+            writer.f32(self.calibration.bus_volts_per_count);
+            writer.f32(self.gear_ratio);
+            writer.f32(self.calibration.period);
+            self.offsets.iter().flatten().for_each(|x| writer.u16(*x));
+            if !self.sensors.are_none() {
+                self.sensors.write(writer);
+            }
+        })
     }
 
     /// Reads a payload; `None` where it is not one, or says what no robot has.

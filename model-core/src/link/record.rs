@@ -29,12 +29,11 @@
 //!
 //! A record of a robot without gyro and encoders ends before them, as all did before there were any: the length tells.
 
-use core::ops::Deref;
-
 use crate::control::calibration::AdcCode;
-use crate::link::bytes::{Reader, Writer};
+use crate::link::bytes::Reader;
 use crate::link::events::Events;
 use crate::link::faults::Faults;
+use crate::link::payload::Payload;
 use crate::link::sensor_codes::SensorCodes;
 
 pub use crate::link::motors::MOTORS;
@@ -135,21 +134,6 @@ pub struct TelemetryRecord {
     pub sensors: Option<SensorCodes>,
 }
 
-/// The payload of a record.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RecordBytes {
-    bytes: [u8; TelemetryRecord::MOST_BYTES],
-    len: usize,
-}
-
-impl Deref for RecordBytes {
-    type Target = [u8];
-
-    fn deref(&self) -> &[u8] {
-        self.bytes.get(..self.len).unwrap_or(&self.bytes)
-    }
-}
-
 impl TelemetryRecord {
     /// Length of its payload, of a robot without gyro and encoders.
     pub const BYTES: usize = 105;
@@ -158,32 +142,29 @@ impl TelemetryRecord {
     pub const MOST_BYTES: usize = Self::BYTES + SensorCodes::BYTES;
 
     /// Its payload.
-    pub fn to_bytes(&self) -> RecordBytes {
-        let mut bytes = [0; Self::MOST_BYTES];
-        let mut writer = Writer::new(&mut bytes);
-        writer.u32(self.sequence);
-        writer.u32(self.time);
-        writer.u8(self.state.code() | self.enabled << 4);
-        writer.u8(self.events.bits());
-        writer.u16(self.faults.bits());
-        writer.u16(self.bus.0);
-        self.phases.iter().flatten().for_each(|code| writer.u16(code.0));
-        self.angle.iter().for_each(|x| writer.u16(*x));
-        self.edges.iter().for_each(|x| writer.u16(x.cast_unsigned()));
-        self.since_edge.iter().for_each(|x| writer.u16(*x));
-        self.interval.iter().for_each(|x| writer.u16(*x));
-        self.voltage.iter().for_each(|x| writer.f32(*x));
-        self.wanted.iter().for_each(|x| writer.f32(*x));
-        writer.u8(self.headroom);
-        writer.u16(self.load);
-        writer.u16(self.jitter);
-        writer.u16(self.dropped);
-        let mut len = Self::BYTES;
-        if let Some(sensors) = &self.sensors {
-            writer.bytes(&sensors.to_bytes());
-            len = Self::MOST_BYTES;
-        }
-        RecordBytes { bytes, len }
+    pub fn to_bytes(&self) -> Payload<{ Self::MOST_BYTES }> {
+        Payload::of(|writer| {
+            writer.u32(self.sequence);
+            writer.u32(self.time);
+            writer.u8(self.state.code() | self.enabled << 4);
+            writer.u8(self.events.bits());
+            writer.u16(self.faults.bits());
+            writer.u16(self.bus.0);
+            self.phases.iter().flatten().for_each(|code| writer.u16(code.0));
+            self.angle.iter().for_each(|x| writer.u16(*x));
+            self.edges.iter().for_each(|x| writer.u16(x.cast_unsigned()));
+            self.since_edge.iter().for_each(|x| writer.u16(*x));
+            self.interval.iter().for_each(|x| writer.u16(*x));
+            self.voltage.iter().for_each(|x| writer.f32(*x));
+            self.wanted.iter().for_each(|x| writer.f32(*x));
+            writer.u8(self.headroom);
+            writer.u16(self.load);
+            writer.u16(self.jitter);
+            writer.u16(self.dropped);
+            if let Some(sensors) = &self.sensors {
+                writer.bytes(&sensors.to_bytes());
+            }
+        })
     }
 
     /// Reads a payload; `None` where it is not one.
