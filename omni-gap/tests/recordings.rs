@@ -5,40 +5,9 @@ use omni_gap::log::{Catalogue, Channel, Columns, RobotFile, Run};
 use std::path::{Path, PathBuf};
 
 /// The topics of the run as a ROS robot records it.
-const TOPICS: &str = r#"
-    [[file]]
-    topic = "/voltages"
-    [file.columns]
-    u0_V = { from = "data[0]" }
-    u1_V = { from = "data[1]" }
-    u2_V = { from = "data[2]" }
+const TOPICS: &str = include_str!("recordings/columns/topics.toml");
 
-    [[file]]
-    topic = "/joint_states"
-    [file.columns]
-    w0_rad_s = { from = "velocity[front]" }
-    w1_rad_s = { from = "velocity[left]" }
-    w2_rad_s = { from = "velocity[right]" }
-
-    [[file]]
-    topic = "/imu"
-    [file.columns]
-    gyro_rad_s = { from = "angular_velocity.z" }
-
-    [[file]]
-    topic = "/battery"
-    [file.columns]
-    vbat_V = { from = "voltage" }
-"#;
-
-const POSE: &str = r#"
-    [[file]]
-    topic = "/pose"
-    [file.columns]
-    x_m = { from = "pose.position.x" }
-    y_m = { from = "pose.position.y" }
-    theta_rad = { from = "pose.orientation.yaw" }
-"#;
+const POSE: &str = include_str!("recordings/columns/pose.toml");
 
 const ODOMETRY: &str = r#"
     [[file]]
@@ -58,21 +27,7 @@ const TRANSFORM: &str = r#"
     theta_rad = { from = "transforms[base].transform.rotation.yaw" }
 "#;
 
-const TABLE: &str = r#"
-    [columns]
-    t_s = { from = "time" }
-    u0_V = { from = "volts_0" }
-    u1_V = { from = "volts_1" }
-    u2_V = { from = "volts_2" }
-    w0_rad_s = { from = "speed_0" }
-    w1_rad_s = { from = "speed_1" }
-    w2_rad_s = { from = "speed_2" }
-    x_m = { from = "pose.x" }
-    y_m = { from = "pose.y" }
-    theta_rad = { from = "pose.heading" }
-    vbat_V = { from = "battery" }
-    gyro_rad_s = { from = "gyro" }
-"#;
+const TABLE: &str = include_str!("recordings/columns/table.toml");
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recordings")

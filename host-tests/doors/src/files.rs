@@ -46,17 +46,17 @@ pub fn parquet(bytes: &[u8]) -> Answer {
 
 /// A run as topics in MCAP.
 pub fn mcap(bytes: &[u8]) -> Answer {
-    run("run.mcap", bytes, Some(TOPICS))
+    run("run.mcap", bytes, Some(&TOPICS.concat()))
 }
 
 /// A run as topics in a bag of ROS 1.
 pub fn bag(bytes: &[u8]) -> Answer {
-    run("run.bag", bytes, Some(TOPICS))
+    run("run.bag", bytes, Some(&TOPICS.concat()))
 }
 
 /// A run as topics in a database of ROS 2.
 pub fn sqlite(bytes: &[u8]) -> Answer {
-    run("run.db3", bytes, Some(TOPICS))
+    run("run.db3", bytes, Some(&TOPICS.concat()))
 }
 
 /// A game log of SSL-Vision.

@@ -17,54 +17,17 @@ use omni_gap::wire::block::export;
 /// A robot of three wheels.
 pub const ROBOT: &str = include_str!("../../../examples/feup-3w/robot.toml");
 
-/// The topics of a robot with ROS.
-pub const TOPICS: &str = r#"
-    [[file]]
-    topic = "/voltages"
-    [file.columns]
-    u0_V = { from = "data[0]" }
-    u1_V = { from = "data[1]" }
-    u2_V = { from = "data[2]" }
+/// What the topics of a robot with ROS mean.
+pub const TOPICS: [&str; 2] = [
+    include_str!("../../../omni-gap/tests/recordings/columns/topics.toml"),
+    include_str!("../../../omni-gap/tests/recordings/columns/pose.toml"),
+];
 
-    [[file]]
-    topic = "/joint_states"
-    [file.columns]
-    w0_rad_s = { from = "velocity[front]" }
-    w1_rad_s = { from = "velocity[left]" }
-    w2_rad_s = { from = "velocity[right]" }
-
-    [[file]]
-    topic = "/pose"
-    [file.columns]
-    x_m = { from = "pose.position.x" }
-    y_m = { from = "pose.position.y" }
-    theta_rad = { from = "pose.orientation.yaw" }
-"#;
-
-/// The columns of a table.
-pub const TABLE: &str = r#"
-    [columns]
-    t_s = { from = "time" }
-    u0_V = { from = "volts_0" }
-    u1_V = { from = "volts_1" }
-    u2_V = { from = "volts_2" }
-    w0_rad_s = { from = "speed_0" }
-    w1_rad_s = { from = "speed_1" }
-    w2_rad_s = { from = "speed_2" }
-    x_m = { from = "pose.x" }
-    y_m = { from = "pose.y" }
-    theta_rad = { from = "pose.heading" }
-"#;
+/// What the columns of a table mean.
+pub const TABLE: &str = include_str!("../../../omni-gap/tests/recordings/columns/table.toml");
 
 /// One robot of a game log.
-pub const VISION: &str = r#"
-    [[file]]
-    topic = "yellow/3"
-    [file.columns]
-    x_m = { from = "x", unit = "mm" }
-    y_m = { from = "y", unit = "mm" }
-    theta_rad = { from = "orientation" }
-"#;
+pub const VISION: &str = include_str!("../../../omni-gap/tests/recordings/columns/vision.toml");
 
 /// Sound bytes for the door with this name.
 ///
@@ -74,7 +37,7 @@ pub fn seeds(door: &str) -> Vec<Vec<u8>> {
     let texts = |texts: &[&str]| texts.iter().map(|text| text.as_bytes().to_vec()).collect();
     match door {
         "robot" => texts(&[ROBOT, include_str!("../../../examples/ssl-24v/robot.toml")]),
-        "columns" => texts(&[TOPICS, TABLE, VISION]),
+        "columns" => texts(&[TOPICS.concat().as_str(), TABLE, VISION]),
         "csv" => vec![run()],
         "parquet" => recordings(&["table-none.parquet", "table-zstd.parquet", "table-brotli.parquet"]),
         "mcap" => recordings(&["ros2-zstd.mcap", "ros2-lz4.mcap"]),

@@ -7,8 +7,7 @@ const ROBOT: &str = include_str!("../../../examples/feup-3w/robot.toml");
 
 const DRIVE: &str = "[[file]]\nname = \"drive.csv\"\n\n";
 
-const POSE: &str = "[[file]]\ntopic = \"yellow/3\"\n[file.columns]\nx_m = { from = \"x\", unit = \"mm\" }\n\
-                    y_m = { from = \"y\", unit = \"mm\" }\ntheta_rad = { from = \"orientation\" }\n";
+const POSE: &str = include_str!("../recordings/columns/vision.toml");
 
 fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recordings").join(name)
