@@ -29,6 +29,7 @@ mod flash_store;
 mod parts;
 mod sensor_bus;
 mod serial;
+mod typed;
 mod watchdog;
 
 use cortex_m::peripheral::DWT;

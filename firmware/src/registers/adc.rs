@@ -10,35 +10,57 @@
 
 use super::pins::{self, Pin, RANKS};
 use super::timing::SAMPLE_CYCLES;
+use super::words::{Field, Word};
 
-/// CR1: scan the ranks.
-const SCAN: u32 = 1 << 8;
-/// CR1: interrupt at the end of the injected group.
-const JEOCIE: u32 = 1 << 7;
-/// CR2: converter on.
-const ADON: u32 = 1;
-/// CR2, JEXTEN: rising edge.
-const RISING: u32 = 0b01 << 20;
-/// CR2, JEXTSEL: TIM1's TRGO.
-const TIM1_TRGO: u32 = 0b0001 << 16;
+/// Status register
+pub enum Sr {}
+/// Control register 1
+pub enum Cr1 {}
+/// Control register 2
+pub enum Cr2 {}
+/// Sample time register 1
+pub enum Smpr1 {}
+/// Sample time register 2
+pub enum Smpr2 {}
+/// Injected sequence register
+pub enum Jsqr {}
+/// Regular sequence register 1
+pub enum Sqr1 {}
+/// Regular sequence register 3
+pub enum Sqr3 {}
+/// Common control register
+pub enum Ccr {}
 
+const AWD: Field<Sr> = Field::at(0, 1);
 /// SR: a regular conversion is over.
-pub const EOC: u32 = 1 << 1;
+pub const EOC: Field<Sr> = Field::at(1, 1);
 /// SR: the injected group is over.
-pub const JEOC: u32 = 1 << 2;
+pub const JEOC: Field<Sr> = Field::at(2, 1);
+const STRT: Field<Sr> = Field::at(4, 1);
+const OVR: Field<Sr> = Field::at(5, 1);
 /// SR: what [`JEOC`]'s handler writes; a zero clears, a one leaves (JEOC and JSTRT are cleared).
-pub const SR_SEEN: u32 = 0b11_0011;
-/// CR2: start the regular conversion.
-pub const SWSTART: u32 = 1 << 30;
+pub const SR_SEEN: Word<Sr> = Word::ones([AWD, EOC, STRT, OVR]);
 
-/// CR1 of ADC1, ADC2, ADC3.
-pub const CR1: [u32; 3] = [SCAN | JEOCIE, SCAN, SCAN];
+const JEOCIE: Field<Cr1> = Field::at(7, 1);
+const SCAN: Field<Cr1> = Field::at(8, 1);
+/// CR1 of ADC1, ADC2, ADC3: all ranks, and one interrupt at their end.
+pub const CR1: [Word<Cr1>; 3] = [Word::ones([SCAN, JEOCIE]), Word::ones([SCAN]), Word::ones([SCAN])];
+
+const ADON: Field<Cr2> = Field::at(0, 1);
+const JEXTSEL: Field<Cr2> = Field::at(16, 4);
+const JEXTEN: Field<Cr2> = Field::at(20, 2);
+const SWSTART: Field<Cr2> = Field::at(30, 1);
 /// CR2 of all three while asleep: on, but nothing triggers.
-pub const CR2_ASLEEP: u32 = ADON;
-/// CR2 of ADC1 once started; the slaves stay at [`CR2_ASLEEP`].
-pub const CR2_TRIGGERED: u32 = ADON | RISING | TIM1_TRGO;
-/// CCR: MULTI = triple, injected simultaneous only; ADCPRE = second bus by 4.
-pub const CCR: u32 = (0b01 << 16) | 0b1_0101;
+pub const CR2_ASLEEP: Word<Cr2> = Word::ZERO.with(ADON, 1);
+/// CR2 of ADC1 once started: rising edges of TIM1's TRGO; the slaves stay at [`CR2_ASLEEP`].
+pub const CR2_TRIGGERED: Word<Cr2> = CR2_ASLEEP.with(JEXTEN, 0b01).with(JEXTSEL, 0b0001);
+/// CR2, added: start the regular conversion.
+pub const CR2_CONVERT: Word<Cr2> = Word::ZERO.with(SWSTART, 1);
+
+const MULTI: Field<Ccr> = Field::at(0, 5);
+const ADCPRE: Field<Ccr> = Field::at(16, 2);
+/// CCR: triple, injected simultaneous only; second bus by 4.
+pub const CCR: Word<Ccr> = Word::ZERO.with(MULTI, 0b1_0101).with(ADCPRE, 0b01);
 
 /// Code of a sampling time [cycles] in SMPR; there are eight.
 const fn sample_code(cycles: u32) -> u32 {
@@ -58,34 +80,46 @@ const fn sample_code(cycles: u32) -> u32 {
 /// Sampling of the supply [cycles of the converters]: its divider has some kΩ, and there is time.
 pub const BUS_SAMPLE_CYCLES: u32 = 84;
 
-const fn sample_times(from: u32, to: u32) -> u32 {
-    let mut word = 0;
+/// A field of three bits for each channel.
+const fn sample_times<R>(from: u32, to: u32) -> Word<R> {
+    let mut word = Word::ZERO;
     let mut channel = from;
     while channel <= to {
-        let cycles = if channel == channel_of(pins::bus()) { BUS_SAMPLE_CYCLES } else { SAMPLE_CYCLES };
-        word |= sample_code(cycles) << (3 * (channel - from));
+        let cycles = if channel == channel_of(pins::bus()) as u32 { BUS_SAMPLE_CYCLES } else { SAMPLE_CYCLES };
+        word = word.with(Field::at(3 * (channel - from), 3), sample_code(cycles));
         channel += 1;
     }
     word
 }
 
 /// SMPR1 of all three: channels 10 to 18.
-pub const SMPR1: u32 = sample_times(10, 18);
+pub const SMPR1: Word<Smpr1> = sample_times(10, 18);
 /// SMPR2 of all three: channels 0 to 9.
-pub const SMPR2: u32 = sample_times(0, 9);
+pub const SMPR2: Word<Smpr2> = sample_times(0, 9);
 
-const fn channel_of(pin: Pin) -> u32 {
+const fn channel_of(pin: Pin) -> u8 {
     match pin.channel() {
-        Some(channel) => channel as u32,
+        Some(channel) => channel,
         None => panic!("a pin without a channel cannot be measured"),
     }
 }
 
+const JSQ1: Field<Jsqr> = Field::at(0, 5);
+const JSQ2: Field<Jsqr> = Field::at(5, 5);
+const JSQ3: Field<Jsqr> = Field::at(10, 5);
+const JSQ4: Field<Jsqr> = Field::at(15, 5);
+const JL: Field<Jsqr> = Field::at(20, 2);
 /// JSQR for four ranks. With all four in use they are converted in order, and rank k's result is in data register k +
 /// 1.
-pub const fn jsqr(channels: [u8; 4]) -> u32 {
+#[inline(always)]
+pub const fn jsqr(channels: [u8; 4]) -> Word<Jsqr> {
     let [first, second, third, fourth] = channels;
-    (3 << 20) | ((fourth as u32) << 15) | ((third as u32) << 10) | ((second as u32) << 5) | first as u32
+    Word::ZERO
+        .with(JL, 4 - 1)
+        .with(JSQ1, first as u32)
+        .with(JSQ2, second as u32)
+        .with(JSQ3, third as u32)
+        .with(JSQ4, fourth as u32)
 }
 
 /// Channels of one converter, rank by rank.
@@ -95,15 +129,24 @@ pub const fn channels(converter: usize) -> [u8; 4] {
     while rank < 4 {
         let pin = RANKS[rank][converter];
         assert!(pin.converters()[converter], "this converter cannot reach this pin");
-        channels[rank] = channel_of(pin) as u8;
+        channels[rank] = channel_of(pin);
         rank += 1;
     }
     channels
 }
 
 /// JSQR of ADC1, ADC2, ADC3.
-pub const JSQR: [u32; 3] = [jsqr(channels(0)), jsqr(channels(1)), jsqr(channels(2))];
+pub const JSQR: [Word<Jsqr>; 3] = [jsqr(channels(0)), jsqr(channels(1)), jsqr(channels(2))];
+
 /// SQR1 of ADC1: one regular conversion.
-pub const SQR1: u32 = 0;
+pub const SQR1: Word<Sqr1> = Word::ZERO;
+
+const SQ1: Field<Sqr3> = Field::at(0, 5);
+/// SQR3 for one regular conversion, of this channel.
+#[inline(always)]
+pub const fn sqr3(channel: u8) -> Word<Sqr3> {
+    Word::ZERO.with(SQ1, channel as u32)
+}
+
 /// SQR3 of ADC1: the supply.
-pub const SQR3: u32 = channel_of(pins::bus());
+pub const SQR3: Word<Sqr3> = sqr3(channel_of(pins::bus()));

@@ -8,22 +8,30 @@
 //! Bosch BST-BMI088-DS001 revision 1.4, SPI timing; AS5047P, ams datasheet v1-01, SPI timing.
 
 use super::timing::{APB2_HZ, CORE_HZ};
+use super::words::{Field, Word};
 
-/// The second bus by 16.
-const BR_16: u16 = 0b011 << 3;
-const CPHA: u16 = 1;
-const MSTR: u16 = 1 << 2;
-const SSI: u16 = 1 << 8;
-const SSM: u16 = 1 << 9;
+/// Control register 1
+pub enum Cr1 {}
+/// Status register
+pub enum Sr {}
 
-/// CR1: on.
-pub const SPE: u16 = 1 << 6;
+const CPHA: Field<Cr1> = Field::at(0, 1);
+const MSTR: Field<Cr1> = Field::at(2, 1);
+const BR: Field<Cr1> = Field::at(3, 3);
+const SPE: Field<Cr1> = Field::at(6, 1);
+const SSI: Field<Cr1> = Field::at(8, 1);
+const SSM: Field<Cr1> = Field::at(9, 1);
+/// BR: the second bus by 16.
+const BY_16: u32 = 0b011;
 /// CR1 of the gyro, off: mode 0.
-pub const CR1_GYRO: u16 = MSTR | SSI | SSM | BR_16;
+pub const CR1_GYRO: Word<Cr1> = Word::ones([MSTR, SSI, SSM]).with(BR, BY_16);
 /// CR1 of an encoder, off: mode 1.
-pub const CR1_ENCODER: u16 = CR1_GYRO | CPHA;
+pub const CR1_ENCODER: Word<Cr1> = CR1_GYRO.with(CPHA, 1);
+/// CR1, added: on.
+pub const CR1_ON: Word<Cr1> = Word::ZERO.with(SPE, 1);
+
 /// SR: a byte has come.
-pub const RXNE: u16 = 1;
+pub const RXNE: Field<Sr> = Field::at(0, 1);
 
 /// The clock [Hz].
 pub const HZ: u32 = APB2_HZ / 16;

@@ -146,6 +146,20 @@ pub const TIM_BDTR: &[Field] = &[
 ];
 pub const TIM_DIER: &[Field] =
     &[("UIE", 0, 1, &[]), ("CC4IE", 4, 1, &[(1, "interrupt at compare 4")]), ("TIE", 6, 1, &[])];
+pub const TIM_SR: &[Field] = &[
+    ("UIF", 0, 1, &[]),
+    ("CC1IF", 1, 1, &[]),
+    ("CC2IF", 2, 1, &[]),
+    ("CC3IF", 3, 1, &[]),
+    ("CC4IF", 4, 1, &[(0, "cleared")]),
+    ("COMIF", 5, 1, &[]),
+    ("TIF", 6, 1, &[]),
+    ("BIF", 7, 1, &[]),
+    ("CC1OF", 9, 1, &[]),
+    ("CC2OF", 10, 1, &[]),
+    ("CC3OF", 11, 1, &[]),
+    ("CC4OF", 12, 1, &[]),
+];
 pub const COUNT: &[Field] = &[("count", 0, 16, &[])];
 pub const USART_BRR: &[Field] = &[("DIV_Fraction", 0, 4, &[]), ("DIV_Mantissa", 4, 12, &[])];
 pub const USART_CR1: &[Field] = &[

@@ -32,8 +32,12 @@ struct Timer {
 
 impl Timer {
     fn new(motor: usize) -> Self {
-        assert_eq!(field(timers::CCMR1, TIM_CCMR1, "OC1PE"), 1, "else a count would be in force when it is written");
-        assert_eq!(field(timers::CCMR1, TIM_CCMR1, "OC1M"), 6, "high below the compare count");
+        assert_eq!(
+            field(timers::CCMR1.bits(), TIM_CCMR1, "OC1PE"),
+            1,
+            "else a count would be in force when it is written"
+        );
+        assert_eq!(field(timers::CCMR1.bits(), TIM_CCMR1, "OC1M"), 6, "high below the compare count");
         Self {
             top: u32::from(timing::TOPS[motor]),
             cycles: u64::from(timing::CORE_HZ / timing::TIMER_HZ[motor]),
@@ -74,10 +78,14 @@ struct Instants {
 
 /// Plays some periods with this CR1; the turn that begins with the third trigger is looked at.
 fn play(cr1: u32) -> [Instants; MOTORS] {
-    assert_eq!(field(timers::CR2_TIM1, TIM_CR2, "MMS"), 7, "OC4REF is TIM1's trigger");
-    assert_eq!(field(timers::CCMR2_TIM1, TIM_CCMR2, "OC4M"), 7, "high from the compare count to the top and back");
-    assert_eq!(field(timers::SMCR_WAITS, TIM_SMCR, "SMS"), 6, "the others begin with it");
-    assert_eq!(field(adc::CR2_TRIGGERED, ADC_CR2, "JEXTEN"), 1, "its rising edge starts the group");
+    assert_eq!(field(timers::CR2_TIM1.bits(), TIM_CR2, "MMS"), 7, "OC4REF is TIM1's trigger");
+    assert_eq!(
+        field(timers::CCMR2_TIM1.bits(), TIM_CCMR2, "OC4M"),
+        7,
+        "high from the compare count to the top and back"
+    );
+    assert_eq!(field(timers::SMCR_WAITS.bits(), TIM_SMCR, "SMS"), 6, "the others begin with it");
+    assert_eq!(field(adc::CR2_TRIGGERED.bits(), ADC_CR2, "JEXTEN"), 1, "its rising edge starts the group");
     // the compare flags of centre-aligned mode 1 rise on the way down, those of mode 2 on the way up
     let flags_on_the_way_up = match field(cr1, TIM_CR1, "CMS") {
         1 => false,
@@ -90,7 +98,7 @@ fn play(cr1: u32) -> [Instants; MOTORS] {
     let (mut triggers, mut triggered_at, mut high, mut latched) = (0, 0, false, false);
     for cycle in 1..8 * u64::from(timing::PERIOD) {
         let counted: [bool; MOTORS] = std::array::from_fn(|motor| all[motor].go_on(cycle));
-        let was = std::mem::replace(&mut high, all[0].count >= timers::CCR4_TIM1);
+        let was = std::mem::replace(&mut high, all[0].count >= u32::from(timers::CCR4_TIM1));
         if high && !was {
             triggers += 1;
             all.iter_mut().for_each(|timer| timer.runs = true);
@@ -103,7 +111,7 @@ fn play(cr1: u32) -> [Instants; MOTORS] {
             }
         }
         // the first latch after the turn's interrupt; the turn is over by then
-        let flag = counted[1] && all[1].count == timers::CCR4_TIM8 && all[1].up == flags_on_the_way_up;
+        let flag = counted[1] && all[1].count == u32::from(timers::CCR4_TIM8) && all[1].up == flags_on_the_way_up;
         if flag && !latched && triggered_at > 0 && cycle > seen[0].end {
             latched = true;
             all.iter_mut().for_each(|timer| timer.preload = timer.top / 2);
@@ -136,7 +144,7 @@ const COUNT: f32 = 3.0 / 8400.0;
 
 #[test]
 fn the_timers_do_what_the_timing_says() {
-    let seen = play(timers::CR1);
+    let seen = play(timers::CR1.bits());
     for (motor, at) in seen.iter().enumerate() {
         let duties = periods(at.sample, at.duties);
         assert!((duties - (timing::DUTIES - timing::SAMPLE)).abs() < COUNT, "motor {motor}: {duties} {at:?}");
@@ -152,7 +160,7 @@ fn the_timers_do_what_the_timing_says() {
 #[test]
 fn a_latch_on_the_way_down_would_be_half_a_period_earlier_and_is_seen() {
     // centre-aligned mode 1: the same count on the other side of the top, and the next update event is the bottom
-    let down = timers::CR1 & !(0b11 << 5) | (0b01 << 5);
+    let down = timers::CR1.bits() & !(0b11 << 5) | (0b01 << 5);
     for at in play(down) {
         assert!((periods(at.sample, at.duties) - 0.5).abs() < COUNT, "{at:?}");
     }

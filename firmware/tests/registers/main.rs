@@ -4,6 +4,7 @@
 mod fields;
 mod instants;
 mod pins;
+mod words;
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -12,40 +13,42 @@ use std::path::Path;
 use fields::*;
 use firmware::codes::MOTORS;
 use firmware::registers::pins::{Pin, RANKS};
+use firmware::registers::words::Word;
 use firmware::registers::{adc, link, spi, timers, timing, watchdog};
 
 /// Every register that the board sets, with its fields.
 fn settings() -> Vec<(String, u32, &'static [Field])> {
-    let mut all: Vec<(String, u32, &'static [Field])> = vec![("ADC common CCR".into(), adc::CCR, ADC_CCR)];
+    let mut all: Vec<(String, u32, &'static [Field])> = vec![("ADC common CCR".into(), adc::CCR.bits(), ADC_CCR)];
     for (converter, (cr1, jsqr)) in adc::CR1.into_iter().zip(adc::JSQR).enumerate() {
         let name = |register: &str| format!("ADC{} {register}", converter + 1);
-        all.push((name("CR1"), cr1, ADC_CR1));
-        all.push((name("CR2, asleep"), adc::CR2_ASLEEP, ADC_CR2));
-        all.push((name("JSQR"), jsqr, ADC_JSQR));
-        all.push((name("SMPR1"), adc::SMPR1, ADC_SMPR1));
-        all.push((name("SMPR2"), adc::SMPR2, ADC_SMPR2));
+        all.push((name("CR1"), cr1.bits(), ADC_CR1));
+        all.push((name("CR2, asleep"), adc::CR2_ASLEEP.bits(), ADC_CR2));
+        all.push((name("JSQR"), jsqr.bits(), ADC_JSQR));
+        all.push((name("SMPR1"), adc::SMPR1.bits(), ADC_SMPR1));
+        all.push((name("SMPR2"), adc::SMPR2.bits(), ADC_SMPR2));
     }
-    let rest: [(&str, u32, &[Field]); 45] = [
-        ("ADC1 SQR1", adc::SQR1, ADC_SQR1),
-        ("ADC1 SQR3", adc::SQR3, ADC_SQR3),
-        ("ADC1 CR2, started", adc::CR2_TRIGGERED, ADC_CR2),
-        ("ADC1 CR2, the supply", adc::CR2_TRIGGERED | adc::SWSTART, ADC_CR2),
-        ("ADC1 SR, the group is over", adc::JEOC, ADC_SR),
-        ("ADC1 SR, the supply is there", adc::EOC, ADC_SR),
-        ("ADC1 SR, ones that leave", adc::SR_SEEN, ADC_SR),
-        ("TIM1 TIM8 TIM3 TIM4 CR1", timers::CR1, TIM_CR1),
-        ("TIM1 CR1, started", timers::CR1 | timers::CEN, TIM_CR1),
-        ("TIM1 CR2", timers::CR2_TIM1, TIM_CR2),
-        ("TIM8 TIM3 TIM4 SMCR", timers::SMCR_WAITS, TIM_SMCR),
-        ("TIM1 TIM8 TIM3 TIM4 CCMR1", timers::CCMR1, TIM_CCMR1),
-        ("TIM1 CCMR2", timers::CCMR2_TIM1, TIM_CCMR2),
-        ("TIM8 TIM3 TIM4 CCMR2", timers::CCMR2, TIM_CCMR2),
-        ("TIM1 TIM8 TIM3 TIM4 CCER", timers::CCER, TIM_CCER),
-        ("TIM1 TIM8 BDTR, asleep", timers::BDTR_ASLEEP, TIM_BDTR),
-        ("TIM1 TIM8 BDTR, started", timers::BDTR_STARTED, TIM_BDTR),
-        ("TIM8 DIER", timers::DIER_TIM8, TIM_DIER),
-        ("TIM1 CCR4, the trigger", timers::CCR4_TIM1, COUNT),
-        ("TIM8 CCR4, the latch", timers::CCR4_TIM8, COUNT),
+    let rest: [(&str, u32, &[Field]); 46] = [
+        ("ADC1 SQR1", adc::SQR1.bits(), ADC_SQR1),
+        ("ADC1 SQR3", adc::SQR3.bits(), ADC_SQR3),
+        ("ADC1 CR2, started", adc::CR2_TRIGGERED.bits(), ADC_CR2),
+        ("ADC1 CR2, the supply", (adc::CR2_TRIGGERED | adc::CR2_CONVERT).bits(), ADC_CR2),
+        ("ADC1 SR, the group is over", Word::ones([adc::JEOC]).bits(), ADC_SR),
+        ("ADC1 SR, the supply is there", Word::ones([adc::EOC]).bits(), ADC_SR),
+        ("ADC1 SR, ones that leave", adc::SR_SEEN.bits(), ADC_SR),
+        ("TIM1 TIM8 TIM3 TIM4 CR1", timers::CR1.bits(), TIM_CR1),
+        ("TIM1 CR1, started", timers::CR1_RUNS.bits(), TIM_CR1),
+        ("TIM1 CR2", timers::CR2_TIM1.bits(), TIM_CR2),
+        ("TIM8 TIM3 TIM4 SMCR", timers::SMCR_WAITS.bits(), TIM_SMCR),
+        ("TIM1 TIM8 TIM3 TIM4 CCMR1", timers::CCMR1.bits(), TIM_CCMR1),
+        ("TIM1 CCMR2", timers::CCMR2_TIM1.bits(), TIM_CCMR2),
+        ("TIM8 TIM3 TIM4 CCMR2", timers::CCMR2.bits(), TIM_CCMR2),
+        ("TIM1 TIM8 TIM3 TIM4 CCER", timers::CCER.bits(), TIM_CCER),
+        ("TIM1 TIM8 BDTR, asleep", timers::BDTR_ASLEEP.bits(), TIM_BDTR),
+        ("TIM1 TIM8 BDTR, started", timers::BDTR_STARTED.bits(), TIM_BDTR),
+        ("TIM8 DIER", timers::DIER_TIM8.bits(), TIM_DIER),
+        ("TIM8 SR, ones that leave", timers::SR_LATCHED.bits(), TIM_SR),
+        ("TIM1 CCR4, the trigger", u32::from(timers::CCR4_TIM1), COUNT),
+        ("TIM8 CCR4, the latch", u32::from(timers::CCR4_TIM8), COUNT),
         ("TIM1 ARR", u32::from(timing::TOPS[0]), COUNT),
         ("TIM8 ARR", u32::from(timing::TOPS[1]), COUNT),
         ("TIM3 ARR", u32::from(timing::TOPS[2]), COUNT),
@@ -54,23 +57,23 @@ fn settings() -> Vec<(String, u32, &'static [Field])> {
         ("TIM8 CNT, at the start", u32::from(timing::START[1]), COUNT),
         ("TIM3 CNT, at the start", u32::from(timing::START[2]), COUNT),
         ("TIM4 CNT, at the start", u32::from(timing::START[3]), COUNT),
-        ("USART3 BRR", u32::from(link::BRR), USART_BRR),
-        ("USART3 CR1", u32::from(link::CR1), USART_CR1),
-        ("USART3 CR3", u32::from(link::CR3), USART_CR3),
-        ("DMA1 stream 1 CR, in", link::IN_CR, DMA_CR),
-        ("DMA1 stream 3 CR, out", link::OUT_CR, DMA_CR),
-        ("DMA1 LIFCR", link::OUT_CLEAR, DMA_LIFCR),
-        ("SPI1 CR1, gyro", u32::from(spi::CR1_GYRO), SPI_CR1),
-        ("SPI1 CR1, encoder", u32::from(spi::CR1_ENCODER), SPI_CR1),
-        ("SPI1 CR1, encoder, on", u32::from(spi::CR1_ENCODER | spi::SPE), SPI_CR1),
-        ("SPI1 SR", u32::from(spi::RXNE), SPI_SR),
-        ("IWDG PR", u32::from(watchdog::PR), IWDG_PR),
-        ("IWDG RLR", u32::from(watchdog::RLR), IWDG_RLR),
-        ("IWDG PR, while erasing", u32::from(watchdog::PR_LONG), IWDG_PR),
-        ("IWDG RLR, while erasing", u32::from(watchdog::RLR_LONG), IWDG_RLR),
-        ("RCC CR, added", watchdog::CLOCK_SECURITY, RCC_CR),
-        ("RCC CSR, after a bite", watchdog::RESTARTED, RCC_CSR),
-        ("RCC CSR, added", watchdog::FORGET, RCC_CSR),
+        ("USART3 BRR", link::BRR.bits(), USART_BRR),
+        ("USART3 CR1", link::CR1.bits(), USART_CR1),
+        ("USART3 CR3", link::CR3.bits(), USART_CR3),
+        ("DMA1 stream 1 CR, in", link::IN_CR.bits(), DMA_CR),
+        ("DMA1 stream 3 CR, out", link::OUT_CR.bits(), DMA_CR),
+        ("DMA1 LIFCR", link::OUT_CLEAR.bits(), DMA_LIFCR),
+        ("SPI1 CR1, gyro", spi::CR1_GYRO.bits(), SPI_CR1),
+        ("SPI1 CR1, encoder", spi::CR1_ENCODER.bits(), SPI_CR1),
+        ("SPI1 CR1, encoder, on", (spi::CR1_ENCODER | spi::CR1_ON).bits(), SPI_CR1),
+        ("SPI1 SR", Word::ones([spi::RXNE]).bits(), SPI_SR),
+        ("IWDG PR", watchdog::PR.bits(), IWDG_PR),
+        ("IWDG RLR", watchdog::RLR.bits(), IWDG_RLR),
+        ("IWDG PR, while erasing", watchdog::PR_LONG.bits(), IWDG_PR),
+        ("IWDG RLR, while erasing", watchdog::RLR_LONG.bits(), IWDG_RLR),
+        ("RCC CR, added", watchdog::CLOCK_SECURITY.bits(), RCC_CR),
+        ("RCC CSR, after a bite", Word::ones([watchdog::IWDGRSTF]).bits(), RCC_CSR),
+        ("RCC CSR, added", watchdog::FORGET.bits(), RCC_CSR),
     ];
     all.extend(rest.into_iter().map(|(name, value, fields)| (name.to_string(), value, fields)));
     all
@@ -152,11 +155,11 @@ fn no_register_sets_a_bit_without_a_field() {
 
 #[test]
 fn only_the_master_converter_has_a_trigger_and_an_interrupt() {
-    assert_eq!(field(adc::CR2_TRIGGERED, ADC_CR2, "JEXTEN"), 1);
-    assert_eq!(field(adc::CR2_TRIGGERED, ADC_CR2, "JEXTSEL"), 1, "TIM1_TRGO");
-    assert_eq!(field(adc::CR2_ASLEEP, ADC_CR2, "JEXTEN"), 0, "which the slaves keep");
-    assert_eq!(adc::CR1.map(|cr1| field(cr1, ADC_CR1, "JEOCIE")), [1, 0, 0]);
-    assert_eq!(field(adc::CCR, ADC_CCR, "MULTI"), 0b10101);
+    assert_eq!(field(adc::CR2_TRIGGERED.bits(), ADC_CR2, "JEXTEN"), 1);
+    assert_eq!(field(adc::CR2_TRIGGERED.bits(), ADC_CR2, "JEXTSEL"), 1, "TIM1_TRGO");
+    assert_eq!(field(adc::CR2_ASLEEP.bits(), ADC_CR2, "JEXTEN"), 0, "which the slaves keep");
+    assert_eq!(adc::CR1.map(|cr1| field(cr1.bits(), ADC_CR1, "JEOCIE")), [1, 0, 0]);
+    assert_eq!(field(adc::CCR.bits(), ADC_CCR, "MULTI"), 0b10101);
 }
 
 #[test]
@@ -180,13 +183,13 @@ fn every_rank_reads_three_pins_that_its_converters_reach() {
             assert!(reaches(converter, *pin), "ADC{} cannot reach P{}{}", converter + 1, pin.port, pin.number);
             assert!(seen.insert((pin.port, pin.number)), "P{}{} is sampled twice", pin.port, pin.number);
             let rank_field = ["JSQ1", "JSQ2", "JSQ3", "JSQ4"][rank];
-            assert_eq!(field(adc::JSQR[converter], ADC_JSQR, rank_field), channels(*pin));
+            assert_eq!(field(adc::JSQR[converter].bits(), ADC_JSQR, rank_field), channels(*pin));
             let expected = format!("ADC{}_IN{}", converter + 1, channels(*pin));
             assert_eq!(pin.inside, expected, "what the list of pins says");
         }
     }
     assert_eq!(seen.len(), 12);
-    assert!(adc::JSQR.iter().all(|jsqr| field(*jsqr, ADC_JSQR, "JL") == 3));
+    assert!(adc::JSQR.iter().all(|jsqr| field(jsqr.bits(), ADC_JSQR, "JL") == 3));
 }
 
 /// Where a timer's count is, core cycles after the slaves' start, and whether it goes up.
@@ -271,10 +274,10 @@ fn the_emulated_board_has_the_same_tops() {
 #[test]
 fn the_baud_rate_is_exact() {
     assert_eq!(timing::APB1_HZ % link::BAUD, 0);
-    assert_eq!(timing::APB1_HZ / u32::from(link::BRR), link::BAUD);
+    assert_eq!(timing::APB1_HZ / link::BRR.bits(), link::BAUD);
     // RM0090, USART: USARTDIV = mantissa + fraction / 16; baud = clock / (16 · USARTDIV)
     assert_eq!(
-        (field(link::BRR.into(), USART_BRR, "DIV_Mantissa"), field(link::BRR.into(), USART_BRR, "DIV_Fraction")),
+        (field(link::BRR.bits(), USART_BRR, "DIV_Mantissa"), field(link::BRR.bits(), USART_BRR, "DIV_Fraction")),
         (1, 5)
     );
 }
@@ -297,8 +300,8 @@ fn the_bus_of_the_sensors_is_as_fast_and_as_patient_as_their_data_sheets_ask() {
     assert!(us(spi::SELECT_CYCLES) >= 0.35 && us(spi::SELECT_CYCLES) < 0.36);
     assert_eq!(spi::BYTE_CYCLES, 256);
     // the BMI088 samples at the first edge of a clock that idles low, the AS5047P at the second
-    assert_eq!([spi::CR1_GYRO, spi::CR1_ENCODER].map(|cr1| field(cr1.into(), SPI_CR1, "CPHA")), [0, 1]);
-    assert_eq!([spi::CR1_GYRO, spi::CR1_ENCODER].map(|cr1| field(cr1.into(), SPI_CR1, "CPOL")), [0, 0]);
+    assert_eq!([spi::CR1_GYRO, spi::CR1_ENCODER].map(|cr1| field(cr1.bits(), SPI_CR1, "CPHA")), [0, 1]);
+    assert_eq!([spi::CR1_GYRO, spi::CR1_ENCODER].map(|cr1| field(cr1.bits(), SPI_CR1, "CPOL")), [0, 0]);
 }
 
 #[test]

@@ -10,10 +10,12 @@ use stm32f4xx_hal::gpio::{Input, Output, PA11, PA12, PA15, PB9, PB10, PB11, PB12
 use stm32f4xx_hal::gpio::{PC9, PC12, PC13, PD0, PD1, PD2, PD3};
 use stm32f4xx_hal::pac::{self, Interrupt, adc1, interrupt};
 
+use super::typed::{Get, Put};
 use crate::codes::{Codes, MOTORS};
 use crate::drivers::fault::FaultLine;
 use crate::drivers::gate::GateDriver;
 use crate::drivers::halls::HallLines;
+use crate::registers::words::Word;
 use crate::registers::{adc, timers, timing};
 
 /// Compare counts that wait for the latch.
@@ -31,8 +33,8 @@ pub fn any_closed() -> bool {
 /// Lets the turns come, at first or after the core stood still: what the converters ended until now is nobody's, the next turn
 /// comes with the next group, at its time.
 pub fn resume_turns() {
-    // SAFETY: one store to a flag register: ones leave flags as they are, the zeros clear those of the injected group.
-    unsafe { (*pac::ADC1::PTR).sr().write(|w| w.bits(adc::SR_SEEN)) };
+    // SAFETY: one store to a flag register, which clears those of the injected group.
+    unsafe { (*pac::ADC1::PTR).sr().put(adc::SR_SEEN) };
     NVIC::unpend(Interrupt::ADC);
     // SAFETY: the program has bound its turn to this interrupt, and calls this outside of all critical sections but one that
     // masks every interrupt.
@@ -111,43 +113,39 @@ impl Bridges {
         // the supply is known before the first period; 4.6 µs, and the loop ends without a converter too
         convert(first, adc::CR2_ASLEEP);
         for _ in 0..1_000 {
-            if first.sr().read().bits() & adc::EOC != 0 {
+            if first.sr().get().has(adc::EOC) {
                 break;
             }
         }
         self.bus = result(first);
 
         let (tim1, tim8, tim3, tim4) = &self.timers;
-        // SAFETY: the values are those of `registers`, whose test reads them back; every one is legal for its register.
-        unsafe {
-            first.sr().write(|w| w.bits(adc::SR_SEEN));
-            first.cr2().write(|w| w.bits(adc::CR2_TRIGGERED));
-            // counts are written while the counters stand, as centre-aligned timers ask for
-            tim1.cnt().write(|w| w.bits(u32::from(timing::START[0])));
-            tim8.cnt().write(|w| w.bits(u32::from(timing::START[1])));
-            tim3.cnt().write(|w| w.bits(u32::from(timing::START[2])));
-            tim4.cnt().write(|w| w.bits(u32::from(timing::START[3])));
-            tim8.sr().write(|w| w.bits(timers::SR_LATCHED));
-            tim8.dier().write(|w| w.bits(timers::DIER_TIM8));
-            // all compare counts are zero: the outputs go from low to low
-            tim1.bdtr().write(|w| w.bits(timers::BDTR_STARTED));
-            tim8.bdtr().write(|w| w.bits(timers::BDTR_STARTED));
-            // SAFETY: the handler of this interrupt is below, shares nothing but atomics, and masks no critical
-            // section.
-            NVIC::unmask(Interrupt::TIM8_CC);
-            // TIM1 begins, and its first trigger begins the others
-            tim1.cr1().write(|w| w.bits(timers::CR1 | timers::CEN));
-        }
+        first.sr().put(adc::SR_SEEN);
+        first.cr2().put(adc::CR2_TRIGGERED);
+        // counts are written while the counters stand, as centre-aligned timers ask for
+        tim1.cnt().write(|w| w.cnt().set(timing::START[0]));
+        tim8.cnt().write(|w| w.cnt().set(timing::START[1]));
+        tim3.cnt().write(|w| w.cnt().set(timing::START[2]));
+        tim4.cnt().write(|w| w.cnt().set(timing::START[3]));
+        tim8.sr().put(timers::SR_LATCHED);
+        tim8.dier().put(timers::DIER_TIM8);
+        // all compare counts are zero: the outputs go from low to low
+        tim1.bdtr().put(timers::BDTR_STARTED);
+        tim8.bdtr().put(timers::BDTR_STARTED);
+        // SAFETY: the handler of this interrupt is below, shares nothing but atomics, and masks no critical
+        // section.
+        unsafe { NVIC::unmask(Interrupt::TIM8_CC) };
+        // TIM1 begins, and its first trigger begins the others
+        tim1.cr1().put(timers::CR1_RUNS);
     }
 
     /// What was measured in this period. Called once a period, first of all.
     #[inline]
     pub fn read(&mut self) -> Codes {
         let (first, second, third) = &self.converters;
-        let status = first.sr().read().bits();
-        // SAFETY: ones leave the flags as they are, the zeros clear those of the injected group.
-        unsafe { first.sr().write(|w| w.bits(adc::SR_SEEN)) };
-        if status & adc::EOC != 0 {
+        let status = first.sr().get();
+        first.sr().put(adc::SR_SEEN);
+        if status.has(adc::EOC) {
             self.bus = result(first);
         }
         let [a, b, c] = [group(first), group(second), group(third)];
@@ -213,18 +211,18 @@ fn result(converter: &adc1::RegisterBlock) -> AdcCode {
 
 /// Starts the regular conversion of a converter that is otherwise set to `cr2`.
 #[inline]
-fn convert(converter: &adc1::RegisterBlock, cr2: u32) {
-    // SAFETY: the start bit added to a legal value; hardware clears it.
-    unsafe { converter.cr2().write(|w| w.bits(cr2 | adc::SWSTART)) };
+fn convert(converter: &adc1::RegisterBlock, cr2: Word<adc::Cr2>) {
+    // hardware clears what is added
+    converter.cr2().put(cr2 | adc::CR2_CONVERT);
 }
 
 /// Copies the counts of a motor into its timer's compare registers; the timers are of two types.
 macro_rules! latch {
     ($timer:ident, $counts:ident) => {
         let [a, b, c] = $counts;
-        $timer.ccr1().write(|w| w.bits(u32::from(a.load(Ordering::Relaxed))));
-        $timer.ccr2().write(|w| w.bits(u32::from(b.load(Ordering::Relaxed))));
-        $timer.ccr3().write(|w| w.bits(u32::from(c.load(Ordering::Relaxed))));
+        $timer.ccr1().write(|w| w.ccr().set(a.load(Ordering::Relaxed)));
+        $timer.ccr2().write(|w| w.ccr().set(b.load(Ordering::Relaxed)));
+        $timer.ccr3().write(|w| w.ccr().set(c.load(Ordering::Relaxed)));
     };
 }
 
@@ -232,18 +230,16 @@ macro_rules! latch {
 #[interrupt]
 fn TIM8_CC() {
     // SAFETY: `take` has handed the timers to `Bridges`, which after `start` never writes a compare or status register,
-    // so that this handler is the only one to do so. Counts are held to the timers' tops by `compare`.
-    unsafe {
-        let (tim1, tim8) = (&*pac::TIM1::PTR, &*pac::TIM8::PTR);
-        let (tim3, tim4) = (&*pac::TIM3::PTR, &*pac::TIM4::PTR);
-        tim8.sr().write(|w| w.bits(timers::SR_LATCHED));
-        if !WHOLE.load(Ordering::Relaxed) {
-            return;
-        }
-        let [first, second, third, fourth] = &PENDING;
-        latch!(tim1, first);
-        latch!(tim8, second);
-        latch!(tim3, third);
-        latch!(tim4, fourth);
+    // so that this handler is the only one to do so.
+    let (tim1, tim8, tim3, tim4) = unsafe { (&*pac::TIM1::PTR, &*pac::TIM8::PTR, &*pac::TIM3::PTR, &*pac::TIM4::PTR) };
+    tim8.sr().put(timers::SR_LATCHED);
+    if !WHOLE.load(Ordering::Relaxed) {
+        return;
     }
+    // `compare` holds them to the timers' tops
+    let [first, second, third, fourth] = &PENDING;
+    latch!(tim1, first);
+    latch!(tim8, second);
+    latch!(tim3, third);
+    latch!(tim4, fourth);
 }

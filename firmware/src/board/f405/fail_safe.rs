@@ -14,6 +14,7 @@
 use cortex_m::{asm, interrupt};
 use stm32f4xx_hal::pac;
 
+use super::typed::Put;
 use crate::registers::{pins, timers, watchdog};
 
 /// The enables on port A go low.
@@ -29,9 +30,9 @@ pub extern "C" fn fail_safe() -> ! {
     unsafe {
         (*pac::GPIOA::PTR).bsrr().write(|w| w.bits(A_LOW));
         (*pac::GPIOB::PTR).bsrr().write(|w| w.bits(B_LOW));
-        (*pac::TIM1::PTR).bdtr().write(|w| w.bits(timers::BDTR_ASLEEP));
-        (*pac::TIM8::PTR).bdtr().write(|w| w.bits(timers::BDTR_ASLEEP));
-        (*pac::IWDG::PTR).kr().write(|w| w.bits(watchdog::START));
+        (*pac::TIM1::PTR).bdtr().put(timers::BDTR_ASLEEP);
+        (*pac::TIM8::PTR).bdtr().put(timers::BDTR_ASLEEP);
+        (*pac::IWDG::PTR).kr().put(watchdog::START);
     }
     loop {
         asm::nop();

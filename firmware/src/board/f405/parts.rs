@@ -18,10 +18,12 @@ use super::bridges::{AllHalls, Bridges, Gates, Phase};
 use super::flash_store::FlashStore;
 use super::sensor_bus::{MotionSensors, SensorDevice};
 use super::serial::SerialLink;
+use super::typed::{Get, Put};
 use super::watchdog::Watchdog;
 use crate::drivers::fault::FaultLine;
 use crate::drivers::gate::GateDriver;
 use crate::drivers::halls::HallLines;
+use crate::registers::words::Word;
 use crate::registers::{adc, spi, timers, timing, watchdog};
 
 /// The board's crystal [Hz]; 4 to 26 MHz.
@@ -49,8 +51,8 @@ pub fn take(mut core: cortex_m::Peripherals, device: pac::Peripherals) -> Parts 
         .pclk1(timing::APB1_HZ.Hz())
         .pclk2(timing::APB2_HZ.Hz());
     let mut rcc = device.RCC.freeze(clocks);
-    // SAFETY: one bit added to what stands there; the crystal runs by now.
-    rcc.cr().modify(|r, w| unsafe { w.bits(r.bits() | watchdog::CLOCK_SECURITY) });
+    // the crystal runs by now
+    rcc.cr().put(rcc.cr().get() | watchdog::CLOCK_SECURITY);
     core.DCB.enable_trace();
     core.DWT.enable_cycle_counter();
 
@@ -110,7 +112,7 @@ pub fn take(mut core: cortex_m::Peripherals, device: pac::Peripherals) -> Parts 
             reaches::<pac::ADC3, _>(gpioc.pc3.into_analog()),
         ]),
     ];
-    let bus = u32::from(reaches::<pac::ADC1, _>(gpiob.pb1.into_analog()));
+    let bus = adc::sqr3(reaches::<pac::ADC1, _>(gpiob.pb1.into_analog()));
     pac::ADC1::enable(&mut rcc);
     pac::ADC2::enable(&mut rcc);
     pac::ADC3::enable(&mut rcc);
@@ -243,63 +245,56 @@ fn select<const N: u8>(pin: Pin<'D', N>) -> PDn<Output> {
 /// What all four timers have in common; they are of two types.
 macro_rules! set_up {
     ($timer:expr, $top:expr) => {
-        $timer.cr1().write(|w| w.bits(timers::CR1));
-        $timer.arr().write(|w| w.bits(u32::from($top)));
-        $timer.ccmr1_output().write(|w| w.bits(timers::CCMR1));
-        $timer.ccer().write(|w| w.bits(timers::CCER));
+        $timer.cr1().put(timers::CR1);
+        $timer.arr().write(|w| w.arr().set($top));
+        $timer.ccmr1_output().put(timers::CCMR1);
+        $timer.ccer().put(timers::CCER);
     };
 }
 
 fn set_up_timers((tim1, tim8, tim3, tim4): &(pac::TIM1, pac::TIM8, pac::TIM3, pac::TIM4)) {
     let [top1, top8, top3, top4] = timing::TOPS;
-    // SAFETY: the values are those of `registers`, whose test reads them back; every one is legal for its register, and
-    // no counter runs yet. Registers that are not named here stay as the reset leaves them: zero.
-    unsafe {
-        tim1.bdtr().write(|w| w.bits(timers::BDTR_ASLEEP));
-        tim8.bdtr().write(|w| w.bits(timers::BDTR_ASLEEP));
-        set_up!(tim1, top1);
-        set_up!(tim8, top8);
-        set_up!(tim3, top3);
-        set_up!(tim4, top4);
-        tim1.ccr4().write(|w| w.bits(timers::CCR4_TIM1));
-        tim8.ccr4().write(|w| w.bits(timers::CCR4_TIM8));
-        tim1.ccmr2_output().write(|w| w.bits(timers::CCMR2_TIM1));
-        tim8.ccmr2_output().write(|w| w.bits(timers::CCMR2));
-        tim3.ccmr2_output().write(|w| w.bits(timers::CCMR2));
-        tim4.ccmr2_output().write(|w| w.bits(timers::CCMR2));
-        // the preloaded registers are loaded before TIM1's signal leads anywhere
-        tim1.egr().write(|w| w.bits(timers::UG));
-        tim8.egr().write(|w| w.bits(timers::UG));
-        tim3.egr().write(|w| w.bits(timers::UG));
-        tim4.egr().write(|w| w.bits(timers::UG));
-        tim1.cr2().write(|w| w.bits(timers::CR2_TIM1));
-        tim8.smcr().write(|w| w.bits(timers::SMCR_WAITS));
-        tim3.smcr().write(|w| w.bits(timers::SMCR_WAITS));
-        tim4.smcr().write(|w| w.bits(timers::SMCR_WAITS));
-    }
+    // no counter runs yet; registers that are not named here stay as the reset leaves them: zero
+    tim1.bdtr().put(timers::BDTR_ASLEEP);
+    tim8.bdtr().put(timers::BDTR_ASLEEP);
+    set_up!(tim1, top1);
+    set_up!(tim8, top8);
+    set_up!(tim3, top3);
+    set_up!(tim4, top4);
+    tim1.ccr4().write(|w| w.ccr().set(timers::CCR4_TIM1));
+    tim8.ccr4().write(|w| w.ccr().set(timers::CCR4_TIM8));
+    tim1.ccmr2_output().put(timers::CCMR2_TIM1);
+    tim8.ccmr2_output().put(timers::CCMR2);
+    tim3.ccmr2_output().put(timers::CCMR2);
+    tim4.ccmr2_output().put(timers::CCMR2);
+    // the preloaded registers are loaded before TIM1's signal leads anywhere
+    tim1.egr().write(|w| w.ug().set_bit());
+    tim8.egr().write(|w| w.ug().set_bit());
+    tim3.egr().write(|w| w.ug().set_bit());
+    tim4.egr().write(|w| w.ug().set_bit());
+    tim1.cr2().put(timers::CR2_TIM1);
+    tim8.smcr().put(timers::SMCR_WAITS);
+    tim3.smcr().put(timers::SMCR_WAITS);
+    tim4.smcr().put(timers::SMCR_WAITS);
 }
 
 fn set_up_converters(
     (first, second, third): &(pac::ADC1, pac::ADC2, pac::ADC3),
     common: &pac::ADC_COMMON,
-    ranks: [u32; 3],
-    bus: u32,
+    ranks: [Word<adc::Jsqr>; 3],
+    bus: Word<adc::Sqr3>,
 ) {
-    // SAFETY: the values are those of `registers`, whose test reads them back; every one is legal for its register, and
-    // no converter is triggered yet.
-    unsafe {
-        common.ccr().write(|w| w.bits(adc::CCR));
-        for (converter, (cr1, jsqr)) in [&**first, &**second, &**third].into_iter().zip(adc::CR1.into_iter().zip(ranks))
-        {
-            converter.cr1().write(|w| w.bits(cr1));
-            converter.smpr1().write(|w| w.bits(adc::SMPR1));
-            converter.smpr2().write(|w| w.bits(adc::SMPR2));
-            converter.jsqr().write(|w| w.bits(jsqr));
-            converter.cr2().write(|w| w.bits(adc::CR2_ASLEEP));
-        }
-        first.sqr1().write(|w| w.bits(adc::SQR1));
-        first.sqr3().write(|w| w.bits(bus));
+    // no converter is triggered yet
+    common.ccr().put(adc::CCR);
+    for (converter, (cr1, jsqr)) in [&**first, &**second, &**third].into_iter().zip(adc::CR1.into_iter().zip(ranks)) {
+        converter.cr1().put(cr1);
+        converter.smpr1().put(adc::SMPR1);
+        converter.smpr2().put(adc::SMPR2);
+        converter.jsqr().put(jsqr);
+        converter.cr2().put(adc::CR2_ASLEEP);
     }
+    first.sqr1().put(adc::SQR1);
+    first.sqr3().put(bus);
     // converters need 3 µs after they are switched on (DS8626, ADC characteristics, power-up time); this is 10 µs
     asm::delay(timing::CORE_HZ / 100_000);
 }

@@ -9,8 +9,10 @@ use stm32f4xx_hal::gpio::gpiod::PDn;
 use stm32f4xx_hal::gpio::{Output, PinExt};
 use stm32f4xx_hal::pac::{self, spi1};
 
+use super::typed::{Get, Put};
 use crate::drivers::sensors::Sensors;
 use crate::registers::spi;
+use crate::registers::words::Word;
 
 /// Gyro and encoders.
 pub type MotionSensors = Sensors<SensorDevice>;
@@ -21,12 +23,12 @@ pub struct SensorDevice {
     /// Its pin of port D, a bit
     pin: u32,
     /// CR1 of its mode, off
-    mode: u16,
+    mode: Word<spi::Cr1>,
 }
 
 impl SensorDevice {
     /// All of them have to go to one owner: each takes the bus for a transfer as if it were its own.
-    pub(super) fn new(select: PDn<Output>, mode: u16) -> Self {
+    pub(super) fn new(select: PDn<Output>, mode: Word<spi::Cr1>) -> Self {
         let pin = 1 << (select.pin_id() & 15);
         Self { _select: select, pin, mode }
     }
@@ -73,21 +75,17 @@ fn set_levels(bits: u32) {
 }
 
 /// Clock phase and polarity change while the bus is off and nothing is selected.
-fn set_mode(mode: u16) {
-    // SAFETY: the values are those of `registers`, whose test reads them back; no byte is on its way.
-    unsafe {
-        bus().cr1().write(|w| w.bits(mode));
-        bus().cr1().write(|w| w.bits(mode | spi::SPE));
-    }
+fn set_mode(mode: Word<spi::Cr1>) {
+    bus().cr1().put(mode);
+    bus().cr1().put(mode | spi::CR1_ON);
 }
 
 /// Sends a byte; the one that came with it.
 fn exchange(byte: u8) -> Result<u8, ErrorKind> {
-    // SAFETY: every value of a byte is legal for the data register.
-    unsafe { bus().dr().write(|w| w.bits(u16::from(byte))) };
+    bus().dr().write(|w| w.dr().set(u16::from(byte)));
     for _ in 0..spi::MOST_LOOKS {
-        if bus().sr().read().bits() & spi::RXNE != 0 {
-            return Ok(bus().dr().read().bits() as u8);
+        if bus().sr().get().has(spi::RXNE) {
+            return Ok(bus().dr().read().dr().bits() as u8);
         }
     }
     Err(ErrorKind::Other)

@@ -9,6 +9,7 @@ use core::sync::atomic::{Ordering, compiler_fence};
 use cortex_m::asm;
 use stm32f4xx_hal::pac;
 
+use super::typed::{Get, Put};
 use crate::registers::link;
 
 /// Bytes that wait unread: 5 ms of the link.
@@ -48,18 +49,18 @@ impl SerialLink {
     pub(super) fn new(usart: pac::USART3, dma: pac::DMA1) -> Self {
         let data = usart.dr().as_ptr() as u32;
         let (inward, outward) = (dma.st(link::IN_STREAM), dma.st(link::OUT_STREAM));
-        // SAFETY: the values are those of `registers`, whose test reads them back. The streams stand; their addresses
-        // are USART3's data register and a buffer that lives for ever and is as long as the count says.
+        usart.brr().put(link::BRR);
+        usart.cr3().put(link::CR3);
+        usart.cr1().put(link::CR1);
+        // SAFETY: the streams stand; their addresses are USART3's data register and a buffer that lives for ever and is as
+        // long as the count says.
         unsafe {
-            usart.brr().write(|w| w.bits(link::BRR));
-            usart.cr3().write(|w| w.bits(link::CR3));
-            usart.cr1().write(|w| w.bits(link::CR1));
             outward.par().write(|w| w.bits(data));
             inward.par().write(|w| w.bits(data));
             inward.m0ar().write(|w| w.bits(INWARD.start() as u32));
             inward.ndtr().write(|w| w.bits(IN as u32));
-            inward.cr().write(|w| w.bits(link::IN_CR | link::EN));
         }
+        inward.cr().put(link::IN_CR.with(link::EN, 1));
         let [filling, other] = &OUTWARD;
         Self { dma, read: 0, filling, other, filled: 0 }
     }
@@ -79,20 +80,21 @@ impl SerialLink {
     fn go_on(&mut self) {
         let stream = self.dma.st(link::OUT_STREAM);
         // the stream clears its own enable when the last byte has been handed over
-        if self.filled == 0 || stream.cr().read().bits() & link::EN != 0 {
+        if self.filled == 0 || stream.cr().get().has(link::EN) {
             return;
         }
         // the bytes are in memory before the stream runs
         compiler_fence(Ordering::SeqCst);
         asm::dsb();
-        // SAFETY: the stream stands, and its flags are cleared before it runs again, as the manual asks; address and
-        // count are those of the filled buffer, which is not touched until the stream stands again.
+        // flags are cleared before it runs again, as the manual asks
+        self.dma.lifcr().put(link::OUT_CLEAR);
+        // SAFETY: the stream stands; address and count are those of the filled buffer, which is not touched until the stream
+        // stands again.
         unsafe {
-            self.dma.lifcr().write(|w| w.bits(link::OUT_CLEAR));
             stream.m0ar().write(|w| w.bits(self.filling.start() as u32));
             stream.ndtr().write(|w| w.bits(self.filled as u32));
-            stream.cr().write(|w| w.bits(link::OUT_CR | link::EN));
         }
+        stream.cr().put(link::OUT_CR.with(link::EN, 1));
         core::mem::swap(&mut self.filling, &mut self.other);
         self.filled = 0;
     }

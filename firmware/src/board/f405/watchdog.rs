@@ -4,7 +4,9 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 use stm32f4xx_hal::pac;
 
+use super::typed::{Get, Put};
 use crate::registers::watchdog;
+use crate::registers::words::Word;
 
 /// The watchdog runs, and only a reset stops it.
 static RUNNING: AtomicBool = AtomicBool::new(false);
@@ -18,9 +20,8 @@ pub struct Watchdog {
 impl Watchdog {
     /// The watchdog, not started; the clock controller says what the last reset came from, and then forgets it.
     pub(super) fn new(iwdg: pac::IWDG, rcc: &pac::rcc::RegisterBlock) -> Self {
-        let restarted = rcc.csr().read().bits() & watchdog::RESTARTED != 0;
-        // SAFETY: the bit that forgets, added to what stands there.
-        rcc.csr().modify(|r, w| unsafe { w.bits(r.bits() | watchdog::FORGET) });
+        let restarted = rcc.csr().get().has(watchdog::IWDGRSTF);
+        rcc.csr().put(rcc.csr().get() | watchdog::FORGET);
         Self { iwdg, restarted }
     }
 
@@ -32,11 +33,11 @@ impl Watchdog {
     /// Feeds the watchdog; the first time it is started.
     pub fn feed(&mut self) {
         if !RUNNING.load(Ordering::Relaxed) {
-            write_key(&self.iwdg, watchdog::START);
+            self.iwdg.kr().put(watchdog::START);
             set_timeout(&self.iwdg, watchdog::PR, watchdog::RLR);
             RUNNING.store(true, Ordering::Relaxed);
         }
-        write_key(&self.iwdg, watchdog::FEED);
+        self.iwdg.kr().put(watchdog::FEED);
     }
 }
 
@@ -55,29 +56,21 @@ pub(super) fn extend_timeout(while_erasing: bool) {
     }
 }
 
-fn write_key(iwdg: &pac::iwdg::RegisterBlock, key: u16) {
-    // SAFETY: the keys are those that the manual names.
-    unsafe { iwdg.kr().write(|w| w.bits(key)) };
-}
-
 /// Sets after how long an unfed watchdog resets the chip, and feeds it.
-fn set_timeout(iwdg: &pac::iwdg::RegisterBlock, pr: u16, rlr: u16) {
+fn set_timeout(iwdg: &pac::iwdg::RegisterBlock, pr: Word<watchdog::Pr>, rlr: Word<watchdog::Rlr>) {
     wait_for_update(iwdg);
-    write_key(iwdg, watchdog::OPEN);
-    // SAFETY: both fit their fields, and they are open for writing.
-    unsafe {
-        iwdg.pr().write(|w| w.bits(pr));
-        iwdg.rlr().write(|w| w.bits(rlr));
-    }
+    iwdg.kr().put(watchdog::OPEN);
+    iwdg.pr().put(pr);
+    iwdg.rlr().put(rlr);
     wait_for_update(iwdg);
-    write_key(iwdg, watchdog::FEED);
+    iwdg.kr().put(watchdog::FEED);
 }
 
 /// Waits until settings have arrived in the watchdog's clock domain: five of its cycles, 0.3 ms at most; and not for
 /// ever.
 fn wait_for_update(iwdg: &pac::iwdg::RegisterBlock) {
     for _ in 0..20_000 {
-        if iwdg.sr().read().bits() & watchdog::BUSY == 0 {
+        if !iwdg.sr().get().has(watchdog::BUSY) {
             return;
         }
     }
