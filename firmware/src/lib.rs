@@ -33,6 +33,7 @@ pub mod open_phase;
 pub mod probe;
 pub mod sensing;
 pub mod silence;
+pub mod silent_sensors;
 pub mod stall;
 
 pub mod motion;

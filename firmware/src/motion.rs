@@ -112,7 +112,7 @@ struct Heard {
 impl Motion {
     /// Which gyro and encoders the robot has; none without parameters.
     pub fn fitted(&self) -> FittedSensors {
-        self.hello.map_or(FittedSensors::default(), |hello| FittedSensors::of(&hello.sensors))
+        self.hello.map_or(FittedSensors::default(), |hello| FittedSensors::of(&hello.sensors, hello.wheels))
     }
 
     /// One turn.
@@ -160,6 +160,9 @@ impl Motion {
         }
         if inbox.unsaved {
             output.events.add(Event::Unsaved);
+        }
+        if !feedback.silent_sensors.is_empty() {
+            output.events.add(Event::SensorSilent);
         }
         let fresh = inbox.commands != self.commands;
         self.commands = inbox.commands;

@@ -8,21 +8,22 @@ use model_core::link::sensor_codes::{LEAD_PERIODS, SensorCodes, SensorScales};
 
 use crate::codes::PERIODS_PER_TICK;
 use crate::drivers::sensors::FittedSensors;
+use crate::silent_sensors::{SensorSilence, SilentSensors};
 
 /// The period of a motion turn's twenty in which the sensors are read: 0.4 ms before the next, in which all five are read beside
 /// the current turns (`host-tests/golden/chip.md`).
 pub const DUE: u32 = PERIODS_PER_TICK - LEAD_PERIODS;
 
 impl FittedSensors {
-    /// Those that a parameter block knows the scale of.
-    pub fn of(scales: &SensorScales) -> Self {
-        Self { gyro: scales.gyro != 0.0, encoders: scales.encoder != 0.0 }
+    /// Those that a parameter block knows the scale of, of a robot with so many wheels.
+    pub fn of(scales: &SensorScales, wheels: u8) -> Self {
+        Self { gyro: scales.gyro != 0.0, encoders: if scales.encoder != 0.0 { wheels } else { 0 } }
     }
 
     /// What these say, of the codes of all.
     pub fn only(self, codes: &SensorCodes) -> SensorCodes {
         let mut angles = [None; MOTORS];
-        for (j, angle) in angles.iter_mut().enumerate().filter(|_| self.encoders) {
+        for (j, angle) in angles.iter_mut().enumerate().take(self.encoders.into()) {
             *angle = codes.angle(j);
         }
         SensorCodes::of(codes.yaw().filter(|_| self.gyro), angles)
@@ -34,6 +35,7 @@ impl FittedSensors {
 pub struct Sensing {
     fitted: FittedSensors,
     codes: SensorCodes,
+    silence: SensorSilence,
 }
 
 impl Sensing {
@@ -47,9 +49,11 @@ impl Sensing {
         self.codes = codes;
     }
 
-    /// Takes what was read since this was called last, and says what is to be read from now on.
-    pub fn take(&mut self, fitted: FittedSensors) -> SensorCodes {
+    /// Takes what was read since this was called last, and which sensors have not been for long, and says what is to be read from
+    /// now on. Called once a motion turn.
+    pub fn take(&mut self, fitted: FittedSensors) -> (SensorCodes, SilentSensors) {
         self.fitted = fitted;
-        core::mem::take(&mut self.codes)
+        let codes = core::mem::take(&mut self.codes);
+        (codes, self.silence.turn(fitted, &codes))
     }
 }

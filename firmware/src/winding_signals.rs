@@ -5,6 +5,7 @@ use model_core::link::probe::ProbeReport;
 use model_core::link::sensor_codes::SensorCodes;
 
 use crate::codes::{Codes, MOTORS};
+use crate::silent_sensors::SilentSensors;
 
 /// What the motion turn asks of the windings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,4 +57,6 @@ pub struct WindingFeedback {
     pub probe: Option<ProbeReport>,
     /// What gyro and encoders said; the motion's task puts it in
     pub sensors: SensorCodes,
+    /// Gyro and encoders that have said nothing for long; from there too
+    pub silent_sensors: SilentSensors,
 }

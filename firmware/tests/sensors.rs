@@ -10,6 +10,7 @@ use firmware::drivers::as5047p::As5047p;
 use firmware::drivers::bmi088::{Bmi088Gyro, RAD_S_PER_COUNT};
 use firmware::drivers::sensor_error::SensorError;
 use firmware::drivers::sensors::{FittedSensors, Sensors};
+use firmware::silent_sensors::SensorSilence;
 use model_core::link::record::MOTORS;
 use model_core::link::sensor_codes::SensorCodes;
 
@@ -169,7 +170,7 @@ fn an_encoder_without_its_magnet_or_its_zeros_tells_no_angle() {
 
 // --- all of them
 
-const ALL: FittedSensors = FittedSensors { gyro: true, encoders: true };
+const ALL: FittedSensors = FittedSensors { gyro: true, encoders: 4 };
 
 /// The sensors on five mocks, and these.
 fn sensors(gyro: &[Do], encoders: [Vec<Do>; MOTORS]) -> (Sensors<Mock<u8>>, Vec<Mock<u8>>) {
@@ -216,4 +217,37 @@ fn a_sensor_that_fails_is_begun_with_anew_and_costs_the_others_nothing() {
     assert_eq!(told[100], SensorCodes::of(Some(7), [None, Some(9), Some(9), Some(9)]));
     assert_eq!(told[101], SensorCodes::of(Some(8), [Some(6), Some(9), Some(9), Some(9)]));
     mocks.into_iter().for_each(|mut mock| mock.done());
+}
+
+/// A bus whose answer is always this byte.
+struct Stuck(u8);
+
+impl ErrorType for Stuck {
+    type Error = ErrorKind;
+}
+
+impl SpiDevice for Stuck {
+    fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
+        for operation in operations {
+            if let Operation::TransferInPlace(bytes) = operation {
+                bytes.fill(self.0);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Which sensors are silent after so many turns at a bus.
+fn silent_after<S: SpiDevice>(turns: u8, bus: impl Fn() -> S) -> u8 {
+    let mut all = Sensors::new(bus(), [(); MOTORS].map(|()| bus()));
+    let mut silence = SensorSilence::default();
+    (0..turns).map(|_| silence.turn(ALL, &all.read(ALL)).bits()).last().unwrap_or_default()
+}
+
+#[test]
+fn a_bus_that_is_stuck_or_broken_is_a_silence_of_all_after_two_tenths_of_a_second() {
+    for level in [0x00, 0xFF] {
+        assert_eq!([199, 200].map(|turns| silent_after(turns, || Stuck(level))), [0, 0b1_1111]);
+    }
+    assert_eq!([199, 200].map(|turns| silent_after(turns, || Broken)), [0, 0b1_1111]);
 }

@@ -13,15 +13,15 @@ use super::bmi088::Bmi088Gyro;
 use super::sensor_error::SensorError;
 
 /// Turns from one try to begin to the next, 0.1 s; longer than either sensor takes to come up.
-const RETRY: u8 = 100;
+pub const RETRY: u8 = 100;
 
 /// Which sensors the robot has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FittedSensors {
     /// A gyro
     pub gyro: bool,
-    /// An encoder at every wheel
-    pub encoders: bool,
+    /// Encoders, at so many motors from the first one on
+    pub encoders: u8,
 }
 
 /// The sensors at the SPI.
@@ -84,11 +84,9 @@ impl<S: SpiDevice> Sensors<S> {
             yaw = self.gyro_state.turn(&mut self.gyro, Bmi088Gyro::begin, Bmi088Gyro::rate_z);
         }
         let mut angles = [None; MOTORS];
-        if fitted.encoders {
-            let all = self.encoders.iter_mut().zip(&mut self.encoder_states);
-            for (angle, (encoder, state)) in angles.iter_mut().zip(all) {
-                *angle = state.turn(encoder, As5047p::begin, As5047p::angle);
-            }
+        let all = self.encoders.iter_mut().zip(&mut self.encoder_states);
+        for (angle, (encoder, state)) in angles.iter_mut().zip(all).take(fitted.encoders.into()) {
+            *angle = state.turn(encoder, As5047p::begin, As5047p::angle);
         }
         SensorCodes::of(yaw, angles)
     }

@@ -3,6 +3,7 @@
 //! A record tells everything a thousand times a second; a person with a probe and no link sees here when it changes. A line is
 //! written with all interrupts masked, so it is a few bytes, by the task that nobody waits for.
 
+use firmware::silent_sensors::SilentSensors;
 use model_core::link::events::Events;
 use model_core::link::faults::Faults;
 use model_core::link::record::OperatingState;
@@ -16,6 +17,8 @@ pub struct Report {
     pub faults: Faults,
     /// What it does about itself
     pub events: Events,
+    /// Gyro and encoders that do not answer
+    pub silent_sensors: SilentSensors,
 }
 
 /// What was told last.
@@ -31,6 +34,9 @@ impl EventLog {
         }
         for event in report.events.iter().filter(|event| !told.events.has(*event)) {
             defmt::info!("event {=u8}", event as u8);
+        }
+        if report.silent_sensors != told.silent_sensors {
+            defmt::warn!("silent sensors, gyro and encoders 3 to 0: {=u8:05b}", report.silent_sensors.bits());
         }
         if report.state != told.state {
             defmt::info!("{=str}", report.state.name());

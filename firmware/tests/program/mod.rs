@@ -161,7 +161,7 @@ impl Program {
         }
         if self.windings.motion_is_due() {
             let mut feedback = self.windings.feedback();
-            feedback.sensors = self.sensing.take(self.motion.fitted());
+            (feedback.sensors, feedback.silent_sensors) = self.sensing.take(self.motion.fitted());
             self.output = self.motion.tick(&feedback, &mut self.inbox);
             self.refused.extend(self.output.reply.filter(|reply| !reply.taken).map(|reply| reply.reason));
             let setpoints = &self.output.setpoints;

@@ -231,8 +231,11 @@ fn senses(image: &Image, seen: &mut Seen) -> Result<(), Failed> {
     seen.promise("a gyro and encoders that do not answer: every record says so, and nothing else happens", {
         said(&run) == Some(SensorCodes::default()) && !has_fault(&run, Fault::TurnOverrun)
     });
+    let tells = |run: &Run| run.log.records.last().is_some_and(|record| record.events.has(Event::SensorSilent));
+    let told = tells(&run);
     run.lockstep.program.unplugged = false;
     run.wait(BEGUN)?;
+    seen.promise("an event tells of sensors that are silent, until they answer", told && !tells(&run));
     let before = run.lockstep.program.chip.machine().bus.spi.transfers;
     run.follow(0.3, |_| BodyTwist { v: 0.3, vn: 0.0, w: 2.0 })?;
     let after = run.lockstep.program.chip.machine().bus.spi.transfers;

@@ -128,7 +128,7 @@ impl BoardProgram for HostProgram {
         }
         if self.windings.motion_is_due() {
             let mut feedback = self.windings.feedback();
-            feedback.sensors = self.sensing.take(self.motion.fitted());
+            (feedback.sensors, feedback.silent_sensors) = self.sensing.take(self.motion.fitted());
             let mut output = self.motion.tick(&feedback, &mut self.inbox);
             if let Some(law) = &mut self.wheel_pi {
                 law.turn(&feedback, &mut output);

@@ -21,11 +21,13 @@ pub enum Event {
     FoldBack,
     /// The parameters in use are not in the flash: the robot stores them once its bridges are open.
     Unsaved,
+    /// A gyro or an encoder that the parameters know of does not answer: the robot drives as one without it.
+    SensorSilent,
 }
 
 impl Event {
     /// All of them, in the order of their bits.
-    pub const ALL: [Event; 7] = [
+    pub const ALL: [Event; 8] = [
         Event::Parameters,
         Event::Saturated,
         Event::WheelLost,
@@ -33,6 +35,7 @@ impl Event {
         Event::Silent,
         Event::FoldBack,
         Event::Unsaved,
+        Event::SensorSilent,
     ];
 
     /// Its bit in [`Events`].
@@ -49,6 +52,7 @@ impl Event {
             Event::Cleared => "faults were cleared",
             Event::FoldBack => "a motor is warm: its current is held towards what it bears for ever",
             Event::Unsaved => "the parameters are not stored yet: a power cut would lose them",
+            Event::SensorSilent => "a gyro or an encoder that should be there does not answer",
             Event::Silent => "no command comes: the robot brakes to rest and opens its bridges",
         }
     }
@@ -59,7 +63,7 @@ impl Event {
 pub struct Events(u8);
 
 impl Events {
-    /// Those of these bits; a later firmware may tell of more than this program knows, and that is kept.
+    /// Those of these bits, all of which have a name: there is room for no more.
     pub const fn from_bits(bits: u8) -> Events {
         Events(bits)
     }
@@ -79,7 +83,7 @@ impl Events {
         self.0 & event.bit() != 0
     }
 
-    /// Those that happened and are known, in the order of their bits.
+    /// Those that happened, in the order of their bits.
     pub fn iter(self) -> impl Iterator<Item = Event> {
         Event::ALL.into_iter().filter(move |event| self.has(*event))
     }
@@ -101,9 +105,14 @@ mod tests {
     }
 
     #[test]
-    fn what_a_later_firmware_tells_is_kept_and_not_named() {
+    fn every_bit_of_the_byte_is_kept_and_named() {
+        for bit in 0..u8::BITS {
+            let events = Events::from_bits(1 << bit);
+            assert_eq!(events.bits(), 1 << bit);
+            assert!(events.iter().map(Event::bit).eq([1 << bit]));
+        }
         let events = Events::from_bits(0x80 | Event::Silent.bit());
         assert_eq!(events.bits(), 0x90);
-        assert!(events.iter().eq([Event::Silent]));
+        assert!(events.iter().eq([Event::Silent, Event::SensorSilent]));
     }
 }
