@@ -12,6 +12,7 @@ use host_tests::virtual_board::{BoardSetup, InjectedFault, VirtualBoard};
 use model_core::effects::active::Effects;
 use model_core::geometry::frames::BodyTwist;
 use model_core::link::block::{Block, MAX_BYTES, Parameters, checksum};
+use model_core::link::events::Event;
 use model_core::link::faults::Fault;
 use model_core::link::record::OperatingState;
 use model_core::link::sensor_codes::SensorCodes;
