@@ -52,6 +52,8 @@ pub struct Windings {
     feedback: WindingFeedback,
     probe: Option<ProbeVector>,
     period: u32,
+    /// Periods since a motion turn was due: 0 in which it is
+    since_due: u32,
     /// Periods for which all bridges have been open
     open: u8,
 }
@@ -122,19 +124,20 @@ impl Windings {
     /// True if a motion turn begins with the period that has just been looked at.
     #[inline]
     pub fn motion_is_due(&self) -> bool {
-        self.period.is_multiple_of(PERIODS_PER_TICK)
+        self.since_due == 0
     }
 
     /// True if gyro and encoders are to be read in the period that has just been looked at.
     #[inline]
     pub fn sensors_are_due(&self) -> bool {
-        self.period % PERIODS_PER_TICK == sensing::DUE
+        self.since_due == sensing::DUE
     }
 
     /// One period: what to do in the next.
     #[inline]
     pub fn tick(&mut self, read: &Codes) -> BridgeCommand {
         self.period = self.period.wrapping_add(1);
+        self.since_due = if self.since_due + 1 == PERIODS_PER_TICK { 0 } else { self.since_due + 1 };
         let wired;
         let codes = match &self.config.wiring {
             Some(wiring) => {
@@ -316,4 +319,21 @@ fn tick_motor(
         }
     }
     motor.tick(config, measured, setpoint, place.closed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motion_turn_is_due_every_twenty_periods_also_where_their_count_begins_anew() {
+        let mut windings = Windings { period: u32::MAX - 50, ..Windings::default() };
+        for period in 1..=5 * PERIODS_PER_TICK {
+            windings.tick(&Codes::default());
+            let of_turn = period % PERIODS_PER_TICK;
+            assert_eq!(windings.motion_is_due(), of_turn == 0, "{period}");
+            assert_eq!(windings.sensors_are_due(), of_turn == sensing::DUE, "{period}");
+        }
+        assert_eq!(windings.period, 49);
+    }
 }
