@@ -46,6 +46,7 @@ pub const EXAMPLES: [(&str, &[&str]); 23] = [
         &[
             "robot status --to /dev/ttyACM0",
             "robot send report/corrected_robot.toml --to /dev/ttyACM0",
+            "robot gyro robot.toml my-robot/runs/turned.rec --turns 10",
             "robot drive --leg 0.3,0,0,2 --leg 0,0,1,2 --to tcp:127.0.0.1:7000",
             "robot drive --leg 0.3,0,0,2 --to /dev/ttyACM0 --robot robot.toml --out my-robot --name ahead",
             "robot record --from /dev/ttyACM0 --robot robot.toml --out my-robot",

@@ -3,6 +3,7 @@
 mod ask;
 mod commission;
 mod drive;
+mod gyro;
 mod live;
 
 use std::path::PathBuf;
@@ -17,8 +18,10 @@ use super::record::Record;
 pub use ask::{Ask, RobotAnswered};
 use commission::Commission;
 use drive::Drive;
+use gyro::Gyro;
+pub use gyro::GyroCalibrated;
 
-/// Send parameters to a robot, find out how its motors are wired, drive it, stop it, have it forget its faults, ask how it is
+/// Send parameters to a robot, find out how its motors are wired and what its gyro is worth, drive it, stop it, have it forget its faults, ask how it is
 #[derive(Debug, clap::Args)]
 pub struct Robot {
     #[command(subcommand)]
@@ -33,6 +36,8 @@ enum Verb {
     Send(Send),
     /// Find out how each motor is wired: phases, current signs, halls and their places; wheels off the ground, at most 1 A
     Commission(Box<Commission>),
+    /// Tell what a count of the gyro is worth, from a recording in which the robot was turned by hand
+    Gyro(Gyro),
     /// Drive leg by leg, then come to rest and open the bridges; Ctrl-C does so at once
     Drive(Box<Drive>),
     /// Open the bridges: the robot coasts
@@ -65,6 +70,7 @@ impl Robot {
             Verb::Clear(ask) => ask.answer(console, "clearing the faults", clear)?,
             Verb::Send(asked) => asked.run(console)?,
             Verb::Commission(asked) => asked.run(console)?,
+            Verb::Gyro(asked) => asked.run(console)?,
             Verb::Drive(asked) => asked.run(console)?,
         }
         Ok(DONE)

@@ -11,7 +11,7 @@ use super::answer::{
 };
 use super::console::Console;
 use super::done::{DONE, Done};
-use super::robot::RobotAnswered;
+use super::robot::{GyroCalibrated, RobotAnswered};
 use super::watch::Line;
 
 /// Print the JSON Schema of a command's --json answer, and of the file of the same content that it leaves
@@ -26,7 +26,7 @@ pub struct SchemaOf {
 type FormOf = fn() -> Schema;
 
 /// The form of each command's answer.
-const FORMS: [(&str, FormOf); 23] = [
+const FORMS: [(&str, FormOf); 24] = [
     ("diagnose", || schema_for!(Report)),
     ("demo", || schema_for!(Report)),
     ("compare", || schema_for!(ComparisonReport)),
@@ -48,6 +48,7 @@ const FORMS: [(&str, FormOf); 23] = [
     ("export-mjcf", || schema_for!(FilesWritten)),
     ("record", || schema_for!(RunWritten)),
     ("robot", || schema_for!(RobotAnswered<'static>)),
+    ("robot-gyro", || schema_for!(GyroCalibrated)),
     ("watch", || schema_for!(Line<'static>)),
     ("convert", || schema_for!(RunWritten)),
 ];
