@@ -50,9 +50,9 @@ const MOST_SIGMAS: f64 = 5.0;
 const LONGEST_GAP_S: f64 = 0.05;
 
 /// Most by which the scale is another [1]: ±1 % out of the box (BMI088, BST-BMI088-DS001 revision 1.4), and as much again.
-pub const MOST_CHANGE: f64 = 0.02;
+const MOST_CHANGE: f64 = 0.02;
 
-/// Turns, at most: one that was counted wrong is then twice [`MOST_CHANGE`].
+/// Turns, at most: one that was counted wrong is then 4 %, twice of what is believed of a scale.
 pub const MOST_TURNS: i32 = 25;
 
 /// Least sure that a scale may be [1]: 1° in a turn.
