@@ -31,6 +31,10 @@ pub const KNOBS_VERSION: u32 = 2;
 pub struct Knobs {
     /// Version of the names and meanings below.
     pub version: u32,
+    /// Whether the findings keep the equations that many robots are pooled by. Costs one more screen where causes were found, and
+    /// changes no answer.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub equations: bool,
     /// How recordings are laid out into runs to fit on and runs to judge by.
     pub layout: LayoutKnobs,
     /// How models are fitted.
@@ -239,6 +243,7 @@ impl Default for Knobs {
     fn default() -> Self {
         Self {
             version: KNOBS_VERSION,
+            equations: false,
             layout: LayoutKnobs::default(),
             fit: FitSettings::default(),
             screen: ScreenKnobs::default(),

@@ -48,7 +48,7 @@ pub use gyro_scale::{GyroScale, HandTurned, MOST_TURNS, gyro_scale};
 pub use identifiability::{Identifiability, TradeOff};
 pub use informativity::{EffectProspect, Informativity, NumberProspect, Prospect, informativity};
 pub use joint::{GIVEN, IDENTIFIED, Identified, Joint, Refused, joint};
-pub use linear::{Linearised, linearise};
+pub use linear::{Linearised, Reduced, linearise};
 pub use misfit::Misfit;
 pub use noise::{LeftOver, Noise, SENSORS};
 pub use overlap::{Overlap, Products, SeenWindow};

@@ -8,6 +8,7 @@ mod changes;
 mod confusion;
 mod considered;
 mod design;
+mod equations;
 mod gap;
 mod noise;
 mod place;
@@ -22,6 +23,7 @@ pub use changes::{EffectChange, FileChanges, NumberChange};
 pub use confusion::{ConfusedCause, Confusion};
 pub use considered::{ConsideredCause, EstimatedBy, EstimatedNumber};
 pub use design::{Aim, ChosenScript, Design, DesignSuspect, Measure, Question};
+pub use equations::{Direction, SessionEquations};
 pub use gap::{Gap, HorizonError, Shrink, SignalGap};
 pub use noise::ChannelNoise;
 pub use place::{Regime, Where};
@@ -57,6 +59,10 @@ pub struct Findings {
     pub which: Vec<Which>,
     /// The same causes at every place and in every round of the search, each with the estimate of its numbers.
     pub considered: Vec<ConsideredCause>,
+    /// What the recordings say of small changes of the corrected model: what adds up over many robots; none where
+    /// [`Knobs::equations`] does not ask for it.
+    #[serde(default)]
+    pub equations: Option<SessionEquations>,
     /// Where the gap lies; shares sum to 1.
     #[serde(rename = "where")]
     pub where_: Vec<Where>,
@@ -91,6 +97,7 @@ impl Findings {
             causes: Vec::new(),
             which: Vec::new(),
             considered: Vec::new(),
+            equations: None,
             where_: Vec::new(),
             gap: Gap::default(),
             evidence: Vec::new(),

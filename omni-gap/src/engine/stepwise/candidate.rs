@@ -153,7 +153,7 @@ fn of_role(card: &'static Card, role: Role) -> impl Iterator<Item = (usize, &'st
 
 /// Parameter sets that span what the effect can look like: each size at its typical departure from absent, the others
 /// absent, and each shape that is an effect of its own.
-fn trials(card: &'static Card, wheel: Option<usize>, knobs: &ScreenKnobs) -> Vec<EffectInstance> {
+pub(super) fn trials(card: &'static Card, wheel: Option<usize>, knobs: &ScreenKnobs) -> Vec<EffectInstance> {
     let sizes = of_role(card, Role::Size).map(|(k, p)| with(card, wheel, &[(k, p.typical)]));
     let own = of_role(card, Role::Shape).filter(|(_, s)| s.absent == s.typical).map(|(s, shape)| {
         // a shape that can be an effect of its own, such as a ratio

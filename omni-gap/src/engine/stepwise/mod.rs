@@ -13,6 +13,7 @@ mod candidate;
 mod considered;
 mod distances;
 mod earned;
+mod equations;
 mod found;
 mod noise;
 mod not_seen;
@@ -96,6 +97,7 @@ fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, 
         engine: None,
         verdict: verdict(&search),
         considered: considered::considered(&search, robot),
+        equations: knobs.equations.then(|| equations::equations(&data, &search)).flatten(),
         where_: places::places(&search, &nominal, &data),
         gap,
         evidence: shown::shown(&search, &plants, &data),

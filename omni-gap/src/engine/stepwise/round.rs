@@ -7,7 +7,7 @@ use super::released::{ScreenedRelease, screen_releases};
 use super::scored::{Data, Scored};
 use super::screen::{Screened, screen};
 use crate::engine::knobs::ScreenKnobs;
-use crate::identify::Prior;
+use crate::identify::{Prior, Reduced};
 use crate::simulate::EffectInstance;
 
 /// A cause that was fitted.
@@ -28,6 +28,9 @@ pub struct Ranking<const N: usize> {
     pub ranked: Vec<Ranked<N>>,
     /// Every effect with its promise by the screen, best first; kept for the causes that were not fitted.
     pub screened: Vec<Screened>,
+    /// The equations of the model's own free numbers on what was screened, weighted down by the fit's dispersion, without what is
+    /// stated; none where no effects were tried.
+    pub screened_on: Option<Reduced>,
     /// Every parameter cause with its promise, best first.
     pub released: Vec<ScreenedRelease>,
     /// Error scale: the least held-out Σ error² per number, at least one.
@@ -71,7 +74,13 @@ pub struct Tried {
 pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prior, tried: Tried) -> Ranking<N> {
     let knobs = &data.knobs.screen;
     let considered = |id: &str| !knobs.without.iter().any(|without| without == id);
-    let mut screened = if tried.effects { screened(data, &base, prior, &considered) } else { Vec::new() };
+    let (mut screened, screened_on) = match tried.effects {
+        true => {
+            let (screened, equations) = screened(data, &base, prior, &considered);
+            (screened, Some(equations))
+        }
+        false => (Vec::new(), None),
+    };
     screened.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     let mut releases = if tried.numbers { freed_priors() } else { Vec::new() };
     releases.retain(|release| considered(release.cause));
@@ -116,21 +125,22 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
         .fold(f64::INFINITY, f64::min)
         .max(1.0);
     ranked.sort_by(|a, b| a.scored.score(scale).total_cmp(&b.scored.score(scale)));
-    Ranking { base, ranked, screened, released, scale }
+    Ranking { base, ranked, screened, screened_on, released, scale }
 }
 
-/// Every effect with its promise.
-fn screened<const N: usize>(
+/// Every effect with its promise, and the equations of the numbers that it was seen beside.
+pub(super) fn screened<const N: usize>(
     data: &Data<'_, N>,
     base: &Scored<N>,
     prior: &Prior,
     considered: &dyn Fn(&str) -> bool,
-) -> Vec<Screened> {
+) -> (Vec<Screened>, Reduced) {
     let knobs = &data.knobs.screen;
     let shortened = data.to_fit().beginning(knobs.runs, knobs.least_s).shortened(knobs.most_s, knobs.most_rows);
     let few = shortened.shots();
     let linear = base.fit.linearised(few);
     let mut all = candidates::<N>(&base.fit.model.effects, data.fit[0].chain, knobs);
     all.retain(|candidate| considered(candidate.card.id));
-    screen(&base.fit, &linear, prior, few, all, knobs)
+    let equations = linear.reduced().with_dispersion(base.fit.dispersion);
+    (screen(&base.fit, &linear, prior, few, all, knobs), equations)
 }

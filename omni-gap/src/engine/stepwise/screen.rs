@@ -32,6 +32,19 @@ pub struct Screened {
     pub from: EffectInstance,
     /// Its free numbers by one linear step, not held to bounds.
     pub numbers: Vec<EstimatedNumber>,
+    /// What the recordings say of each of its trials, in their order, before anything stated.
+    pub projections: Vec<Projection>,
+}
+
+/// A trial's signature s against the windows, starts eliminated, weighted down by the fit's dispersion φ.
+#[derive(Clone, Debug)]
+pub struct Projection {
+    /// sᵀ·e/φ
+    pub overlap: f64,
+    /// sᵀ·s/φ
+    pub size: f64,
+    /// Jᵀ·s/φ, in the order of the fit's free numbers
+    pub shared: DVector<f64>,
 }
 
 /// Screens candidates at a fit: all of them at typical sizes, and those that promise something then more closely.
@@ -62,8 +75,9 @@ pub fn screen<const N: usize>(
         let left = size - shared.dot(&own);
         let determined = left > knobs.least_left * size && left > knobs.least_size;
         let amplitude = if determined { explains / left } else { 0.0 };
+        let projection = Projection { overlap, size, shared };
         let (effect, gain, size) = (trial.clone(), explains * amplitude, left.max(0.0).sqrt());
-        Trial { effect, amplitude, gain, size, determined }
+        Trial { effect, amplitude, gain, size, determined, projection }
     };
     let mut looked: Vec<Looked> = candidates.into_par_iter().map(|candidate| Looked::at(candidate, look)).collect();
     let most = looked.iter().map(Looked::gain).fold(0.0, f64::max);
@@ -111,7 +125,9 @@ impl Looked {
             |trial: &Trial| if gain(trial) > 0.0 { trial.gain_within(knobs.start_between) } else { f64::NEG_INFINITY };
         let start = first_best(&self.tried, near).unwrap_or(best);
         let from = scaled(&self.candidate, &start.effect, start.amplitude, knobs.start_between);
-        Screened { gain: gain(best), candidate: self.candidate, visible, from, numbers }
+        let projections =
+            self.tried[..self.candidate.trials.len()].iter().map(|trial| trial.projection.clone()).collect();
+        Screened { gain: gain(best), candidate: self.candidate, visible, from, numbers, projections }
     }
 }
 
@@ -126,6 +142,7 @@ struct Trial {
     size: f64,
     /// Whether that is more than rounding
     determined: bool,
+    projection: Projection,
 }
 
 impl Trial {
