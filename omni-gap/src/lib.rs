@@ -6,7 +6,7 @@
 //!
 //! `log` (files → SI) → `check` (faults of the telemetry) → `simulate` (what a model says) → `identify` (the best numbers
 //! and how sure they are) → `localise` (where the gap lies) → `watch` (whether it stays at its floor) → `engine` (which cause) →
-//! `comparison` (what differs between two sessions) → `report` (files for people and
+//! `comparison` (what differs between two sessions) → `pooling` (what many robots tell together) → `report` (files for people and
 //! programs).
 //!
 //! A room imports only rooms before it; [`diagnosis`] walks through them all, [`synthesize`] makes recordings whose truth is
@@ -38,6 +38,8 @@ pub mod watch;
 pub mod engine;
 
 pub mod comparison;
+
+pub mod pooling;
 
 pub mod report;
 
