@@ -47,6 +47,8 @@ pub mod diagnosis;
 
 pub mod api;
 
+pub mod fleet;
+
 pub mod synthesize;
 
 pub mod simulate_experiments;

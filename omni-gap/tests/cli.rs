@@ -12,6 +12,8 @@ mod compare;
 mod experiments;
 #[path = "cli/explain.rs"]
 mod explain;
+#[path = "cli/fleet.rs"]
+mod fleet;
 #[path = "cli/folders.rs"]
 mod folders;
 #[path = "cli/foreign.rs"]

@@ -1,7 +1,7 @@
 //! What a command is called with, for its help.
 
 /// Examples of each command, one a line.
-pub const EXAMPLES: [(&str, &[&str]); 23] = [
+pub const EXAMPLES: [(&str, &[&str]); 24] = [
     ("demo", &["demo"]),
     (
         "diagnose",
@@ -12,6 +12,7 @@ pub const EXAMPLES: [(&str, &[&str]); 23] = [
         ],
     ),
     ("compare", &["compare before after --out compared", "compare my-robot --sim simulator.csv"]),
+    ("fleet", &["fleet logs --out season", "fleet report season"]),
     ("next", &["next my-robot --duration 20 --out next"]),
     ("check", &["check my-robot", "check logs/run.csv --robot robot.toml --columns columns.toml"]),
     (

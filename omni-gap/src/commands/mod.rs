@@ -19,6 +19,7 @@ mod examples;
 mod experiment;
 mod explain;
 mod export;
+mod fleet;
 mod given;
 mod identify;
 mod man;
@@ -63,6 +64,7 @@ enum Command {
     Demo(demo::Demo),
     Diagnose(diagnose::Diagnose),
     Compare(compare::Compare),
+    Fleet(fleet::Fleet),
     Next(next::Next),
     Check(check::Check),
     New(new::New),
@@ -107,6 +109,7 @@ impl Cli {
             Command::Demo(c) => c.run(&console),
             Command::Diagnose(c) => c.run(&console),
             Command::Compare(c) => c.run(&console),
+            Command::Fleet(c) => c.run(&console),
             Command::Next(c) => c.run(&console),
             Command::Check(c) => c.run(&console),
             Command::New(c) => c.run(&console),

@@ -4,6 +4,7 @@ use omni_gap::api::{SelfTest, Sensitivity};
 use omni_gap::report::Report;
 use omni_gap::report::comparison::ComparisonReport;
 use omni_gap::report::design::DesignReport;
+use omni_gap::report::fleet::FleetReport;
 use schemars::{Schema, schema_for};
 
 use super::answer::{
@@ -11,6 +12,7 @@ use super::answer::{
 };
 use super::console::Console;
 use super::done::{DONE, Done};
+use super::fleet::FleetDone;
 use super::robot::{GyroCalibrated, RobotAnswered};
 use super::watch::Line;
 
@@ -26,10 +28,12 @@ pub struct SchemaOf {
 type FormOf = fn() -> Schema;
 
 /// The form of each command's answer.
-const FORMS: [(&str, FormOf); 24] = [
+const FORMS: [(&str, FormOf); 26] = [
     ("diagnose", || schema_for!(Report)),
     ("demo", || schema_for!(Report)),
     ("compare", || schema_for!(ComparisonReport)),
+    ("fleet", || schema_for!(FleetDone)),
+    ("fleet-report", || schema_for!(FleetReport)),
     ("next", || schema_for!(DesignReport)),
     ("check", || schema_for!(RunsChecked<'static>)),
     ("new", || schema_for!(FilesWritten)),

@@ -66,4 +66,5 @@ pub use session::Session;
 pub use sink::{holds_several, write_run, write_runs};
 pub use source::Table;
 pub use toml_number::toml_number;
+pub(crate) use toml_walk::{Section, Source as TomlSource, read_text};
 pub use write::{write_whole, write_whole_with};

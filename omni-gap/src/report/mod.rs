@@ -13,6 +13,7 @@ pub mod design;
 mod effect_picture;
 mod evidence;
 mod figure;
+pub mod fleet;
 mod floor_picture;
 mod horizons;
 mod html;

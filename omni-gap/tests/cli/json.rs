@@ -7,7 +7,7 @@ use super::bench::{Bench, refused};
 const RUN: &str = "session/runs/run01.csv";
 
 /// Every command that answers as JSON, in the order in which each finds what those before it left.
-const ASKED: [(&str, &[&str]); 17] = [
+const ASKED: [(&str, &[&str]); 18] = [
     ("new", &["mine", "--like", "feup-4w"]),
     ("check", &["session"]),
     ("diagnose", &["session", "--out", "report"]),
@@ -17,6 +17,7 @@ const ASKED: [(&str, &[&str]); 17] = [
     ("predict", &["session/robot.toml", RUN, "--out", "predicted.csv"]),
     ("simulate", &["session/robot.toml", "--input", RUN, "--noise", "false", "--out", "simulated.csv"]),
     ("compare", &["session", "--sim", "simulated.csv", "--out", "compared"]),
+    ("fleet", &["session", "--out", "season"]),
     ("convert", &["session/robot.toml", RUN, "--out", "converted.csv"]),
     ("map", &[RUN, "--robot", "session/robot.toml"]),
     ("sensitivity", &["session/robot.toml"]),
@@ -63,7 +64,9 @@ fn a_schema_refuses_what_it_does_not_describe() {
 #[test]
 fn the_schemas_of_the_files_are_those_that_lie_in_the_repository() {
     let bench = Bench::with_session();
-    for command in ["diagnose", "compare", "next", "validate", "selftest", "sensitivity", "check", "watch"] {
+    for command in
+        ["diagnose", "compare", "next", "validate", "selftest", "sensitivity", "check", "watch", "fleet-report"]
+    {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("schemas/{command}.json"));
         let said = bench.done(&["schema", command]).out;
         if std::env::var_os("BLESS").is_some() {
