@@ -25,6 +25,7 @@
 //! - [`golden`]: pages that a program makes and is held to;
 //! - [`costs`]: instructions of the control path, as the emulator counts them;
 //! - [`in_loop`]: the robot's program, a robot that is not what it believes, and somebody who commands it;
+//! - [`fleet`]: many robots of a kind, and what pooling says of them;
 //! - [`plant_cases`] and [`fit_case`]: what step and fit are timed with;
 //! - [`mod@mujoco`]: both beside MuJoCo's, in one run;
 //! - [`image`]: sizes, symbols, reach and stack of the firmware's image.
@@ -44,6 +45,7 @@ pub mod designs;
 pub mod emulator;
 pub mod excitation;
 pub mod fit_case;
+pub mod fleet;
 pub mod flow;
 pub mod frozen;
 pub mod generic_robot;

@@ -52,6 +52,12 @@ pub const ERRANDS: &[Errand] = &[
         run: confusion,
     },
     Errand {
+        name: "fleet",
+        takes: "",
+        does: "fleets with one weak effect and healthy ones: what pooling finds, and how fast 2,000 sessions are (BLESS=1: rewrite)",
+        run: fleet,
+    },
+    Errand {
         name: "selftest",
         takes: "",
         does: "look in simulated recordings for the sizes that the self-test foretells (BLESS=1: rewrite)",
@@ -274,6 +280,10 @@ fn medicine(_: &[OsString]) -> Result<(), String> {
 
 fn confusion(_: &[OsString]) -> Result<(), String> {
     Line::of("cargo run --release -p host-tests --bin confusion").announced()
+}
+
+fn fleet(_: &[OsString]) -> Result<(), String> {
+    Line::of("cargo run --release -p host-tests --bin fleet").announced()
 }
 
 fn selftest(_: &[OsString]) -> Result<(), String> {
