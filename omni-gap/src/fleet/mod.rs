@@ -4,9 +4,9 @@
 //! FOLDER/ROBOT/…/SESSION/{robot.toml, runs/}   →   STORE/{sessions, causes, equations}/robot=…/date=…/part.parquet
 //! ```
 //!
-//! A session is one task ([`find`]); on each core one is worked at ([`run`]). Its rows ([`rows`]) go into Parquet files, one of each
-//! table for each robot and day ([`store`]). A row has the hash of all that its answer rests on ([`key`]): asked again, only what is
-//! new or changed is done. A session that cannot be read is a row with its reason. [`report`] pools what the store holds.
+//! A session is one task (`find`); on each core one is worked at (`run`). Its rows (`rows`) go into Parquet files, one of each
+//! table for each robot and day (`store`). A row has the hash of all that its answer rests on (`key`): asked again, only what is
+//! new or changed is done. A session that cannot be read is a row with its reason. `report` pools what the store holds.
 
 mod answer;
 mod cells;
