@@ -53,8 +53,8 @@ pub const ERRANDS: &[Errand] = &[
     },
     Errand {
         name: "fleet",
-        takes: "",
-        does: "fleets with one weak effect and healthy ones: what pooling finds, and how fast 2,000 sessions are (BLESS=1: rewrite)",
+        takes: "[scale]",
+        does: "what pooling finds in fleets with one weak effect and in healthy ones; scale: how fast 2,000 sessions are (BLESS=1: rewrite)",
         run: fleet,
     },
     Errand {
@@ -282,8 +282,8 @@ fn confusion(_: &[OsString]) -> Result<(), String> {
     Line::of("cargo run --release -p host-tests --bin confusion").announced()
 }
 
-fn fleet(_: &[OsString]) -> Result<(), String> {
-    Line::of("cargo run --release -p host-tests --bin fleet").announced()
+fn fleet(asked: &[OsString]) -> Result<(), String> {
+    asked.iter().fold(Line::of("cargo run --release -p host-tests --bin fleet --"), Line::word).announced()
 }
 
 fn selftest(_: &[OsString]) -> Result<(), String> {

@@ -1,11 +1,10 @@
-//! The page: what pooling finds, what it names that is not there, and how fast a fleet is worked through.
+//! The page: what pooling finds, and what it names that is not there.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use omni_gap::report::{num, percent};
 
-use super::scale::Scale;
 use super::trials::{FOUND, ROBOTS, Trial};
 
 /// The trials of fleets with one weak effect, and of healthy ones.
@@ -20,17 +19,20 @@ pub struct Trials {
 }
 
 /// The whole page.
-pub fn page(trials: &Trials, scale: &Scale) -> String {
+pub fn page(trials: &Trials) -> String {
     let mut text = format!(
         "# What many robots tell together\n\n\
          {ROBOTS} robots of one kind (`examples/feup-4w`), a session each: three runs of 2 s with 100 rows a second. Their numbers are off by draws\n\
          of what the robot file states, half of it common to all. All have one effect, of a size that one session shows by {} standard\n\
-         errors beyond what the numbers imitate. *Found*: named with a probability of at least {}, and nothing else so.\n\
-         *Missed alone*: robots of {ROBOTS} whose own diagnosis does not name it.\n\n",
+         errors beyond what the numbers imitate. *Found*: named with a probability of at least {}. *Among look-alikes*: it is one of\n\
+         the causes told, and it and those that its card says it can be taken for have that probability together.\n\
+         *Nothing stated*: standard errors by which a session shows it where the numbers are free: what the numbers imitate but for what the\n\
+         file states of them does not become surer on {ROBOTS} robots that may share the file's error. *Missed alone*: robots of {ROBOTS} whose\n\
+         own diagnosis does not name it.\n\n",
         num(trials.errors),
         percent(FOUND)
     );
-    text += "| effect | of its typical size | fleets | found | something else named | least probability | missed alone | estimate/truth |\n|---|---|---|---|---|---|---|---|\n";
+    text += "| effect | of its typical size | one session, nothing stated [σ] | fleets | found | among look-alikes | something else named | least probability | missed alone | estimate/truth |\n|---|---|---|---|---|---|---|---|---|---|\n";
     let mut by_id: BTreeMap<&str, Vec<&Trial>> = BTreeMap::new();
     for trial in &trials.weak {
         by_id.entry(trial.hidden.map_or("", |(id, _)| id)).or_default().push(trial);
@@ -39,20 +41,21 @@ pub fn page(trials: &Trials, scale: &Scale) -> String {
         let _ = writeln!(text, "{}", row(id, fleets));
     }
     text += &healthy(&trials.healthy);
-    text += &scale.told();
     text
 }
 
 fn row(id: &str, fleets: &[&Trial]) -> String {
     let found = fleets.iter().filter(|trial| trial.named() == Some(id)).count();
+    let alike = fleets.iter().filter(|trial| trial.probability() > 0.0 && trial.with_look_alikes() >= FOUND).count();
     let wrong = fleets.iter().filter(|trial| trial.named().is_some_and(|named| named != id)).count();
     let least = fleets.iter().map(|trial| trial.probability()).fold(1.0, f64::min);
     let missed: Vec<usize> = fleets.iter().map(|trial| ROBOTS - trial.named_alone).collect();
     let sizes: Vec<f64> = fleets.iter().filter_map(|trial| trial.hidden.map(|(_, share)| share)).collect();
     let (fewest, most) = (missed.iter().min().unwrap_or(&0), missed.iter().max().unwrap_or(&0));
     format!(
-        "| `{id}` | {} | {} | {found} | {wrong} | {} | {fewest} to {most} | {} |",
+        "| `{id}` | {} | {} | {} | {found} | {alike} | {wrong} | {} | {fewest} to {most} | {} |",
         percent(median(sizes)),
+        num(median(fleets.iter().map(|trial| trial.beyond_free_numbers).collect())),
         fleets.len(),
         percent(least),
         num(median(fleets.iter().filter_map(|trial| estimate_over_truth(trial)).collect()))

@@ -98,8 +98,8 @@ impl Scale {
         self.one_s / (self.all_s * self.cores as f64)
     }
 
-    /// The section of the page.
-    pub(super) fn told(&self) -> String {
+    /// The page.
+    pub fn page(&self) -> String {
         let Self { sessions, cores, one_s, all_s, known_s, .. } = self;
         let n = *sessions as f64;
         let core_hours = all_s * *cores as f64 / 3600.0;
@@ -112,7 +112,7 @@ impl Scale {
             )
         });
         format!(
-            "\n## How fast\n\n{sessions} sessions of 600 rows as files, into a store without reports, with {cores} cores.\n\n\
+            "# How fast a fleet is worked through\n\n{sessions} sessions of 600 rows as files, into a store without reports, with {cores} cores.\n\n\
              | what | |\n|---|---|\n\
              | wall clock on one core; on all | {} s; {} s |\n\
              | all, of one core's speed times the cores | {} |\n\

@@ -22,6 +22,8 @@ pub const FOUND: f64 = 0.9;
 pub struct Trial {
     /// What all robots have, and how much of its typical size; none of a healthy fleet.
     pub hidden: Option<(&'static str, f64)>,
+    /// Standard errors by which one session shows it if nothing is stated of the numbers; zero of a healthy fleet \[1\]
+    pub beyond_free_numbers: f64,
     /// Sessions that named it on their own.
     pub named_alone: usize,
     /// What pooling says.
@@ -36,6 +38,13 @@ impl Trial {
         own.map(|cause| cause.probability).fold(0.0, f64::max)
     }
 
+    /// The probability of what is there and of what its card says it can be taken for.
+    pub fn with_look_alikes(&self) -> f64 {
+        let Some(card) = self.hidden.and_then(|(id, _)| EffectKind::find(id)).map(EffectKind::card) else { return 0.0 };
+        let alike = |id: &str| id == card.id || card.look_alikes.iter().any(|other| other.with == id);
+        self.pooled.common.iter().filter(|cause| alike(&cause.of.id)).map(|cause| cause.probability).sum()
+    }
+
     /// The cause that is named as found.
     pub fn named(&self) -> Option<&str> {
         self.pooled.common.first().filter(|cause| cause.probability >= FOUND).map(|cause| cause.of.id.as_str())
@@ -47,9 +56,12 @@ impl Trial {
 /// # Errors
 /// Where the robot file is none.
 pub fn trial(kind: &Kind, hidden: Option<(&'static str, f64)>) -> Result<Trial, Error> {
-    let hidden = match hidden {
-        None => None,
-        Some((id, errors)) => Some((id, errors / shown(kind, id)?)),
+    let (hidden, beyond_free_numbers) = match hidden {
+        None => (None, 0.0),
+        Some((id, errors)) => {
+            let [stated, free] = shown(kind, id)?;
+            (Some((id, errors / stated)), errors / stated * free)
+        }
     };
     let instance = |(id, share): (&str, f64)| EffectKind::find(id).map(|effect| sized(effect, share));
     let kind = Kind { hidden: hidden.and_then(instance).into_iter().collect(), ..kind.clone() };
@@ -58,7 +70,7 @@ pub fn trial(kind: &Kind, hidden: Option<(&'static str, f64)>) -> Result<Trial, 
         |session: &&SessionEvidence| hidden.is_some_and(|(id, _)| session.named.iter().any(|named| named == id));
     let named_alone = evidence.iter().filter(named).count();
     let pooled = pooled(&evidence.iter().collect::<Vec<_>>(), &PoolingKnobs::default());
-    Ok(Trial { hidden, named_alone, pooled })
+    Ok(Trial { hidden, beyond_free_numbers, named_alone, pooled })
 }
 
 /// An effect with its sizes at so much of what is typical.
@@ -74,21 +86,28 @@ fn sized(effect: EffectKind, share: f64) -> EffectInstance {
     instance
 }
 
-/// Standard errors by which one session of a healthy robot of the kind would show the effect at its typical size: the median.
-fn shown(kind: &Kind, id: &str) -> Result<f64, Error> {
+/// Standard errors by which one session of a healthy robot of the kind would show the effect at its typical size, the median:
+/// with what is stated of the numbers, and with nothing stated.
+fn shown(kind: &Kind, id: &str) -> Result<[f64; 2], Error> {
     let healthy = Kind { robots: 7, hidden: Vec::new(), ..kind.clone() };
     let sessions = healthy.evidence(&Knobs::default())?;
-    let mut shown: Vec<f64> =
-        sessions.iter().filter_map(|session| signal_to_noise(session.equations.as_ref()?, id)).collect();
-    shown.sort_by(f64::total_cmp);
-    Ok(shown.get(shown.len() / 2).copied().unwrap_or(f64::NAN))
+    let median = |stated: f64| {
+        let each = sessions.iter().filter_map(|session| signal_to_noise(session.equations.as_ref()?, id, stated));
+        let mut shown: Vec<f64> = each.collect();
+        shown.sort_by(f64::total_cmp);
+        shown.get(shown.len() / 2).copied().unwrap_or(f64::NAN)
+    };
+    Ok([1.0, NOTHING_STATED].map(median))
 }
 
-/// √(s − wᵀ·(A + Λ)⁻¹·w): what of the effect's signature the numbers cannot imitate within what is stated of them.
-fn signal_to_noise(equations: &SessionEquations, id: &str) -> Option<f64> {
+/// So little of Λ that the numbers are all but free, and the equations still have a solution.
+const NOTHING_STATED: f64 = 1e-6;
+
+/// √(s − wᵀ·(A + c·Λ)⁻¹·w): what of the effect's signature the numbers cannot imitate within so much of what is stated of them.
+fn signal_to_noise(equations: &SessionEquations, id: &str, stated: f64) -> Option<f64> {
     let direction = equations.directions.iter().find(|d| d.id == id && d.wheel.is_none() && !d.carried)?;
     let n = equations.toward.len();
-    let held = DMatrix::from_fn(n, n, |r, c| equations.numbers[r][c] + equations.stated[r][c]);
+    let held = DMatrix::from_fn(n, n, |r, c| equations.numbers[r][c] + stated * equations.stated[r][c]);
     let shared = DVector::from_column_slice(&direction.with_numbers);
     let taken = held.cholesky()?.solve(&shared).dot(&shared);
     Some((direction.size - taken).max(0.0).sqrt())

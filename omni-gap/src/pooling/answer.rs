@@ -21,7 +21,7 @@ pub struct CommonCause {
     pub spread: f64,
     /// Standard errors from absent, or from what the robot file admits [1]
     pub z: f64,
-    /// Probability that this is what they share, among all causes and none [1]
+    /// Probability that this is what they share, at whatever place, among all causes and none [1]
     pub probability: f64,
     /// Sessions that named it on their own.
     pub named_alone: usize,

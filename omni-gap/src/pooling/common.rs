@@ -35,9 +35,24 @@ pub(super) fn common_causes(
     let weight = |shared: &Shared| each * shared.bayes_factor;
     let all: f64 = knobs.nothing_shared + tested.iter().map(|(_, shared)| weight(shared)).sum::<f64>();
     let told = tested.iter().map(|(place, shared)| told(place, shared, weight(shared) / all, robots));
-    let mut told: Vec<CommonCause> = told.filter(|cause| cause.probability >= WORTH_TELLING).collect();
+    let mut told: Vec<CommonCause> = told.collect();
     told.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-    told
+    let mut causes = one_of_each(told);
+    causes.retain(|cause| cause.probability >= WORTH_TELLING);
+    causes.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    causes
+}
+
+/// Each cause at its most probable place, with the probability of all its places and numbers.
+fn one_of_each(places: Vec<CommonCause>) -> Vec<CommonCause> {
+    let mut causes: Vec<CommonCause> = Vec::new();
+    for place in places {
+        match causes.iter_mut().find(|cause| cause.of.id == place.of.id) {
+            Some(cause) => cause.probability += place.probability,
+            None => causes.push(place),
+        }
+    }
+    causes
 }
 
 /// How much of a cause robots share.
