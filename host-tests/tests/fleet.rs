@@ -2,6 +2,7 @@
 
 use host_tests::fleet::kind::Kind;
 use host_tests::fleet::trials::{FOUND, ROBOTS, trial};
+use model_core::effects::EffectKind;
 
 fn kind(in_common: f64, seed: u64) -> Kind {
     let file = include_str!("../../examples/feup-4w/robot.toml");
@@ -13,6 +14,19 @@ fn an_effect_too_weak_for_one_robot_is_found_on_thirty() {
     let trial = trial(&kind(0.5, 1), Some(("supply_sag", 1.5))).unwrap();
     assert!(ROBOTS - trial.named_alone >= 20, "{} named it alone", trial.named_alone);
     assert_eq!(trial.named(), Some("supply_sag"), "{:?}", trial.pooled.common);
+}
+
+/// What each robot's corrected model carries is told with it: the equations are those about that model.
+#[test]
+fn an_effect_that_every_robot_names_alone_has_its_true_size_in_common() {
+    let trial = trial(&kind(0.5, 4), Some(("gear_efficiency", 25.0))).unwrap();
+    assert!(trial.named_alone >= 25, "{} named it alone", trial.named_alone);
+    let first = &trial.pooled.common[0];
+    assert_eq!((first.of.id.as_str(), first.of.wheel), ("gear_efficiency", None));
+    let number = &EffectKind::find("gear_efficiency").unwrap().card().params[0];
+    let truth = trial.hidden.unwrap().1 * (number.typical - number.absent);
+    let told = first.value - number.absent;
+    assert!((told / truth - 1.0).abs() < 0.1, "{told} of {truth}");
 }
 
 #[test]

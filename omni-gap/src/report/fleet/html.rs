@@ -40,7 +40,7 @@ pub fn html(report: &FleetReport) -> String {
 fn common(m: &mut Markup, kind: &KindOfRobot) {
     let how = "What all robots of the kind have in common, the sessions of all of them together. Probabilities are those of one shared \
                cause against another and against none.";
-    section(m, &format!("What robots of the kind {} share", kind.kind), how, |m| {
+    section(m, &format!("What robots of the kind {} have in common", kind.kind), how, |m| {
         if kind.pooled.common.is_empty() {
             m.leaf("p", &[], "Nothing that their file does not know.");
         } else {

@@ -5,7 +5,7 @@ use super::phrases::spotted;
 use crate::pooling::RobotEstimate;
 use crate::report::html::page::{scrolling, section};
 use crate::report::markup::Markup;
-use crate::report::number::{estimate, num};
+use crate::report::number::estimate;
 
 /// Causes that the map has room for: those farthest from absent on any robot.
 const MOST_CAUSES: usize = 40;
@@ -62,12 +62,9 @@ fn cell(m: &mut Markup, of: &RobotEstimate) {
     };
     let strength = format!("--s:{:.0}%", (100.0 * z.abs() / FULL).min(100.0));
     let told = estimate(of.value, Some(of.std), &of.of.unit);
-    m.leaf("td", &[("class", &class), ("style", &strength), ("title", &told)], &num(round(z)));
-}
-
-/// To a tenth: a cell is small.
-fn round(z: f64) -> f64 {
-    (10.0 * z).round() / 10.0
+    // a cell has room for a tenth
+    let text = if z.abs() < 10.0 { format!("{z:.1}") } else { format!("{z:.0}") };
+    m.leaf("td", &[("class", &class), ("style", &strength), ("title", &told)], &text.replace('-', "−"));
 }
 
 fn from_absent(of: &RobotEstimate) -> f64 {

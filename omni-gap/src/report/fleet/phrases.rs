@@ -8,6 +8,9 @@ use crate::vocabulary::Verdict;
 /// A cause of this probability is told as found.
 const FOUND: f64 = 0.9;
 
+/// One of this probability, more likely than not, is told as perhaps found.
+const PERHAPS: f64 = 0.5;
+
 /// "30 robots of one kind, 412 sessions".
 pub(super) fn subject(report: &FleetReport) -> String {
     let mut robots: Vec<(&Option<String>, &str)> =
@@ -15,6 +18,7 @@ pub(super) fn subject(report: &FleetReport) -> String {
     robots.sort_unstable();
     robots.dedup();
     let kinds = match report.kinds.as_slice() {
+        [] => String::new(),
         [one] => format!(" of the kind {}", one.kind),
         several => format!(" of {} kinds", several.len()),
     };
@@ -33,11 +37,11 @@ pub(super) fn headline(kind: &KindOfRobot) -> String {
         Some(cause) if cause.probability >= FOUND => {
             format!("{name}: {who} {share} {}.", named(&cause.title, cause.of.wheel))
         }
-        Some(cause) => {
+        Some(cause) if cause.probability >= PERHAPS => {
             let chance = percent(cause.probability);
             format!("{name}: perhaps {who} {share} {} ({chance}).", named(&cause.title, cause.of.wheel))
         }
-        None => format!("{name}: {who} {share} nothing that the robot file does not know."),
+        _ => format!("{name}: {who} {share} nothing that the robot file does not know."),
     }
 }
 
@@ -72,6 +76,12 @@ pub(super) fn common(cause: &CommonCause) -> String {
     format!("{} {}: {size}{spread}; {alone}", named(&cause.title, cause.of.wheel), percent(cause.probability))
 }
 
+/// A session without an answer, and why.
+pub(super) fn without_answer(session: &SessionLine) -> Option<String> {
+    let why = session.reason.as_ref().filter(|_| session.verdict.is_none())?;
+    Some(format!("{}: {why}", session.session))
+}
+
 /// A robot that is otherwise than its kind.
 pub(super) fn outlier(robot: &RobotEstimate) -> String {
     let size = size(&robot.of.key, robot.value, robot.std);
@@ -98,7 +108,7 @@ pub(super) fn contrast(contrast: &Contrast) -> String {
 pub(super) fn in_common(kind: &KindOfRobot) -> Option<String> {
     let share = kind.pooled.in_common?;
     let told = "of what the robot file states as uncertain of its numbers is common to all robots, the rest differs";
-    (kind.pooled.robots > 1).then(|| format!("about {} {told}", percent(share)))
+    (kind.pooled.robots > 1).then(|| format!("About {} {told}.", percent(share)))
 }
 
 /// "dead_time on wheel 2".

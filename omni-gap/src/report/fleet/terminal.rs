@@ -9,17 +9,22 @@ use crate::report::terminal::Page;
 /// Lines of one sort that are said; the rest stands on the page.
 const MOST_LINES: usize = 8;
 
+/// Causes below this probability are not worth a line.
+const WORTH_A_LINE: f64 = 0.05;
+
 /// The report in plain text; with the paths of the files where they were written.
 pub fn terminal(report: &FleetReport, files: Option<&Written>) -> String {
     let mut page = Page(String::new());
     page.line("", &format!("{}.", phrases::subject(report)));
     page.0.push('\n');
     page.line("alone", &phrases::verdicts(&report.sessions));
+    lines(&mut page, "no answer", report.sessions.iter().filter_map(phrases::without_answer).collect());
     for kind in &report.kinds {
         page.0.push('\n');
         page.line("", &phrases::headline(kind));
         let pooled = &kind.pooled;
-        lines(&mut page, "shared", pooled.common.iter().map(phrases::common).collect());
+        let worth = pooled.common.iter().filter(|cause| cause.probability >= WORTH_A_LINE);
+        lines(&mut page, "shared", worth.map(phrases::common).collect());
         phrases::in_common(kind).iter().for_each(|told| page.line("numbers", told));
         let outliers = pooled.estimates.iter().filter(|robot| robot.stands_out);
         lines(&mut page, "stands out", outliers.map(phrases::outlier).collect());
@@ -54,6 +59,7 @@ mod tests {
         for part in [
             "3 robots of the kind tester, 4 sessions.",
             "alone       2 no gap, 1 effect, 1 without an answer",
+            "no answer   logs/r03/2026-11-03: robot.toml:3: <no> number",
             "tester: all robots share Dead time of the bridge.",
             "shared      Dead time of the bridge 97 %: voltage_loss_V 0.210 ± 0.030; no session named it alone",
             "stands out  r03: gear_efficiency on wheel 2",
