@@ -28,7 +28,7 @@ pub(super) fn changes(
         for place in places {
             let Some(found) = largest(place, sessions, stated, knobs.least_sessions) else { continue };
             if chance(found.z) * tests < knobs.false_alarms {
-                all.push(told(place, robot, sessions, &found, stated));
+                all.push(told(place, robot, sessions, &found));
             }
         }
     }
@@ -50,26 +50,31 @@ struct Found {
     split: usize,
     step: (f64, f64),
     z: f64,
+    /// What each session says alone.
+    each: Vec<Option<(f64, f64)>>,
 }
 
 fn largest(place: &Place, sessions: &[&SessionEvidence], stated: &Stated, least: usize) -> Option<Found> {
-    let each: Vec<Option<(f64, f64)>> = sessions.iter().map(|session| alone(place, session, stated)).collect();
+    let nothing = || Quadratic::nothing(place.coordinates());
+    let seen: Vec<Quadratic> = sessions.iter().map(|session| place.seen_in(session).unwrap_or_else(nothing)).collect();
+    let each: Vec<Option<(f64, f64)>> = seen.iter().map(|seen| alone(place, seen, stated)).collect();
+    let sum = |part: &[Quadratic]| Quadratic::sum(part).unwrap_or_else(nothing);
     let look = |split: usize| {
-        let (before, after) = sessions.split_at(split);
-        let (value, std) = step(place, before, after, stated)?;
+        let (value, std) = step(place, &sum(&seen[..split]), &sum(&seen[split..]), stated)?;
         let scatter = [&each[..split], &each[split..]].map(|part| scatter(part) / part.len() as f64);
         let std = (std * std + scatter.iter().sum::<f64>()).sqrt();
-        Some(Found { split, step: (value, std), z: value / std })
+        Some((split, (value, std), value / std))
     };
     let looked = splits(sessions, least).filter_map(look);
-    looked.reduce(|best, other| if other.z.abs() > best.z.abs() { other } else { best })
+    let (split, step, z) = looked.reduce(|best, other| if other.2.abs() > best.2.abs() { other } else { best })?;
+    Some(Found { split, step, z, each })
 }
 
 /// What one session says of a place, with the robot file's statements.
-fn alone(place: &Place, session: &SessionEvidence, stated: &Stated) -> Option<(f64, f64)> {
-    let mut seen = place.seen_in(session)?;
-    seen.add(&Quadratic { hess: stated.whole(place)?, ..Quadratic::nothing(place.coordinates()) });
-    seen.estimate(place.coordinate())
+fn alone(place: &Place, seen: &Quadratic, stated: &Stated) -> Option<(f64, f64)> {
+    let mut held = stated.of_file(place);
+    held.add(seen);
+    held.estimate(place.coordinate())
 }
 
 /// The variance by which sessions scatter beyond their errors.
@@ -78,9 +83,9 @@ fn scatter(each: &[Option<(f64, f64)>]) -> f64 {
     if told.len() < 2 { 0.0 } else { random_effects(&told).map_or(0.0, |(_, _, variance)| variance) }
 }
 
-fn told(place: &Place, robot: &str, sessions: &[&SessionEvidence], found: &Found, stated: &Stated) -> ChangePoint {
-    let day = |session: &&SessionEvidence| {
-        let (value, std) = place.value(alone(place, session, stated)?);
+fn told(place: &Place, robot: &str, sessions: &[&SessionEvidence], found: &Found) -> ChangePoint {
+    let day = |(session, amount): (&&SessionEvidence, &Option<(f64, f64)>)| {
+        let (value, std) = place.value((*amount)?);
         Some(CourseDay { date: session.date.clone(), value, std })
     };
     ChangePoint {
@@ -91,6 +96,6 @@ fn told(place: &Place, robot: &str, sessions: &[&SessionEvidence], found: &Found
         by: place.difference(found.step.0),
         std: place.width(found.step.1),
         z: found.z,
-        course: sessions.iter().filter_map(day).collect(),
+        course: sessions.iter().zip(&found.each).filter_map(day).collect(),
     }
 }

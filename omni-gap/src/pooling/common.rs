@@ -66,7 +66,7 @@ struct Shared {
 impl Shared {
     fn of(place: &Place, robots: &Robots<'_>, stated: &Stated, knobs: &PoolingKnobs) -> Option<Self> {
         let seen: Vec<Quadratic> = robots.all().filter_map(|sessions| of_robot(place, sessions)).collect();
-        let precision = stated.precision(place)?;
+        let precision = stated.of_common(place)?;
         let at = place.coordinate();
         let others: Vec<usize> = (0..place.coordinates()).filter(|k| *k != at).collect();
         let look = |tau: f64| {

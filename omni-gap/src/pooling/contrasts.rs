@@ -6,7 +6,7 @@ use super::evidence::SessionEvidence;
 use super::knobs::PoolingKnobs;
 use super::place::Place;
 use super::population::Stated;
-use super::robots::{Robots, random_effects};
+use super::robots::{Robots, of_robot, random_effects};
 use super::steps::step;
 
 /// A label of sessions.
@@ -73,8 +73,7 @@ fn between(
 ) -> Option<(f64, f64, usize)> {
     let of_robot = |sessions: &Vec<&SessionEvidence>| {
         let of = |after: bool| sessions.iter().copied().filter(|s| is_after(s) == Some(after)).collect::<Vec<_>>();
-        let (before, after) = (of(false), of(true));
-        if before.is_empty() || after.is_empty() { None } else { step(place, &before, &after, stated) }
+        step(place, &of_robot(place, &of(false))?, &of_robot(place, &of(true))?, stated)
     };
     let steps: Vec<(f64, f64)> = robots.all().filter_map(of_robot).collect();
     if steps.is_empty() {

@@ -55,6 +55,8 @@ impl Population {
 /// How the stated uncertainty of the robot file divides: Λ, and the share ρ of it that robots have in common.
 #[derive(Clone, Debug)]
 pub(super) struct Stated {
+    /// Λ
+    pub precision: DMatrix<f64>,
     /// Λ⁻¹
     pub covariance: DMatrix<f64>,
     /// ρ [1]
@@ -73,7 +75,7 @@ impl Stated {
         };
         let told = shares.iter().filter_map(|share| evidence(*share).map(|evidence| (*share, evidence)));
         let (in_common, _) = told.reduce(|best, other| if other.1 > best.1 { other } else { best })?;
-        Some(Self { covariance, in_common })
+        Some(Self { precision: precision.clone(), covariance, in_common })
     }
 
     /// S of a place whose amount scatters by τ from robot to robot.
@@ -82,7 +84,7 @@ impl Stated {
     }
 
     /// Λ_u of a place: nothing of an effect; of a number nothing where it is the place itself.
-    pub fn precision(&self, place: &Place) -> Option<DMatrix<f64>> {
+    pub fn of_common(&self, place: &Place) -> Option<DMatrix<f64>> {
         let covariance = &self.covariance * self.in_common;
         let struck = match place {
             Place::Effect { .. } => None,
@@ -99,9 +101,9 @@ impl Stated {
         Some(place.widened(&precision, 0.0))
     }
 
-    /// Λ of a place's coordinates, of an effect nothing.
-    pub fn whole(&self, place: &Place) -> Option<DMatrix<f64>> {
-        Some(place.widened(&self.covariance.clone().cholesky()?.inverse(), 0.0))
+    /// What the file says of a place's coordinates: Λ about no departure, of an effect nothing.
+    pub fn of_file(&self, place: &Place) -> Quadratic {
+        Quadratic { hess: place.widened(&self.precision, 0.0), ..Quadratic::nothing(place.coordinates()) }
     }
 
     /// One standard error that the file states of a number, in the logarithm [1].

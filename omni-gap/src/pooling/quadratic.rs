@@ -15,6 +15,16 @@ impl Quadratic {
         Self { hess: DMatrix::zeros(coordinates, coordinates), toward: DVector::zeros(coordinates) }
     }
 
+    /// What all of them say together; none of none.
+    pub fn sum<'a>(all: impl IntoIterator<Item = &'a Self>) -> Option<Self> {
+        let mut all = all.into_iter();
+        let first = all.next()?.clone();
+        Some(all.fold(first, |mut sum, more| {
+            sum.add(more);
+            sum
+        }))
+    }
+
     /// Adds what else is known of the same coordinates.
     pub fn add(&mut self, other: &Self) {
         self.hess += &other.hess;

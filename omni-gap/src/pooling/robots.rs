@@ -54,12 +54,8 @@ impl<'a> Robots<'a> {
 
 /// What all sessions of a robot say of a place; none where none does.
 pub(super) fn of_robot(place: &Place, sessions: &[&SessionEvidence]) -> Option<Quadratic> {
-    let mut seen = sessions.iter().filter_map(|session| place.seen_in(session));
-    let first = seen.next()?;
-    Some(seen.fold(first, |mut sum, more| {
-        sum.add(&more);
-        sum
-    }))
+    let seen: Vec<Quadratic> = sessions.iter().filter_map(|session| place.seen_in(session)).collect();
+    Quadratic::sum(&seen)
 }
 
 /// Every place on every robot.
@@ -102,7 +98,7 @@ fn of_each<'a>(place: &Place, robots: &Robots<'a>, stated: &Stated) -> Vec<(&'a 
 /// What the kind says of the other numbers of one of its robots: about δ̂, within its own share of what is stated.
 fn held(place: &Place, seen: &[Quadratic], stated: &Stated) -> Option<Quadratic> {
     let others: Vec<usize> = (place.own()..place.coordinates()).filter(|k| *k != place.coordinate()).collect();
-    let population = Population::of(seen, &stated.spread(place, 0.0), &stated.precision(place)?)?;
+    let population = Population::of(seen, &stated.spread(place, 0.0), &stated.of_common(place)?)?;
     let solved = population.common.hess.clone().cholesky()?;
     let (mean, covariance) = (solved.solve(&population.common.toward), solved.inverse());
     let own = stated.spread(place, 0.0) + covariance;

@@ -139,10 +139,11 @@ fn what_is_common_is_what_one_large_system_of_all_robots_says() {
     let sessions = drawn.fleet(&[WEAK], 0.5);
     let place = &Place::all(&sessions.iter().collect::<Vec<_>>())[0];
     let robots: Vec<Quadratic> = sessions.iter().filter_map(|session| place.seen_in(session)).collect();
-    let stated =
-        Stated { covariance: DMatrix::from_diagonal_element(NUMBERS, NUMBERS, STATED.powi(2)), in_common: 0.4 };
+    let diagonal = |of: f64| DMatrix::from_diagonal_element(NUMBERS, NUMBERS, of);
+    let (precision, covariance) = (diagonal(STATED.powi(-2)), diagonal(STATED.powi(2)));
+    let stated = Stated { precision, covariance, in_common: 0.4 };
     let tau = 0.05;
-    let population = Population::of(&robots, &stated.spread(place, tau), &stated.precision(place).unwrap()).unwrap();
+    let population = Population::of(&robots, &stated.spread(place, tau), &stated.of_common(place).unwrap()).unwrap();
     let (value, std) = population.common.estimate(0).unwrap();
 
     let n = 1 + NUMBERS;
