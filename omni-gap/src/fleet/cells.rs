@@ -11,13 +11,15 @@ use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
 use parquet::errors::{ParquetError, Result};
 use parquet::file::properties::WriterProperties;
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::FileReader;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::record::Field;
 use parquet::schema::parser::parse_message_type;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
+
+use crate::log::source::{described, within_pages};
 
 /// What a column holds; any of them may be missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,14 +116,14 @@ fn put(writer: &mut ColumnWriter<'_>, values: &[&Value]) -> Result<()> {
 
 /// The rows of a file.
 pub(super) fn read<R: Row>(path: &Path) -> Result<Vec<R>> {
-    let file = SerializedFileReader::new(File::open(path)?)?;
+    let file = described(File::open(path)?)?;
     let row = |row: parquet::record::Row| {
         let cells: BTreeMap<&String, &Field> = row.get_column_iter().collect();
         let object = cells.into_iter().map(|(name, field)| (name.clone(), value(field))).collect();
         let of = serde_json::from_value(Value::Object(R::gathered(object)));
         of.map_err(|why| ParquetError::General(format!("a row is not of this form: {why}")))
     };
-    file.get_row_iter(None)?.map(|read| read.and_then(row)).collect()
+    within_pages(|| file.get_row_iter(None)?.map(|read| read.and_then(row)).collect())
 }
 
 fn value(field: &Field) -> Value {

@@ -25,6 +25,7 @@ pub(super) use suffix::ends_in;
 pub(crate) use csv::Layout;
 use opened::Keeps;
 pub(crate) use opened::Source;
+pub(crate) use parquet::{described, within_pages};
 pub use table::Table;
 pub(crate) use topic::Seen as Topic;
 pub use vision::Packet;

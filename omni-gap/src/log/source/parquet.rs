@@ -28,13 +28,7 @@ pub(super) struct Parquet {
 impl Parquet {
     pub fn open(path: &Path) -> Result<Parquet> {
         let opened = File::open(path).map_err(|reason| Error::unreadable(path, &reason))?;
-        let length = opened.metadata().map_err(|reason| Error::unreadable(path, &reason))?.len();
-        let file = guarded(|| SerializedFileReader::new(opened))
-            .unwrap_or_else(|| Err(ParquetError::General("its footer does not fit together".into())))
-            .map_err(|reason| broken(path, &reason))?;
-        if !columns_are_within(file.metadata(), length) {
-            return Err(broken(path, &ParquetError::General("its footer tells of columns that are not in it".into())));
-        }
+        let file = described(opened).map_err(|reason| broken(path, &reason))?;
         let leaves = file.metadata().file_metadata().schema_descr().columns();
         let names = leaves.iter().map(|leaf| leaf.path().parts().join(".")).collect();
         Ok(Parquet { path: path.into(), names, file })
@@ -56,12 +50,28 @@ impl Parquet {
         let mut channel = Channel::with_capacity(usize::try_from(rows).unwrap_or(0).min(MOST_ROWS_AHEAD));
         for group in 0..self.file.num_row_groups() {
             let read = || self.file.get_row_group(group).and_then(|group| read(&*group, column, scale, &mut channel));
-            guarded(read)
-                .unwrap_or_else(|| Err(ParquetError::General("its pages do not fit together".into())))
-                .map_err(|reason| broken(&self.path, &reason).in_column(self.title(column)))?;
+            within_pages(read).map_err(|reason| broken(&self.path, &reason).in_column(self.title(column)))?;
         }
         Ok(channel)
     }
+}
+
+/// A file by its description, which is not believed before it fits the file.
+pub(crate) fn described(opened: File) -> std::result::Result<SerializedFileReader<File>, ParquetError> {
+    let length = opened.metadata()?.len();
+    let file = guarded(|| SerializedFileReader::new(opened))
+        .unwrap_or_else(|| Err(ParquetError::General("its footer does not fit together".into())))?;
+    if !columns_are_within(file.metadata(), length) {
+        return Err(ParquetError::General("its footer tells of columns that are not in it".into()));
+    }
+    Ok(file)
+}
+
+/// Reads pages: where the library panics on them they do not fit together.
+pub(crate) fn within_pages<T>(
+    read: impl FnOnce() -> std::result::Result<T, ParquetError>,
+) -> std::result::Result<T, ParquetError> {
+    guarded(read).unwrap_or_else(|| Err(ParquetError::General("its pages do not fit together".into())))
 }
 
 /// True where every column of every group of rows stands within a file so long (bytes): the library does not ask.
