@@ -23,7 +23,8 @@ pub fn inputs<'a>(sessions: impl IntoIterator<Item = &'a Session>) -> Result<Vec
             }
         }
     }
-    all.iter().map(|path| hashed(path)).collect()
+    let input = |path: &PathBuf| Ok(Input { file: path.display().to_string(), sha256: sha256_of(path)? });
+    all.iter().map(input).collect()
 }
 
 /// The files of a run; none of one that was made in memory.
@@ -33,12 +34,16 @@ fn files(run: &Run) -> Vec<PathBuf> {
     all.into_iter().filter(|path| path.is_file()).collect()
 }
 
-fn hashed(path: &Path) -> Result<Input> {
+/// The hash of a file's bytes, in hexadecimal digits.
+///
+/// # Errors
+/// Where it cannot be read.
+pub(crate) fn sha256_of(path: &Path) -> Result<String> {
     let mut hash = Sha256::new();
     File::open(path)
         .and_then(|mut file| std::io::copy(&mut file, &mut hash))
         .map_err(|why| Error::unreadable(path, &why))?;
-    Ok(Input { file: path.display().to_string(), sha256: format!("{:x}", hash.finalize()) })
+    Ok(format!("{:x}", hash.finalize()))
 }
 
 #[cfg(test)]
@@ -56,7 +61,7 @@ mod tests {
         std::fs::write(&path, "abc").unwrap();
         // FIPS 180-2, appendix B.1
         let known = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        assert_eq!(hashed(&path).unwrap().sha256, known);
+        assert_eq!(sha256_of(&path).unwrap(), known);
     }
 
     #[test]

@@ -66,6 +66,7 @@ pub use experiment::{
 pub use identify::{FitRemark, FittedEffectNumber, FittedNumber, Identification, identify};
 pub use informativity::{check_and_informativity, informativity};
 pub use inputs::inputs;
+pub(crate) use inputs::sha256_of;
 pub use next::{design_report, next};
 pub use plants::{Plants, Reset};
 pub use predict::{predict, with_blank_columns, with_columns_of_its_header};

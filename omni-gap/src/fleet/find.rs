@@ -10,6 +10,7 @@ use jiff::tz::Offset;
 
 use super::labels::{Labels, date_in};
 use crate::error::{Error, InputKind, Result};
+use crate::log::entries;
 
 /// A session that lies below a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,12 +70,8 @@ impl Walked {
             self.found.push(found(folder, root));
             return Ok(());
         }
-        let entries = std::fs::read_dir(folder).map_err(|why| Error::unreadable(folder, &why))?;
-        let mut below: Vec<PathBuf> =
-            entries.flatten().map(|entry| entry.path()).filter(|path| path.is_dir()).collect();
-        below.sort();
-        let hidden = |path: &PathBuf| path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
-        below.iter().filter(|path| !hidden(path)).try_for_each(|path| self.below(path, root))
+        let mut below = entries(folder)?.into_iter().map(|(_, path)| path).filter(|path| path.is_dir());
+        below.try_for_each(|path| self.below(&path, root))
     }
 }
 

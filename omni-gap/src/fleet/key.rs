@@ -1,7 +1,5 @@
 //! What an answer rests on, as one hash: the session's files, the catalogue, the thresholds and this program's version.
 
-use std::fs::File;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use model_core::effects::EffectKind;
@@ -9,8 +7,10 @@ use model_core::effects::nominal;
 use sha2::{Digest, Sha256};
 
 use super::labels;
+use crate::api::sha256_of;
 use crate::engine::Knobs;
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::log::entries;
 
 /// The form of the rows; it changes where rows of before cannot be read beside new ones.
 pub(super) const FORM: u32 = 1;
@@ -41,13 +41,10 @@ impl Basis {
     pub fn with_session(&self, session: &Path) -> Result<String> {
         let mut hash = self.0.clone();
         for file in files(session)? {
-            let unreadable = |why: io::Error| Error::unreadable(&file, &why);
-            let mut own = Sha256::new();
-            io::copy(&mut File::open(&file).map_err(unreadable)?, &mut own).map_err(unreadable)?;
             let name = file.strip_prefix(session).unwrap_or(&file).as_os_str().as_encoded_bytes();
             hash.update((name.len() as u64).to_le_bytes());
             hash.update(name);
-            hash.update(own.finalize());
+            hash.update(sha256_of(&file)?);
         }
         Ok(format!("{:x}", hash.finalize()))
     }
@@ -66,12 +63,9 @@ fn files(session: &Path) -> Result<Vec<PathBuf>> {
     Ok(all)
 }
 
-/// The files below a folder; folders that are links are not followed.
+/// The files below a folder that are not hidden; folders that are links are not followed.
 fn below(folder: &Path, all: &mut Vec<PathBuf>) -> Result<()> {
-    let entries = std::fs::read_dir(folder).map_err(|why| Error::unreadable(folder, &why))?;
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    paths.sort();
-    for path in paths {
+    for (_, path) in entries(folder)? {
         if path.is_file() {
             all.push(path);
         } else if path.is_dir() && !path.is_symlink() {

@@ -11,7 +11,7 @@ use std::path::Path;
 
 use jiff::civil::Date;
 
-use crate::error::{Error, InputKind, Result};
+use crate::error::{InputKind, Result};
 use crate::log::{Section, TomlSource, read_text};
 
 /// The name of the file.
@@ -47,9 +47,11 @@ impl Labels {
         });
         let robot = owned("robot")?;
         if robot.as_deref() == Some("") {
-            let empty: Error =
-                section.key_error("robot", "found no name, expected one", "Name the robot, or leave the key out");
-            return Err(empty);
+            return Err(section.key_error(
+                "robot",
+                "found no name, expected one",
+                "Name the robot, or leave the key out",
+            ));
         }
         Ok(Self { robot, date: date.transpose()?, firmware: owned("firmware")?, floor: owned("floor")? })
     }

@@ -71,23 +71,13 @@ fn merged<R: Row>(store: &Path, day: &Path, sessions: &[String], new: Vec<R>) ->
 
 /// Takes away what was not finished in a day's folder when its writer was killed.
 pub(super) fn sweep(day: &Path) -> Result<()> {
-    for path in entries(day)? {
+    let files = std::fs::read_dir(day).map_err(|why| Error::unreadable(day, &why))?;
+    for path in files.flatten().map(|file| file.path()) {
         if path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(UNFINISHED.as_bytes())) {
             std::fs::remove_file(&path).map_err(|why| Error::output(&path, why.to_string(), "Take it away by hand"))?;
         }
     }
     Ok(())
-}
-
-/// What is in a folder, by name; nothing where it is not there.
-pub(super) fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
-    if !folder.is_dir() {
-        return Ok(Vec::new());
-    }
-    let entries = std::fs::read_dir(folder).map_err(|why| Error::unreadable(folder, &why))?;
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    paths.sort();
-    Ok(paths)
 }
 
 /// The rows of a table's file.

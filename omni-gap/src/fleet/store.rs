@@ -10,6 +10,7 @@ use super::cells::Row;
 use super::partition;
 use super::rows::{CauseRow, EquationRow, SessionRow};
 use crate::error::{Error, Result};
+use crate::log::entries;
 
 /// A day is written at most so often, and writing takes at most so small a part of the time.
 const BETWEEN: Duration = Duration::from_secs(5);
@@ -113,7 +114,7 @@ fn locked(lock: &File) -> std::result::Result<(), TryLockError> {
 pub(super) fn rows<R: Row>(store: &Path) -> Result<Vec<R>> {
     let mut all = Vec::new();
     for day in days(store, R::TABLE)? {
-        for file in partition::entries(&day)? {
+        for (_, file) in entries(&day)? {
             if file.extension().is_some_and(|suffix| suffix == "parquet") {
                 all.extend(partition::of_file::<R>(&file)?);
             }
@@ -122,11 +123,14 @@ pub(super) fn rows<R: Row>(store: &Path) -> Result<Vec<R>> {
     Ok(all)
 }
 
-/// The folders of a table's days.
+/// The folders of a table's days; none where the table is not there.
 fn days(store: &Path, table: &str) -> Result<Vec<PathBuf>> {
-    let mut days = Vec::new();
-    for robot in partition::entries(&store.join(table))?.into_iter().filter(|path| path.is_dir()) {
-        days.extend(partition::entries(&robot)?.into_iter().filter(|path| path.is_dir()));
-    }
-    Ok(days)
+    let table = store.join(table);
+    let robots = if table.is_dir() { folders(&table)? } else { Vec::new() };
+    let days: Vec<Vec<PathBuf>> = robots.iter().map(|robot| folders(robot)).collect::<Result<_>>()?;
+    Ok(days.concat())
+}
+
+fn folders(within: &Path) -> Result<Vec<PathBuf>> {
+    Ok(entries(within)?.into_iter().map(|(_, path)| path).filter(|path| path.is_dir()).collect())
 }
