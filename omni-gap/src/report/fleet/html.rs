@@ -4,6 +4,7 @@ use super::course::course;
 use super::map::map;
 use super::model::{FleetReport, KindOfRobot, SessionLine};
 use super::phrases;
+use crate::report::html::notes;
 use crate::report::html::page::{page, section, table};
 use crate::report::markup::Markup;
 use crate::report::number::{num, percent};
@@ -22,14 +23,12 @@ pub fn html(report: &FleetReport) -> String {
             );
         });
         for kind in &report.kinds {
+            let outliers = kind.pooled.estimates.iter().filter(|e| e.stands_out).map(phrases::outlier);
+            let contrasts = kind.pooled.contrasts.iter().map(phrases::contrast);
             common(m, kind);
-            lines(
-                m,
-                "Robots that stand out",
-                kind.pooled.estimates.iter().filter(|e| e.stands_out).map(phrases::outlier),
-            );
+            notes::list(m, "Robots that stand out", &outliers.collect::<Vec<_>>());
             changes(m, kind);
-            lines(m, "Firmware and floors", kind.pooled.contrasts.iter().map(phrases::contrast));
+            notes::list(m, "Firmware and floors", &contrasts.collect::<Vec<_>>());
             map(m, kind);
         }
         sessions(m, &report.sessions);
@@ -69,15 +68,6 @@ fn changes(m: &mut Markup, kind: &KindOfRobot) {
             kind.pooled.changes.iter().for_each(|change| course(m, change, &phrases::change(change)));
         });
     });
-}
-
-fn lines(m: &mut Markup, title: &str, all: impl Iterator<Item = String>) {
-    let all: Vec<String> = all.collect();
-    if !all.is_empty() {
-        section(m, title, "", |m| {
-            m.within("ul", &[], |m| all.iter().for_each(|line| m.leaf("li", &[], line)));
-        });
-    }
 }
 
 fn sessions(m: &mut Markup, sessions: &[SessionLine]) {

@@ -3,6 +3,7 @@
 use super::model::{FleetReport, KindOfRobot, SessionLine};
 use crate::pooling::{ChangePoint, CommonCause, Contrast, PooledNumber, RobotEstimate};
 use crate::report::number::{estimate, num, percent};
+use crate::report::phrases::verdict as word;
 use crate::vocabulary::Verdict;
 
 /// A cause of this probability is told as found.
@@ -47,17 +48,14 @@ pub(super) fn headline(kind: &KindOfRobot) -> String {
 
 /// "3 no gap, 2 effect, 1 without an answer".
 pub(super) fn verdicts(sessions: &[SessionLine]) -> String {
-    let words = [
-        (Some(Verdict::NoGap), "no gap"),
-        (Some(Verdict::Parameter), "parameter"),
-        (Some(Verdict::Effect), "effect"),
-        (Some(Verdict::Unknown), "unknown"),
-        (Some(Verdict::UnfitData), "unfit data"),
-        (None, "without an answer"),
-    ];
-    let counted = words.map(|(verdict, word)| (sessions.iter().filter(|s| s.verdict == verdict).count(), word));
-    let told: Vec<String> =
-        counted.into_iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}")).collect();
+    use Verdict::{Effect, NoGap, Parameter, UnfitData, Unknown};
+    let all = [Some(NoGap), Some(Parameter), Some(Effect), Some(Unknown), Some(UnfitData), None];
+    let counted = all.map(|verdict| (sessions.iter().filter(|s| s.verdict == verdict).count(), verdict));
+    let told: Vec<String> = counted
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, verdict)| format!("{count} {}", verdict.map_or("without an answer", word)))
+        .collect();
     told.join(", ")
 }
 
