@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use omni_gap::report::{num, percent};
 
-use super::trials::{FOUND, ROBOTS, Trial};
+use super::trials::{FOUND, ROBOTS, Trial, median};
 
 /// The trials of fleets with one weak effect, and of healthy ones.
 #[derive(Clone, Debug)]
@@ -97,9 +97,4 @@ fn healthy(fleets: &[(f64, Trial)]) -> String {
         );
     }
     text
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

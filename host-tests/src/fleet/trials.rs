@@ -91,13 +91,17 @@ fn sized(effect: EffectKind, share: f64) -> EffectInstance {
 fn shown(kind: &Kind, id: &str) -> Result<[f64; 2], Error> {
     let healthy = Kind { robots: 7, hidden: Vec::new(), ..kind.clone() };
     let sessions = healthy.evidence(&Knobs::default())?;
-    let median = |stated: f64| {
+    let shown = |stated: f64| {
         let each = sessions.iter().filter_map(|session| signal_to_noise(session.equations.as_ref()?, id, stated));
-        let mut shown: Vec<f64> = each.collect();
-        shown.sort_by(f64::total_cmp);
-        shown.get(shown.len() / 2).copied().unwrap_or(f64::NAN)
+        median(each.collect())
     };
-    Ok([1.0, NOTHING_STATED].map(median))
+    Ok([1.0, NOTHING_STATED].map(shown))
+}
+
+/// The middle one; of none, no number.
+pub(super) fn median(mut of: Vec<f64>) -> f64 {
+    of.sort_by(f64::total_cmp);
+    of.get(of.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// So little of Λ that the numbers are all but free, and the equations still have a solution.
