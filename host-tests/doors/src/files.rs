@@ -6,11 +6,13 @@ use model_core::link::framing::FrameKind;
 use model_core::link::record::TelemetryRecord;
 use omni_gap::check::check;
 use omni_gap::error::Error;
+use omni_gap::fleet::fleet_report;
 use omni_gap::log::{Columns, RobotFile};
+use omni_gap::pooling::PoolingKnobs;
 use omni_gap::{Session, known_effects};
 
 use crate::answer::Answer;
-use crate::seeds::{ROBOT, TABLE, TOPICS, VISION, framed, hello};
+use crate::seeds::{FLEET_DAY, ROBOT, TABLE, TOPICS, VISION, framed, hello};
 
 /// Refused with the message that a person reads, the place of the file left out.
 fn refused(why: &Error, folder: &Path) -> Answer {
@@ -73,6 +75,18 @@ pub fn records(bytes: &[u8]) -> Answer {
 pub fn payloads(bytes: &[u8]) -> Answer {
     let records = bytes.chunks(TelemetryRecord::BYTES).flat_map(|payload| framed(FrameKind::Record.code(), payload));
     run("run.rec", &hello().into_iter().chain(records).collect::<Vec<u8>>(), None)
+}
+
+/// The table of a fleet's sessions.
+pub fn fleet(bytes: &[u8]) -> Answer {
+    let store = tempfile::tempdir().expect("a folder");
+    let day = store.path().join(FLEET_DAY);
+    std::fs::create_dir_all(&day).expect("room for a folder");
+    std::fs::write(day.join("part.parquet"), bytes).expect("room for a file");
+    match fleet_report(store.path(), &PoolingKnobs::default()) {
+        Ok(_) => Answer::Taken,
+        Err(why) => refused(&why, store.path()),
+    }
 }
 
 /// A session of three wheels with this one run, read and looked at as the diagnosis does before it fits anything.

@@ -34,6 +34,7 @@ pub const DOORS: &[Door] = &[
     Door { name: "vision", open: files::vision },
     Door { name: "records", open: files::records },
     Door { name: "payloads", open: files::payloads },
+    Door { name: "fleet", open: files::fleet },
     Door { name: "frames", open: wire::frames },
     Door { name: "block", open: wire::block },
 ];

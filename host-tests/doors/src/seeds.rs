@@ -9,6 +9,8 @@ use model_core::link::framing::{FrameKind, MAX_FRAME, encode_frame};
 use model_core::link::hello::{Commutation, Hello, OFFSET_PARTS};
 use model_core::link::record::TelemetryRecord;
 use model_core::link::sensor_codes::SensorScales;
+use omni_gap::engine::Knobs;
+use omni_gap::fleet::{FleetOptions, Store, diagnose_fleet, find};
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
 use omni_gap::synthesize::{Scenario, synthesize};
@@ -46,10 +48,31 @@ pub fn seeds(door: &str) -> Vec<Vec<u8>> {
         "vision" => recordings(&["vision/game.log", "vision/game.log.gz"]),
         "records" => vec![records()],
         "payloads" => vec![(0..10).flat_map(|k| record(k).to_bytes().to_vec()).collect()],
+        "fleet" => vec![sessions_of_a_fleet()],
         "frames" => vec![records(), commands()],
         "block" => vec![block()],
         _ => Vec::new(),
     }
+}
+
+/// A robot's day in the table of a fleet's sessions.
+pub const FLEET_DAY: &str = "sessions/robot=r01/date=2026-11-03";
+
+/// That table, of two sessions that cannot be read: they need no diagnosis.
+fn sessions_of_a_fleet() -> Vec<u8> {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["a", "b"] {
+        let session = folder.path().join("logs/r01/2026-11-03").join(name);
+        std::fs::create_dir_all(session.join("runs")).expect("room for a folder");
+        std::fs::write(session.join("robot.toml"), "name = 7\n").expect("room for a file");
+    }
+    let options =
+        FleetOptions { knobs: Knobs::default(), jobs: 1, reports: false, progress: &|_| {}, told_to_end: &|| false };
+    let sessions = find(&[folder.path().join("logs")]).expect("two sessions");
+    let store = folder.path().join("store");
+    let mut opened = Store::open(&store).expect("a new store");
+    diagnose_fleet(&sessions, &mut opened, &options).expect("a store that takes rows");
+    std::fs::read(store.join(FLEET_DAY).join("part.parquet")).expect("a table")
 }
 
 /// Files that the formats' own libraries wrote.
