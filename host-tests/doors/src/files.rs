@@ -6,7 +6,7 @@ use model_core::link::framing::FrameKind;
 use model_core::link::record::TelemetryRecord;
 use omni_gap::check::check;
 use omni_gap::error::Error;
-use omni_gap::fleet::fleet_report;
+use omni_gap::fleet::{Folder, fleet_report};
 use omni_gap::log::{Columns, RobotFile};
 use omni_gap::pooling::PoolingKnobs;
 use omni_gap::{Session, known_effects};
@@ -83,7 +83,7 @@ pub fn fleet(bytes: &[u8]) -> Answer {
     let day = store.path().join(FLEET_DAY);
     std::fs::create_dir_all(&day).expect("room for a folder");
     std::fs::write(day.join("part.parquet"), bytes).expect("room for a file");
-    match fleet_report(store.path(), &PoolingKnobs::default()) {
+    match fleet_report(&Folder::to_read(store.path()), &PoolingKnobs::default()) {
         Ok(_) => Answer::Taken,
         Err(why) => refused(&why, store.path()),
     }

@@ -67,7 +67,7 @@ fn sessions_of_a_fleet() -> Vec<u8> {
         std::fs::write(session.join("robot.toml"), "name = 7\n").expect("room for a file");
     }
     let options =
-        FleetOptions { knobs: Knobs::default(), jobs: 1, reports: false, progress: &|_| {}, told_to_end: &|| false };
+        FleetOptions { knobs: Knobs::default(), jobs: 1, reports: None, progress: &|_| {}, told_to_end: &|| false };
     let sessions = find(&[folder.path().join("logs")]).expect("two sessions");
     let store = folder.path().join("store");
     let mut opened = Store::open(&store).expect("a new store");

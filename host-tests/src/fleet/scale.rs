@@ -56,7 +56,7 @@ pub fn scale(kind: &Kind) -> Result<Scale, Error> {
     let cores = available_parallelism().map_or(1, usize::from);
     let timed = |store: &str, jobs: usize, count: usize| -> Result<f64, Error> {
         let knobs = Knobs { equations: true, ..Knobs::default() };
-        let options = FleetOptions { knobs, jobs, reports: false, progress: &|_| {}, told_to_end: &|| false };
+        let options = FleetOptions { knobs, jobs, reports: None, progress: &|_| {}, told_to_end: &|| false };
         let begun = Instant::now();
         diagnose_fleet(&sessions[..count], &mut Store::open(&folder.path().join(store))?, &options)?;
         Ok(begun.elapsed().as_secs_f64())

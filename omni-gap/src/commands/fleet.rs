@@ -6,7 +6,7 @@ use std::thread::available_parallelism;
 
 use omni_gap::Error;
 use omni_gap::engine::Knobs;
-use omni_gap::fleet::{FleetOptions, FleetTally, Store, diagnose_fleet, find, fleet_report};
+use omni_gap::fleet::{FleetOptions, FleetTally, Folder, Store, diagnose_fleet, find, fleet_report};
 use omni_gap::pooling::PoolingKnobs;
 use omni_gap::report::fleet as report;
 use schemars::JsonSchema;
@@ -99,7 +99,7 @@ impl Fleet {
         let options = FleetOptions {
             knobs: Knobs { equations: true, ..Knobs::default() },
             jobs: self.jobs.map_or_else(|| available_parallelism().map_or(1, usize::from), usize::from),
-            reports: !self.no_reports,
+            reports: (!self.no_reports).then_some(&*self.out),
             progress: &|phrase| console.phase_is_at(phrase.to_owned()),
             told_to_end: &|| ended.load(Ordering::Relaxed),
         };
@@ -130,7 +130,7 @@ impl FleetReport {
     fn run(&self, console: &Console) -> Done {
         output_path::folder(&self.store, &report::FILES)?;
         console.phase("reading the tables and pooling them");
-        let fleet = fleet_report(&self.store, &PoolingKnobs::default())?;
+        let fleet = fleet_report(&Folder::to_read(&self.store), &PoolingKnobs::default())?;
         let written = report::write(&self.store, &fleet, &report::html(&fleet)).map_err(CliError::from)?;
         console.end_phase();
         self.form.say(console, &report::terminal(&fleet, Some(&written)), &fleet)?;

@@ -1,45 +1,125 @@
 //! One session, diagnosed: its rows.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use model_core::plant::robot::Nominal;
+use rayon::ThreadPoolBuilder;
+use sha2::{Digest, Sha256};
 
+use super::cells::{Row, read, written};
 use super::find::FoundSession;
+use super::key::key_of;
 use super::rows::{CauseRow, EquationRow, SessionRow};
 use crate::api::inputs;
 use crate::diagnosis::{Diagnosis, Options};
 use crate::engine::Knobs;
 use crate::engine::findings::{ConsideredCause, Direction, Findings, SessionEquations};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::known::known_effects;
 use crate::log::{Run, Session};
 use crate::report::{self, Beside};
 
 /// The rows of a session.
-#[derive(Clone, Debug)]
-pub(super) struct Answered {
-    pub session: SessionRow,
-    pub causes: Vec<CauseRow>,
-    pub equations: Vec<EquationRow>,
+#[derive(Clone, Debug, PartialEq)]
+pub struct SessionAnswer {
+    pub(super) session: SessionRow,
+    pub(super) causes: Vec<CauseRow>,
+    pub(super) equations: Vec<EquationRow>,
 }
 
-/// Diagnoses a session; `keep` is the folder for its report, and that folder's name within the store.
-pub(super) fn answered(found: &FoundSession, key: String, knobs: &Knobs, keep: Option<(&Path, String)>) -> Answered {
+/// Diagnoses a session on one thread, unless it is as it was when the answer of the key `held` was made. Its report is put below
+/// `reports`, the folder of the store, where that is named.
+///
+/// Nothing that a session has wrong is an error: it is a row with its reason.
+pub fn answer_session(
+    found: &FoundSession,
+    held: Option<&str>,
+    knobs: &Knobs,
+    reports: Option<&Path>,
+) -> Option<SessionAnswer> {
+    let key = match key_of(found, knobs) {
+        Ok(key) if held == Some(&key) => return None,
+        Ok(key) => key,
+        Err(why) => return Some(SessionAnswer::unreadable(found, &why.to_string())),
+    };
     if let Some(why) = &found.refused {
-        return failed(found, key, why);
+        return Some(SessionAnswer::failed(found, key, why));
     }
+    let name = report_folder(&found.name, &key);
+    let keep = reports.map(|store| (store.join(&name), name));
+    let one = match ThreadPoolBuilder::new().num_threads(1).build() {
+        Ok(one) => one,
+        Err(why) => return Some(SessionAnswer::unreadable(found, &why.to_string())),
+    };
     // nothing of it is used after a panic, and one session's must not end a night's work on the others
-    match catch_unwind(AssertUnwindSafe(|| diagnosed(found, &key, knobs, keep))) {
-        Ok(Ok(answered)) => answered,
-        Ok(Err(why)) => failed(found, key, &why.to_string()),
+    Some(match catch_unwind(AssertUnwindSafe(|| one.install(|| diagnosed(found, &key, knobs, keep)))) {
+        Ok(Ok(answer)) => answer,
+        Ok(Err(why)) => SessionAnswer::failed(found, key, &why.to_string()),
         Err(_) => {
-            failed(found, key, "the program itself failed on it: `omni-gap diagnose` of this session tells where")
+            let why = "the program itself failed on it: `omni-gap diagnose` of this session tells where";
+            SessionAnswer::failed(found, key, why)
         }
+    })
+}
+
+/// Where a session's report is kept: two copies of a session have a report each.
+fn report_folder(session: &str, key: &str) -> String {
+    let mut hash = Sha256::new();
+    hash.update(session);
+    hash.update(key);
+    format!("reports/{}", &format!("{:x}", hash.finalize())[..16])
+}
+
+impl SessionAnswer {
+    /// The session's own row.
+    pub fn session(&self) -> &SessionRow {
+        &self.session
+    }
+
+    /// The rows as Parquet files, to send them elsewhere: of `sessions`, `causes` and `equations`.
+    ///
+    /// # Errors
+    /// Where Parquet refuses them.
+    pub fn to_parquet(&self) -> Result<[Vec<u8>; 3]> {
+        Ok([file(std::slice::from_ref(&self.session))?, file(&self.causes)?, file(&self.equations)?])
+    }
+
+    /// The other way round.
+    ///
+    /// # Errors
+    /// Where these are not the files of one session.
+    pub fn of_parquet([sessions, causes, equations]: [Vec<u8>; 3]) -> Result<Self> {
+        let [session] = <[SessionRow; 1]>::try_from(rows(sessions)?)
+            .map_err(|found| unfit::<SessionRow>(format!("found {} rows, expected one", found.len())))?;
+        Ok(Self { session, causes: rows(causes)?, equations: rows(equations)? })
+    }
+
+    /// A session that could not be read, and why; asked again, it is read again.
+    pub fn unreadable(found: &FoundSession, why: &str) -> Self {
+        Self::failed(found, String::new(), why)
+    }
+
+    /// A session without an answer.
+    fn failed(found: &FoundSession, key: String, why: &str) -> Self {
+        let session = SessionRow { reason: Some(why.to_owned()), ..blank(found, &key) };
+        Self { session, causes: Vec::new(), equations: Vec::new() }
     }
 }
 
-fn diagnosed(found: &FoundSession, key: &str, knobs: &Knobs, keep: Option<(&Path, String)>) -> Result<Answered> {
+fn file<R: Row>(rows: &[R]) -> Result<Vec<u8>> {
+    written(rows).map_err(|why| unfit::<R>(why.to_string()))
+}
+
+fn rows<R: Row>(bytes: Vec<u8>) -> Result<Vec<R>> {
+    read(bytes).map_err(|why| unfit::<R>(why.to_string()))
+}
+
+fn unfit<R: Row>(why: String) -> Error {
+    Error::input(Path::new(R::TABLE), why, "Send the three files of one answer, by the same version of omni-gap")
+}
+
+fn diagnosed(found: &FoundSession, key: &str, knobs: &Knobs, keep: Option<(PathBuf, String)>) -> Result<SessionAnswer> {
     let session = Session::load(&found.path, None, &known_effects())?;
     let name = found.path.file_name().map(|name| name.to_string_lossy().into_owned());
     let mut diagnosis = Diagnosis::of(&session, &Options { session: name, knobs: knobs.clone(), ..Options::default() });
@@ -51,7 +131,7 @@ fn diagnosed(found: &FoundSession, key: &str, knobs: &Knobs, keep: Option<(&Path
         diagnosis.report.inputs = inputs([&session])?;
         let page = report::html(&diagnosis.report, &diagnosis.pictures);
         let (refitted, corrected) = (diagnosis.refitted_robot.as_deref(), diagnosis.corrected_robot.as_deref());
-        report::write(folder, &diagnosis.report, &page, Beside { refitted, corrected, script: None })?;
+        report::write(&folder, &diagnosis.report, &page, Beside { refitted, corrected, script: None })?;
         row.report = Some(name);
     }
     let report = &diagnosis.report;
@@ -66,19 +146,13 @@ fn diagnosed(found: &FoundSession, key: &str, knobs: &Knobs, keep: Option<(&Path
     (row.gap, row.gap_after, row.floor_of_gap) = (report.shrink.before, report.shrink.after, report.shrink.noise_floor);
     let causes = cause_rows(&row, &diagnosis.findings);
     let equations = diagnosis.findings.equations.iter().flat_map(|equations| equation_rows(&row, equations)).collect();
-    Ok(Answered { session: row, causes, equations })
-}
-
-/// A session without an answer.
-fn failed(found: &FoundSession, key: String, why: &str) -> Answered {
-    let row = SessionRow { reason: Some(why.to_owned()), ..blank(found, &key) };
-    Answered { session: row, causes: Vec::new(), equations: Vec::new() }
+    Ok(SessionAnswer { session: row, causes, equations })
 }
 
 fn blank(found: &FoundSession, key: &str) -> SessionRow {
     SessionRow {
         key: key.to_owned(),
-        session: found.path.display().to_string(),
+        session: found.name.clone(),
         robot: found.robot.clone().unwrap_or_else(|| "unnamed".to_owned()),
         kind: None,
         date: found.date.to_string(),

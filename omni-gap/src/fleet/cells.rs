@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::fs::File;
-use std::path::Path;
 use std::sync::Arc;
 
+use bytes::Bytes;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
@@ -114,9 +113,9 @@ fn put(writer: &mut ColumnWriter<'_>, values: &[&Value]) -> Result<()> {
     .map(|_| ())
 }
 
-/// The rows of a file.
-pub(super) fn read<R: Row>(path: &Path) -> Result<Vec<R>> {
-    let file = described(File::open(path)?)?;
+/// The rows of a file with these bytes.
+pub(super) fn read<R: Row>(bytes: Vec<u8>) -> Result<Vec<R>> {
+    let file = described(Bytes::from(bytes))?;
     let row = |row: parquet::record::Row| {
         let cells: BTreeMap<&String, &Field> = row.get_column_iter().collect();
         let object = cells.into_iter().map(|(name, field)| (name.clone(), value(field))).collect();

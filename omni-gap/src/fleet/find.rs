@@ -15,8 +15,12 @@ use crate::log::entries;
 /// A session that lies below a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FoundSession {
+    /// What its rows call it: its folder as it was named, or the place that the folder was copied from.
+    pub name: String,
     /// Its folder.
     pub path: PathBuf,
+    /// The folder below which it was found.
+    pub root: PathBuf,
     /// The robot, as far as the session's place and labels tell; none where only its robot file can.
     pub robot: Option<String>,
     /// The day.
@@ -67,7 +71,7 @@ impl Walked {
             return Ok(());
         }
         if folder.join("robot.toml").is_file() && folder.join("runs").is_dir() {
-            self.found.push(found(folder, root));
+            self.found.push(FoundSession::at(folder, root, folder.display().to_string()));
             return Ok(());
         }
         let mut below = entries(folder)?.into_iter().map(|(_, path)| path).filter(|path| path.is_dir());
@@ -75,19 +79,24 @@ impl Walked {
     }
 }
 
-fn found(path: &Path, root: &Path) -> FoundSession {
-    let (labels, refused) = match Labels::of(path) {
-        Ok(labels) => (labels, None),
-        Err(why) => (Labels::default(), Some(why.to_string())),
-    };
-    let within = path.strip_prefix(root).unwrap_or(path);
-    FoundSession {
-        path: path.to_path_buf(),
-        robot: labels.robot.or_else(|| folder_of_robot(within)),
-        date: labels.date.or_else(|| date_in(within)).unwrap_or_else(|| newest(path)),
-        firmware: labels.firmware,
-        floor: labels.floor,
-        refused,
+impl FoundSession {
+    /// The session in a folder, whose place below `root` tells robot and day where its labels do not.
+    pub fn at(path: &Path, root: &Path, name: String) -> Self {
+        let (labels, refused) = match Labels::of(path) {
+            Ok(labels) => (labels, None),
+            Err(why) => (Labels::default(), Some(why.to_string())),
+        };
+        let within = path.strip_prefix(root).unwrap_or(path);
+        Self {
+            name,
+            path: path.to_path_buf(),
+            root: root.to_path_buf(),
+            robot: labels.robot.or_else(|| folder_of_robot(within)),
+            date: labels.date.or_else(|| date_in(within)).unwrap_or_else(|| newest(path)),
+            firmware: labels.firmware,
+            floor: labels.floor,
+            refused,
+        }
     }
 }
 

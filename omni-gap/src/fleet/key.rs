@@ -6,6 +6,7 @@ use model_core::effects::EffectKind;
 use model_core::effects::nominal;
 use sha2::{Digest, Sha256};
 
+use super::find::FoundSession;
 use super::labels;
 use crate::api::sha256_of;
 use crate::engine::Knobs;
@@ -13,41 +14,36 @@ use crate::error::Result;
 use crate::log::entries;
 
 /// The form of the rows; it changes where rows of before cannot be read beside new ones.
-pub(super) const FORM: u32 = 1;
+const FORM: u32 = 2;
+
+/// The hash of a session: each of its files with its name, and the robot that its place tells.
+///
+/// # Errors
+/// Where a file cannot be read.
+pub(super) fn key_of(found: &FoundSession, knobs: &Knobs) -> Result<String> {
+    let mut hash = basis(knobs);
+    hash.update(format!("{:?}\n", found.robot));
+    for file in files(&found.path)? {
+        let name = file.strip_prefix(&found.path).unwrap_or(&file).as_os_str().as_encoded_bytes();
+        hash.update((name.len() as u64).to_le_bytes());
+        hash.update(name);
+        hash.update(sha256_of(&file)?);
+    }
+    Ok(format!("{:x}", hash.finalize()))
+}
 
 /// The part that all sessions share.
-#[derive(Clone)]
-pub(super) struct Basis(Sha256);
-
-impl Basis {
-    /// Of these thresholds.
-    pub fn of(knobs: &Knobs) -> Self {
-        let mut hash = Sha256::new();
-        hash.update(format!("form {FORM}, omni-gap {}\n", env!("CARGO_PKG_VERSION")));
-        for card in EffectKind::ALL.iter().map(|effect| effect.card()) {
-            hash.update(format!("{} {:?} {:?}\n", card.id, card.scope, card.params));
-        }
-        for number in nominal::numbers() {
-            hash.update(format!("{} {:?} {:?}\n", number.key, number.relative_uncertainty, number.within));
-        }
-        hash.update(serde_json::to_vec(knobs).unwrap_or_default());
-        Self(hash)
+fn basis(knobs: &Knobs) -> Sha256 {
+    let mut hash = Sha256::new();
+    hash.update(format!("form {FORM}, omni-gap {}\n", env!("CARGO_PKG_VERSION")));
+    for card in EffectKind::ALL.iter().map(|effect| effect.card()) {
+        hash.update(format!("{} {:?} {:?}\n", card.id, card.scope, card.params));
     }
-
-    /// Of a session too: each of its files with its name.
-    ///
-    /// # Errors
-    /// Where one cannot be read.
-    pub fn with_session(&self, session: &Path) -> Result<String> {
-        let mut hash = self.0.clone();
-        for file in files(session)? {
-            let name = file.strip_prefix(session).unwrap_or(&file).as_os_str().as_encoded_bytes();
-            hash.update((name.len() as u64).to_le_bytes());
-            hash.update(name);
-            hash.update(sha256_of(&file)?);
-        }
-        Ok(format!("{:x}", hash.finalize()))
+    for number in nominal::numbers() {
+        hash.update(format!("{} {:?} {:?}\n", number.key, number.relative_uncertainty, number.within));
     }
+    hash.update(serde_json::to_vec(knobs).unwrap_or_default());
+    hash
 }
 
 /// The files that a session may be read from, in the order of their names.
@@ -80,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_byte_name_and_threshold_counts_and_nothing_else() {
+    fn every_byte_name_threshold_and_robot_counts_and_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
         let write = |name: &str, text: &str| {
             let path = folder.path().join(name);
@@ -90,8 +86,11 @@ mod tests {
         write("robot.toml", "name = \"x\"");
         write("runs/a.csv", "1");
         let knobs = Knobs::default();
-        let key = |knobs: &Knobs| Basis::of(knobs).with_session(folder.path()).unwrap();
+        let found = || FoundSession::at(folder.path(), folder.path(), "x".into());
+        let key = |knobs: &Knobs| key_of(&found(), knobs).unwrap();
         let first = key(&knobs);
+        let of_another = FoundSession { robot: Some("r08".into()), ..found() };
+        assert_ne!(key_of(&of_another, &knobs).unwrap(), first);
         write("notes.txt", "what I think of it");
         assert_eq!(key(&knobs), first);
         let mut other = knobs.clone();

@@ -1,12 +1,12 @@
 //! What a store tells: its sessions, and what the robots of each kind tell together.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use model_core::plant::robot::Nominal;
 
+use super::partition::of_table;
 use super::rows::{EquationRow, SessionRow};
-use super::store::rows;
+use super::storage::Storage;
 use crate::engine::findings::{Direction, SessionEquations};
 use crate::error::{Error, InputKind, Result};
 use crate::pooling::{PoolingKnobs, SessionEvidence, pooled};
@@ -16,16 +16,16 @@ use crate::report::fleet::{FleetReport, KindOfRobot, SCHEMA, SessionLine};
 ///
 /// # Errors
 /// Where it cannot be read, or holds no session.
-pub fn fleet_report(store: &Path, knobs: &PoolingKnobs) -> Result<FleetReport> {
-    let mut sessions = rows::<SessionRow>(store)?;
+pub fn fleet_report(store: &dyn Storage, knobs: &PoolingKnobs) -> Result<FleetReport> {
+    let mut sessions = of_table::<SessionRow>(store)?;
     if sessions.is_empty() {
         let problem = "there are no sessions of a fleet in it";
         let fix = "Make it first with `omni-gap fleet FOLDER --out STORE`";
-        return Err(Error::input(store, problem, fix).of_kind(InputKind::Missing));
+        return Err(Error::input(&store.place(""), problem, fix).of_kind(InputKind::Missing));
     }
     sessions.sort_by(|a, b| a.session.cmp(&b.session));
     let mut equations: BTreeMap<(String, String), Vec<EquationRow>> = BTreeMap::new();
-    for row in rows::<EquationRow>(store)? {
+    for row in of_table::<EquationRow>(store)? {
         equations.entry((row.session.clone(), row.key.clone())).or_default().push(row);
     }
     let mut of_kind: BTreeMap<&str, Vec<SessionEvidence>> = BTreeMap::new();

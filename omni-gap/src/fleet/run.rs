@@ -5,17 +5,14 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-use rayon::ThreadPoolBuilder;
 use schemars::JsonSchema;
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 
-use super::answer::answered;
+use super::answer::answer_session;
 use super::find::FoundSession;
-use super::key::Basis;
 use super::store::Store;
 use crate::engine::Knobs;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::vocabulary::Progress;
 
 /// How to diagnose a fleet.
@@ -24,8 +21,8 @@ pub struct FleetOptions<'a> {
     pub knobs: Knobs,
     /// Sessions worked at at a time.
     pub jobs: usize,
-    /// Whether the report of each session is kept in the store.
-    pub reports: bool,
+    /// The store's folder, where the report of each session is to be kept in it.
+    pub reports: Option<&'a Path>,
     /// Told what is being done.
     pub progress: Progress<'a>,
     /// Asked between sessions whether to end: what is done is then on the disk.
@@ -63,16 +60,14 @@ pub struct FleetTally {
 /// # Errors
 /// Where the store cannot be written. What a session has wrong is a row, no error.
 pub fn diagnose_fleet(sessions: &[FoundSession], store: &mut Store, options: &FleetOptions<'_>) -> Result<FleetTally> {
-    let basis = Basis::of(&options.knobs);
     let work = Work {
         sessions,
-        folder: store.folder().to_path_buf(),
         next: AtomicUsize::new(0),
         ended: AtomicBool::new(false),
         state: Mutex::new(State { store, tally: FleetTally { sessions: sessions.len(), ..FleetTally::default() } }),
     };
     let results: Vec<Result<()>> = thread::scope(|scope| {
-        let workers: Vec<_> = (0..options.jobs.max(1)).map(|_| scope.spawn(|| work.worker(&basis, options))).collect();
+        let workers: Vec<_> = (0..options.jobs.max(1)).map(|_| scope.spawn(|| work.worker(options))).collect();
         let joined = workers.into_iter().map(|worker| worker.join());
         joined.map(|result| result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
     });
@@ -86,7 +81,6 @@ pub fn diagnose_fleet(sessions: &[FoundSession], store: &mut Store, options: &Fl
 
 struct Work<'a> {
     sessions: &'a [FoundSession],
-    folder: std::path::PathBuf,
     next: AtomicUsize,
     ended: AtomicBool,
     state: Mutex<State<'a>>,
@@ -100,12 +94,10 @@ struct State<'a> {
 impl Work<'_> {
     /// Takes one session after the other. Each is done by one thread: that many sessions at a time use all cores and no more
     /// memory than themselves.
-    fn worker(&self, basis: &Basis, options: &FleetOptions<'_>) -> Result<()> {
-        let one = ThreadPoolBuilder::new().num_threads(1).build();
-        let one = one.map_err(|why| Error::output(&self.folder, why.to_string(), "Ask for fewer with --jobs"))?;
+    fn worker(&self, options: &FleetOptions<'_>) -> Result<()> {
         while !self.ended.load(Ordering::Relaxed) && !(options.told_to_end)() {
             let Some(session) = self.sessions.get(self.next.fetch_add(1, Ordering::Relaxed)) else { break };
-            if let Err(why) = one.install(|| self.session(session, basis, options)) {
+            if let Err(why) = self.session(session, options) {
                 self.ended.store(true, Ordering::Relaxed);
                 return Err(why);
             }
@@ -113,29 +105,16 @@ impl Work<'_> {
         Ok(())
     }
 
-    fn session(&self, session: &FoundSession, basis: &Basis, options: &FleetOptions<'_>) -> Result<()> {
-        let (key, unreadable) = match basis.with_session(&session.path) {
-            Ok(key) => (key, None),
-            Err(why) => (String::new(), Some(why.to_string())),
-        };
-        let held = self.with_state(|state| {
-            let held = state.store.session(&session.path.display().to_string()).is_some_and(|row| {
-                row.key == key && unreadable.is_none() && session.robot.as_ref().is_none_or(|robot| *robot == row.robot)
-            });
-            state.tally.kept += usize::from(held);
-            held
-        });
-        if held {
-            return Ok(());
-        }
-        let refused = session.refused.clone().or(unreadable);
-        let session = FoundSession { refused, ..session.clone() };
-        let name = report_folder(&session.path, &key);
-        let folder = self.folder.join(Path::new(&name));
-        let answer = answered(&session, key, &options.knobs, options.reports.then_some((&*folder, name)));
+    fn session(&self, session: &FoundSession, options: &FleetOptions<'_>) -> Result<()> {
+        let held = self.with_state(|state| state.store.session(&session.name).map(|row| row.key.clone()));
+        let answer = answer_session(session, held.as_deref(), &options.knobs, options.reports);
         self.with_state(|state| {
+            let Some(answer) = answer else {
+                state.tally.kept += 1;
+                return Ok(());
+            };
             state.tally.done += 1;
-            state.tally.failed += usize::from(answer.session.verdict.is_none());
+            state.tally.failed += usize::from(answer.session().verdict.is_none());
             let FleetTally { sessions, done, kept, .. } = state.tally;
             (options.progress)(&format!("{} of {sessions} sessions", done + kept));
             state.store.put(answer)
@@ -146,12 +125,4 @@ impl Work<'_> {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         work(&mut state)
     }
-}
-
-/// Where a session's report is kept: two copies of a session have a report each.
-fn report_folder(session: &Path, key: &str) -> String {
-    let mut hash = Sha256::new();
-    hash.update(session.as_os_str().as_encoded_bytes());
-    hash.update(key);
-    format!("reports/{}", &format!("{:x}", hash.finalize())[..16])
 }

@@ -13,7 +13,7 @@ use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{ParquetMetaData, RowGroupMetaData};
-use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
+use parquet::file::reader::{ChunkReader, FileReader, RowGroupReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -57,8 +57,10 @@ impl Parquet {
 }
 
 /// A file by its description, which is not believed before it fits the file.
-pub(crate) fn described(opened: File) -> std::result::Result<SerializedFileReader<File>, ParquetError> {
-    let length = opened.metadata()?.len();
+pub(crate) fn described<R: ChunkReader + 'static>(
+    opened: R,
+) -> std::result::Result<SerializedFileReader<R>, ParquetError> {
+    let length = opened.len();
     let file = guarded(|| SerializedFileReader::new(opened))
         .unwrap_or_else(|| Err(ParquetError::General("its footer does not fit together".into())))?;
     if !columns_are_within(file.metadata(), length) {
