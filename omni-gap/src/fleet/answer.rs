@@ -108,11 +108,11 @@ impl SessionAnswer {
 }
 
 fn file<R: Row>(rows: &[R]) -> Result<Vec<u8>> {
-    written(rows).map_err(|why| unfit::<R>(why.to_string()))
+    written(rows, &[]).map_err(|why| unfit::<R>(why.to_string()))
 }
 
 fn rows<R: Row>(bytes: Vec<u8>) -> Result<Vec<R>> {
-    read(bytes).map_err(|why| unfit::<R>(why.to_string()))
+    read(bytes, &[]).map_err(|why| unfit::<R>(why.to_string()))
 }
 
 fn unfit<R: Row>(why: String) -> Error {

@@ -51,9 +51,10 @@ pub(super) trait Row: Serialize + DeserializeOwned {
     }
 }
 
-/// The bytes of a file with these rows; the same rows always give the same bytes.
-pub(super) fn written<R: Row>(rows: &[R]) -> Result<Vec<u8>> {
-    let columns = R::columns();
+/// The bytes of a file with these rows, without the columns of the names `left_out`; the same rows always give the same bytes.
+pub(super) fn written<R: Row>(rows: &[R], left_out: &[&str]) -> Result<Vec<u8>> {
+    let mut columns = R::columns();
+    columns.retain(|(name, _)| !left_out.contains(&name.as_str()));
     let objects: Vec<Map<String, Value>> = rows.iter().map(object).collect::<Result<_>>()?;
     let mut schema = format!("message {} {{ ", R::TABLE);
     for (name, cell) in &columns {
@@ -113,12 +114,13 @@ fn put(writer: &mut ColumnWriter<'_>, values: &[&Value]) -> Result<()> {
     .map(|_| ())
 }
 
-/// The rows of a file with these bytes.
-pub(super) fn read<R: Row>(bytes: Vec<u8>) -> Result<Vec<R>> {
+/// The rows of a file with these bytes; `known` is what columns hold that were left out.
+pub(super) fn read<R: Row>(bytes: Vec<u8>, known: &[(&str, String)]) -> Result<Vec<R>> {
     let file = described(Bytes::from(bytes))?;
     let row = |row: parquet::record::Row| {
         let cells: BTreeMap<&String, &Field> = row.get_column_iter().collect();
-        let object = cells.into_iter().map(|(name, field)| (name.clone(), value(field))).collect();
+        let known = known.iter().map(|(name, text)| ((*name).to_owned(), text.as_str().into()));
+        let object = known.chain(cells.into_iter().map(|(name, field)| (name.clone(), value(field)))).collect();
         let of = serde_json::from_value(Value::Object(R::gathered(object)));
         of.map_err(|why| ParquetError::General(format!("a row is not of this form: {why}")))
     };

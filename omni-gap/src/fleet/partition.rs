@@ -1,4 +1,5 @@
-//! A robot's day: three files, each whole or as it was.
+//! A robot's day: three files, each whole or as it was. Robot and day stand in the names of the folders, `robot=r07/date=2026-11-03`,
+//! and not in the files: who reads all of them as one table, partitioned as Hive does it, finds them as columns.
 
 use super::answer::SessionAnswer;
 use super::cells::{Row, read, written};
@@ -6,9 +7,21 @@ use super::rows::{CauseRow, EquationRow, SessionRow};
 use super::storage::Storage;
 use crate::error::{Error, InputKind, Result};
 
+/// The columns that stand in the names of the folders.
+const PARTS: [&str; 2] = ["robot", "date"];
+
 /// The place of a robot's day within each table.
 pub(super) fn day_of(robot: &str, date: &str) -> String {
     format!("robot={}/date={}", escaped(robot), escaped(date))
+}
+
+/// What the names of a file's folders say.
+fn parts_of(file: &str) -> Vec<(&'static str, String)> {
+    let of = |folder: &str| {
+        let (name, value) = folder.split_once('=')?;
+        PARTS.into_iter().find(|part| *part == name).map(|part| (part, unescaped(value)))
+    };
+    file.split('/').filter_map(of).collect()
 }
 
 /// The file of a day.
@@ -21,6 +34,18 @@ fn escaped(name: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.".contains(&byte);
     let letter = |byte: u8| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
     name.bytes().map(letter).collect()
+}
+
+fn unescaped(name: &str) -> String {
+    let mut bytes = Vec::with_capacity(name.len());
+    let mut rest = name.as_bytes();
+    while let [first, more @ ..] = rest {
+        let letter = more.get(..2).and_then(|hex| u8::from_str_radix(std::str::from_utf8(hex).ok()?, 16).ok());
+        let (byte, used) = if *first == b'%' { letter.map_or((b'%', 1), |byte| (byte, 3)) } else { (*first, 1) };
+        bytes.push(byte);
+        rest = &rest[used..];
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 /// Puts answers into the files of their day, in place of what stood there of the same sessions. The sessions' own file is last:
@@ -56,8 +81,8 @@ fn merge<R: Row>(storage: &dyn Storage, day: &str, sessions: &[String], new: Vec
     if rows.is_empty() {
         return storage.remove(&file);
     }
-    let bytes =
-        written(&rows).map_err(|why| Error::output(&storage.place(&file), why.to_string(), "Tell its makers"))?;
+    let bytes = written(&rows, &PARTS)
+        .map_err(|why| Error::output(&storage.place(&file), why.to_string(), "Tell its makers"))?;
     storage.write(&file, &bytes)
 }
 
@@ -72,7 +97,7 @@ pub(super) fn of_table<R: Row>(storage: &dyn Storage) -> Result<Vec<R>> {
 
 fn of_file<R: Row>(storage: &dyn Storage, file: &str) -> Result<Vec<R>> {
     let Some(bytes) = storage.read(file)? else { return Ok(Vec::new()) };
-    read(bytes).map_err(|why| {
+    read(bytes, &parts_of(file)).map_err(|why| {
         let fix = "Take the file away, its sessions are then diagnosed again, or name another folder with --out";
         let problem = format!("this is no table of a fleet that this program can read: {why}");
         Error::input(&storage.place(file), problem, fix).of_kind(InputKind::Malformed)
@@ -84,8 +109,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn any_name_of_a_robot_is_a_name_of_a_folder() {
+    fn any_name_of_a_robot_is_a_name_of_a_folder_and_is_read_off_it() {
         assert_eq!(day_of("r07", "2026-11-03"), "robot=r07/date=2026-11-03");
         assert_eq!(day_of("../ä=b", "x"), "robot=..%2F%C3%A4%3Db/date=x");
+        for robot in ["r07", "../ä=b", "50 %", "%4", "%"] {
+            let file = file_of("sessions", &day_of(robot, "2026-11-03"));
+            assert_eq!(parts_of(&file), [("robot", robot.to_owned()), ("date", "2026-11-03".to_owned())]);
+        }
     }
 }
