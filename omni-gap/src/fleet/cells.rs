@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use bytes::Bytes;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
@@ -18,7 +17,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
-use crate::log::source::{described, within_pages};
+use crate::log::source::Described;
 
 /// What a column holds; any of them may be missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,7 +115,7 @@ fn put(writer: &mut ColumnWriter<'_>, values: &[&Value]) -> Result<()> {
 
 /// The rows of a file with these bytes; `known` is what columns hold that were left out.
 pub(super) fn read<R: Row>(bytes: Vec<u8>, known: &[(&str, String)]) -> Result<Vec<R>> {
-    let file = described(Bytes::from(bytes))?;
+    let file = Described::of_bytes(bytes.into())?;
     let row = |row: parquet::record::Row| {
         let cells: BTreeMap<&String, &Field> = row.get_column_iter().collect();
         let known = known.iter().map(|(name, text)| ((*name).to_owned(), text.as_str().into()));
@@ -124,7 +123,7 @@ pub(super) fn read<R: Row>(bytes: Vec<u8>, known: &[(&str, String)]) -> Result<V
         let of = serde_json::from_value(Value::Object(R::gathered(object)));
         of.map_err(|why| ParquetError::General(format!("a row is not of this form: {why}")))
     };
-    within_pages(|| file.get_row_iter(None)?.map(|read| read.and_then(row)).collect())
+    file.read(|reader| reader.get_row_iter(None)?.map(|read| read.and_then(row)).collect())
 }
 
 fn value(field: &Field) -> Value {

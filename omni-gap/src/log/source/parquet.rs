@@ -6,8 +6,10 @@
 
 use super::guarded::guarded;
 use super::opened::Source;
+use super::parquet_pages::Bounds;
 use crate::error::{Error, InputKind, Result};
 use crate::log::channel::{Channel, Missing};
+use bytes::Bytes;
 use parquet::basic::{LogicalType, TimeUnit, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
@@ -22,13 +24,13 @@ use std::path::{Path, PathBuf};
 pub(super) struct Parquet {
     path: PathBuf,
     names: Vec<String>,
-    file: SerializedFileReader<File>,
+    file: Described<File>,
 }
 
 impl Parquet {
     pub fn open(path: &Path) -> Result<Parquet> {
         let opened = File::open(path).map_err(|reason| Error::unreadable(path, &reason))?;
-        let file = described(opened).map_err(|reason| broken(path, &reason))?;
+        let file = Described::of_file(opened).map_err(|reason| broken(path, &reason))?;
         let leaves = file.metadata().file_metadata().schema_descr().columns();
         let names = leaves.iter().map(|leaf| leaf.path().parts().join(".")).collect();
         Ok(Parquet { path: path.into(), names, file })
@@ -48,32 +50,74 @@ impl Parquet {
         };
         let rows = self.file.metadata().file_metadata().num_rows();
         let mut channel = Channel::with_capacity(usize::try_from(rows).unwrap_or(0).min(MOST_ROWS_AHEAD));
-        for group in 0..self.file.num_row_groups() {
-            let read = || self.file.get_row_group(group).and_then(|group| read(&*group, column, scale, &mut channel));
-            within_pages(read).map_err(|reason| broken(&self.path, &reason).in_column(self.title(column)))?;
+        for group in 0..self.file.metadata().num_row_groups() {
+            let mut take = |reader: &SerializedFileReader<File>| {
+                reader.get_row_group(group).and_then(|group| read(&*group, column, scale, &mut channel))
+            };
+            let read = self.file.check(group, column).and_then(|()| self.file.within_pages(&mut take));
+            read.map_err(|reason| broken(&self.path, &reason).in_column(self.title(column)))?;
         }
         Ok(channel)
     }
 }
 
 /// A file by its description, which is not believed before it fits the file.
-pub(crate) fn described<R: ChunkReader + 'static>(
-    opened: R,
-) -> std::result::Result<SerializedFileReader<R>, ParquetError> {
-    let length = opened.len();
-    let file = guarded(|| SerializedFileReader::new(opened))
-        .unwrap_or_else(|| Err(ParquetError::General("its footer does not fit together".into())))?;
-    if !columns_are_within(file.metadata(), length) {
-        return Err(ParquetError::General("its footer tells of columns that are not in it".into()));
-    }
-    Ok(file)
+pub(crate) struct Described<F: ChunkReader + 'static> {
+    reader: SerializedFileReader<F>,
+    file: F,
+    bounds: Bounds,
 }
 
-/// Reads pages: where the library panics on them they do not fit together.
-pub(crate) fn within_pages<T>(
-    read: impl FnOnce() -> std::result::Result<T, ParquetError>,
-) -> std::result::Result<T, ParquetError> {
-    guarded(read).unwrap_or_else(|| Err(ParquetError::General("its pages do not fit together".into())))
+type ParquetResult<T> = std::result::Result<T, ParquetError>;
+
+impl Described<File> {
+    /// Reads the description of a file.
+    pub fn of_file(file: File) -> ParquetResult<Self> {
+        Self::of(file.try_clone()?, file)
+    }
+}
+
+impl Described<Bytes> {
+    /// Reads the description of a file with these bytes.
+    pub fn of_bytes(bytes: Bytes) -> ParquetResult<Self> {
+        Self::of(bytes.clone(), bytes)
+    }
+}
+
+impl<F: ChunkReader + 'static> Described<F> {
+    /// `again` is the same file as `opened`.
+    fn of(opened: F, again: F) -> ParquetResult<Self> {
+        let length = again.len();
+        let reader = guarded(|| SerializedFileReader::new(opened))
+            .unwrap_or_else(|| Err(ParquetError::General("its footer does not fit together".into())))?;
+        if !columns_are_within(reader.metadata(), length) {
+            return Err(ParquetError::General("its footer tells of columns that are not in it".into()));
+        }
+        Ok(Self { reader, file: again, bounds: Bounds::of(length) })
+    }
+
+    fn metadata(&self) -> &ParquetMetaData {
+        self.reader.metadata()
+    }
+
+    /// Refuses a column of a group of rows whose pages would take more room than such a file has.
+    fn check(&self, group: usize, column: usize) -> ParquetResult<()> {
+        self.bounds.check(&self.file, self.metadata().row_group(group).column(column)).map(drop)
+    }
+
+    /// Reads all columns, none of whose pages takes more room than such a file has.
+    pub fn read<T>(&self, read: impl FnOnce(&SerializedFileReader<F>) -> ParquetResult<T>) -> ParquetResult<T> {
+        for group in 0..self.metadata().num_row_groups() {
+            (0..self.metadata().row_group(group).num_columns()).try_for_each(|column| self.check(group, column))?;
+        }
+        self.within_pages(read)
+    }
+
+    /// Reads pages: where the library panics on them they do not fit together.
+    fn within_pages<T>(&self, read: impl FnOnce(&SerializedFileReader<F>) -> ParquetResult<T>) -> ParquetResult<T> {
+        guarded(|| read(&self.reader))
+            .unwrap_or_else(|| Err(ParquetError::General("its pages do not fit together".into())))
+    }
 }
 
 /// True where every column of every group of rows stands within a file so long (bytes): the library does not ask.

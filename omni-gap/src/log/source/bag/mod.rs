@@ -6,11 +6,13 @@
 mod container;
 mod decoder;
 mod flatten;
+mod listed;
 mod mcap;
 mod mcap_reader;
 mod parts;
 mod ros;
 mod ros1;
+mod ros1_reader;
 mod rows;
 mod sqlite;
 mod usual;
@@ -34,8 +36,8 @@ pub(super) const SUFFIXES: [&str; 3] = [MCAP, ".db3", ".bag"];
 /// The suffix of MCAP.
 pub(in crate::log) const MCAP: &str = ".mcap";
 
-/// How much of a file tells what it is.
-const HEAD: u64 = 4096;
+/// How much of a file tells what it is (bytes).
+const HEAD: u64 = 64;
 
 /// Reads one topic of a recording; the only one where none is named. Of columns that are not kept there is but the name.
 pub(super) fn open(path: &Path, topic: Option<&str>, keeps: &Keeps) -> Result<Held> {
@@ -86,9 +88,8 @@ fn container(path: &Path) -> Result<Box<dyn Container>> {
     if head.starts_with(b"SQLite format 3\0") {
         return Ok(Box::new(sqlite::Sqlite::open(path)?));
     }
-    if head.starts_with(b"#ROSBAG V2.0\n") {
-        let length = file.metadata().map_err(unreadable)?.len();
-        return Ok(Box::new(ros1::Ros1::open(path, &head, length)?));
+    if head.starts_with(ros1_reader::MAGIC) {
+        return Ok(Box::new(ros1::Ros1::open(path, file)?));
     }
     let problem = match head.is_empty() {
         true => "the file is empty, expected a recording of topics",

@@ -1,16 +1,13 @@
 //! The folder that rosbag2 records into: parts of one recording, which `metadata.yaml` lists in their order.
 
 use super::container::{Container, Seen, Take};
+use super::listed::{LIST, listed};
 use crate::error::{Error, InputKind, Result};
-use saphyr::{LoadableYamlNode, Yaml};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// What a recorder of ROS 2 writes beside its recording.
 pub(in crate::log) const METADATA: &str = "metadata.yaml";
-
-/// Where it lists the files.
-const LIST: [&str; 2] = ["rosbag2_bagfile_information", "relative_file_paths"];
 
 /// A recording that was split into files.
 pub(super) struct Parts(pub Vec<Box<dyn Container>>);
@@ -26,16 +23,12 @@ pub(in crate::log) fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     let text = std::fs::read_to_string(&metadata).map_err(|reason| Error::unreadable(&metadata, &reason))?;
     let fix = "Write it anew: `ros2 bag reindex`, with the folder behind it; or remove it to have each file as a recording of its own";
     let wrong = |problem: String| Error::input(&metadata, problem, fix).of_kind(InputKind::Malformed);
-    let documents = Yaml::load_from_str(&text).map_err(|reason| wrong(format!("is no YAML: {reason}")))?;
-    let list = documents.first().and_then(|document| {
-        let [table, list] = LIST;
-        document.as_mapping_get(table)?.as_mapping_get(list)?.as_sequence()
-    });
+    let list = listed(&text).map_err(|reason| wrong(format!("is no YAML: {reason}")))?;
     let expected = || wrong(format!("expected a list of files at {}, as rosbag2 writes it", LIST.join(".")));
     let list = list.filter(|list| !list.is_empty()).ok_or_else(expected)?;
-    let file = |item: &Yaml| {
+    let file = |item: &String| {
         // early recorders wrote the folder before it
-        let name = item.as_str().and_then(|name| Path::new(name).file_name()).ok_or_else(expected)?;
+        let name = Path::new(item).file_name().ok_or_else(expected)?;
         let file = folder.join(name);
         match file.is_file() {
             true => Ok(file),

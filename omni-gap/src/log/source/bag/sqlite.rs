@@ -8,6 +8,7 @@ use super::decoder::{Decoder, Described};
 use super::rows::Recorded;
 use super::usual;
 use crate::error::{Error, InputKind, Result};
+use rusqlite::config::DbConfig;
 use rusqlite::{Connection, OpenFlags, OptionalExtension};
 use std::path::{Path, PathBuf};
 
@@ -26,7 +27,13 @@ struct Topic {
 impl Sqlite {
     pub fn open(path: &Path) -> Result<Sqlite> {
         let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-        let database = Connection::open_with_flags(path, flags).map_err(|reason| broken(path, &reason))?;
+        let opened = || {
+            let database = Connection::open_with_flags(path, flags)?;
+            // rosbag2 writes tables; a view is a program, which need not come to an end
+            database.set_db_config(DbConfig::SQLITE_DBCONFIG_ENABLE_VIEW, false)?;
+            Ok(database)
+        };
+        let database = opened().map_err(|reason| broken(path, &reason))?;
         Ok(Sqlite { path: path.into(), database })
     }
 
@@ -108,4 +115,24 @@ fn broken(path: &Path, reason: &rusqlite::Error) -> Error {
     let fix = "Check the file with `ros2 bag info`; a recording that was cut off is mended by `ros2 bag reindex`";
     Error::input(path, format!("cannot be read as a ROS 2 recording in SQLite: {reason}"), fix)
         .of_kind(InputKind::Malformed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_that_is_a_program_without_an_end_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.db3");
+        let endless = "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT 1 AS topic_id, x AS timestamp FROM n";
+        let tables = "CREATE TABLE topics (id INTEGER, name TEXT, type TEXT, serialization_format TEXT);
+                      INSERT INTO topics VALUES (1, '/a', 'b', 'cdr');";
+        Connection::open(&path)
+            .unwrap()
+            .execute_batch(&format!("{tables} CREATE VIEW messages AS {endless};"))
+            .unwrap();
+        let said = Sqlite::open(&path).unwrap().topics().unwrap_err().to_string();
+        assert!(said.contains("cannot be read as a ROS 2 recording") && said.contains("view"), "{said}");
+    }
 }

@@ -29,8 +29,11 @@ const VISION_TYPES: [i32; 2] = [2, 4];
 /// The type of a packet that is written.
 const WRITTEN_TYPE: i32 = 4;
 
-/// No record is believed to be longer (bytes): a packet is one of UDP, an index has eight bytes for each record.
+/// No record is believed to be longer (bytes): an index has eight bytes for each record.
 const LONGEST: i32 = 1 << 28;
+
+/// No packet of SSL-Vision either: it is one of UDP, and room is made for it.
+const LONGEST_PACKET: i32 = 1 << 16;
 
 /// Bytes of a record before its message.
 const RECORD_HEAD: usize = 16;
@@ -118,19 +121,25 @@ impl GameLog {
             record.received_ns = i64::from(i32::from_be_bytes(upper)) << 32 | i64::from(u32::from_be_bytes(lower));
             record.of_type = i32::from_be_bytes(bytes(8));
             let size = i32::from_be_bytes(bytes(12));
-            if !(0..=LONGEST).contains(&size) {
+            let is_vision = VISION_TYPES.contains(&record.of_type);
+            let longest = if is_vision { LONGEST_PACKET } else { LONGEST };
+            if !(0..=longest).contains(&size) {
                 let problem = format!(
-                    "record {}, before byte {}, states a size of {size} bytes, expected 0 to {LONGEST}",
+                    "record {}, before byte {}, states a size of {size} bytes, expected 0 to {longest}",
                     self.records, self.place
                 );
                 let fix = "Copy the log again; if it stays so, the log is damaged: use another";
                 return Err(Error::input(&self.path, problem, fix).of_kind(InputKind::Malformed));
             }
-            if self.take(size as usize, &mut record.message)? != Got::All {
-                return Ok(Some(CUT_OFF));
-            }
-            if VISION_TYPES.contains(&record.of_type) {
-                take(&record);
+            let got = if is_vision {
+                self.take(size as usize, &mut record.message)?
+            } else {
+                self.skip(u64::from(size.unsigned_abs()))?
+            };
+            match got {
+                Got::All if is_vision => take(&record),
+                Got::All => {}
+                Got::Some | Got::Nothing => return Ok(Some(CUT_OFF)),
             }
         }
     }
@@ -139,14 +148,27 @@ impl GameLog {
     fn take(&mut self, count: usize, bytes: &mut Vec<u8>) -> Result<Got> {
         bytes.clear();
         let read = self.reader.by_ref().take(count as u64).read_to_end(bytes);
-        self.place += bytes.len() as u64;
-        match read {
-            _ if bytes.len() == count => Ok(Got::All),
-            Ok(0) => Ok(Got::Nothing),
-            Ok(_) => Ok(Got::Some),
+        self.got(bytes.len() as u64, count as u64, read.err())
+    }
+
+    /// Passes over so many bytes, or as many as there are.
+    fn skip(&mut self, count: u64) -> Result<Got> {
+        let passed = std::io::copy(&mut self.reader.by_ref().take(count), &mut std::io::sink());
+        match passed {
+            Ok(passed) => self.got(passed, count, None),
+            Err(reason) => self.got(0, count, Some(reason)),
+        }
+    }
+
+    fn got(&mut self, read: u64, count: u64, reason: Option<std::io::Error>) -> Result<Got> {
+        self.place += read;
+        match reason {
+            _ if read == count => Ok(Got::All),
+            None if read == 0 => Ok(Got::Nothing),
+            None => Ok(Got::Some),
             // gzip that was cut off
-            Err(reason) if reason.kind() == ErrorKind::UnexpectedEof => Ok(Got::Some),
-            Err(reason) => {
+            Some(reason) if reason.kind() == ErrorKind::UnexpectedEof => Ok(Got::Some),
+            Some(reason) => {
                 let problem = format!("cannot be read beyond byte {}: {reason}", self.place);
                 Err(Error::input(
                     &self.path,
