@@ -37,6 +37,9 @@ pub(super) fn bound(
     Ok(bindings)
 }
 
+/// So many columns that are left out are told by name.
+const MOST_NAMED: usize = 20;
+
 /// Columns of the contract, by name.
 fn named(table: &dyn Source, notices: &mut Vec<String>) -> Vec<Binding> {
     let mut bindings = Vec::new();
@@ -48,7 +51,10 @@ fn named(table: &dyn Source, notices: &mut Vec<String>) -> Vec<Binding> {
         }
     }
     if !ignored.is_empty() {
-        notices.push(format!("{}: columns left out: {}", table.path().display(), ignored.join(", ")));
+        let unnamed = ignored.len().saturating_sub(MOST_NAMED);
+        ignored.truncate(MOST_NAMED);
+        let more = if unnamed > 0 { format!(" and {unnamed} more") } else { String::new() };
+        notices.push(format!("{}: columns left out: {}{more}", table.path().display(), ignored.join(", ")));
     }
     bindings
 }

@@ -15,9 +15,18 @@ pub(crate) struct Source<'a> {
     pub text: &'a str,
 }
 
-/// Reads a text file, with one clear message where that cannot be done.
+/// No text that a person writes is longer (bytes).
+const LONGEST_TEXT: u64 = 1 << 26;
+
+/// Reads a text file that people write, with one clear message where that cannot be done.
 pub(crate) fn read_text(path: &Path, what: &str) -> Result<String> {
-    String::from_utf8(read_bytes(path, what)?).map_err(|broken| {
+    let mut bytes = Vec::new();
+    let read = open_file(path, what)?.take(LONGEST_TEXT).read_to_end(&mut bytes);
+    if read.map_err(|reason| Error::unreadable(path, &reason))? as u64 == LONGEST_TEXT {
+        let problem = format!("it has {} MB or more, expected {what}", LONGEST_TEXT >> 20);
+        return Err(Error::input(path, problem, "Check the path").of_kind(InputKind::Malformed));
+    }
+    String::from_utf8(bytes).map_err(|broken| {
         let start = broken.utf8_error().valid_up_to();
         let line = 1 + broken.as_bytes()[..start].iter().filter(|b| **b == b'\n').count();
         Error::input(path, "found bytes that are not UTF-8, expected text", "Save the file as UTF-8 text")

@@ -7,6 +7,7 @@ use super::opened::Source;
 use super::text::Text;
 use crate::error::{Error, InputKind, Result};
 use crate::log::channel::{Channel, Missing};
+use std::collections::HashSet;
 use std::io::{BufRead, Read};
 use std::path::{Path, PathBuf};
 
@@ -83,9 +84,9 @@ impl Table {
             .at_line(line)
             .of_kind(InputKind::Missing));
         }
-        let twice =
-            self.names.iter().enumerate().find(|(at, name)| self.names[..*at].contains(name) && !name.is_empty());
-        twice.map_or(Ok(()), |(_, name)| {
+        let mut seen = HashSet::with_capacity(self.names.len());
+        let twice = self.names.iter().find(|name| !name.is_empty() && !seen.insert(*name));
+        twice.map_or(Ok(()), |name| {
             let error = Error::input(&self.path, "the column stands twice in the header", "Keep one of the two")
                 .of_kind(InputKind::Conflict);
             Err(error.at_line(line).in_column(name))
@@ -139,14 +140,16 @@ impl Table {
         self.text.line_at(byte).unwrap_or(1)
     }
 
-    /// How many rows there are, by the length of the first.
+    /// How many rows there are, by the length of the first; no more than there is room for, where that one is not like the others.
     fn rows_about(&self) -> Result<usize> {
         let mut first = Vec::new();
         let rows = self.text.from(self.start)?;
         let limit = self.text.length() - self.start.min(self.text.length());
         let read = rows.take(limit).read_until(b'\n', &mut first);
         let length = read.map_err(|reason| Error::unreadable(&self.path, &reason))?;
-        Ok((limit / (length as u64 + 1)) as usize + 16)
+        // each of a row's fields has a separator or the line's end behind it
+        let shortest = self.width.max(length + 1) as u64;
+        Ok((limit / shortest) as usize + 16)
     }
 }
 
