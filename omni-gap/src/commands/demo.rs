@@ -52,7 +52,7 @@ impl Demo {
 
         console.phase("recording a robot that is not what its file says");
         let staged = synthesize(ROBOT, &plan(), &known_effects())?;
-        let folder = NewFolder::make(&at)?;
+        let folder = NewFolder::make_with_files(&at)?;
         write_session(&at, &staged)?;
         drop(staged); // what follows knows the files alone
 

@@ -151,8 +151,11 @@ impl Experiments {
         played: impl FnOnce(Sensing) -> Vec<Run>,
         console: &Console,
     ) -> Result<(), CliError> {
-        let folder = NewFolder::make(&self.out)?;
-        let inner = [NewFolder::make(&self.out.join("scripts"))?, NewFolder::make(&self.out.join("session/runs"))?];
+        let folder = NewFolder::make_with_files(&self.out)?;
+        let inner = [
+            NewFolder::make_with_files(&self.out.join("scripts"))?,
+            NewFolder::make_with_files(&self.out.join("session/runs"))?,
+        ];
         for script in scripts {
             write_run(&self.out.join(format!("scripts/{}.csv", script.name)), script)?;
         }

@@ -29,7 +29,7 @@ impl Man {
         let pages: Vec<clap_mangen::Man> = commands.map(|command| clap_mangen::Man::new(command.clone())).collect();
         let names: Vec<String> = pages.iter().map(clap_mangen::Man::get_filename).collect();
         output_path::folder(&self.out, &names.iter().map(String::as_str).collect::<Vec<_>>())?;
-        let folder = NewFolder::make(&self.out)?;
+        let folder = NewFolder::make_with_files(&self.out)?;
         let mut files = Vec::new();
         for (page, name) in pages.iter().zip(names) {
             let (mut text, file) = (Vec::new(), self.out.join(name));

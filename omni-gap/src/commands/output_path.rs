@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use omni_gap::Error;
 use omni_gap::error::Result;
+use omni_gap::log::is_device;
 
 const NAME_ANOTHER: &str = "Name another place with --out";
 
@@ -12,6 +13,9 @@ const NAME_ANOTHER: &str = "Name another place with --out";
 pub fn file(path: &Path, inputs: &[&Path]) -> Result<()> {
     if path.is_dir() {
         return Err(Error::output(path, "it is a folder", "Name a file with --out"));
+    }
+    if is_device(path) {
+        return Ok(());
     }
     let same = |input: &&&Path| path.canonicalize().is_ok_and(|p| input.canonicalize().is_ok_and(|i| i == p));
     if inputs.iter().find(same).is_some() {
@@ -62,20 +66,33 @@ fn nearest_standing(path: &Path) -> PathBuf {
 
 fn try_in(folder: &Path, output: &Path) -> Result<()> {
     let told = |why: io::Error| Error::output(output, why.to_string(), NAME_ANOTHER);
-    tempfile::Builder::new().prefix(".omni-gap-").tempfile_in(folder).map(drop).map_err(told)
+    // without a name, where the system has such files: nothing of it is left if the program is killed here
+    tempfile::tempfile_in(folder).map(drop).map_err(told)
 }
 
-/// A folder that goes away again, with all that was made for it, unless it is kept.
+/// A folder that goes away again, unless it is kept.
 #[derive(Debug)]
 pub struct NewFolder {
     made: Option<PathBuf>,
+    path: PathBuf,
+    with_files: bool,
 }
 
 impl NewFolder {
-    /// Makes a folder and what is missing above it. Where it stood before, nothing of it will go away.
+    /// Makes a folder and what is missing above it, for files that are put there all or none: it goes away if it is empty, and what
+    /// another program put into it meanwhile stays. Where it stood before, nothing of it will go away.
     pub fn make(path: &Path) -> Result<Self> {
+        Self::new(path, false)
+    }
+
+    /// Makes a folder for files that are put there one by one, with which it goes away.
+    pub fn make_with_files(path: &Path) -> Result<Self> {
+        Self::new(path, true)
+    }
+
+    fn new(path: &Path, with_files: bool) -> Result<Self> {
         let missing = path.ancestors().take_while(|p| !p.as_os_str().is_empty() && !p.exists()).last();
-        let made = Self { made: missing.map(Path::to_path_buf) };
+        let made = Self { made: missing.map(Path::to_path_buf), path: path.into(), with_files };
         std::fs::create_dir_all(path).map_err(|why| Error::output(path, why.to_string(), NAME_ANOTHER))?;
         Ok(made)
     }
@@ -88,8 +105,13 @@ impl NewFolder {
 
 impl Drop for NewFolder {
     fn drop(&mut self) {
-        if let Some(made) = &self.made {
+        let Some(made) = &self.made else { return };
+        if self.with_files {
             let _ = std::fs::remove_dir_all(made);
+            return;
+        }
+        for folder in self.path.ancestors().take_while(|folder| folder.starts_with(made)) {
+            let _ = std::fs::remove_dir(folder);
         }
     }
 }
@@ -127,6 +149,15 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let deep = root.path().join("a/b");
         drop(NewFolder::make(&deep).unwrap());
+        assert!(!root.path().join("a").exists());
+        let failing = NewFolder::make(&deep).unwrap();
+        std::fs::write(deep.join("report.json"), "another program's").unwrap();
+        drop(failing);
+        assert!(deep.join("report.json").is_file());
+        std::fs::remove_dir_all(root.path().join("a")).unwrap();
+        let failing = NewFolder::make_with_files(&deep).unwrap();
+        std::fs::write(deep.join("first.csv"), "of several").unwrap();
+        drop(failing);
         assert!(!root.path().join("a").exists());
         NewFolder::make(&deep).unwrap().keep();
         drop(NewFolder::make(&deep).unwrap());

@@ -65,7 +65,7 @@ impl Validate {
 
 /// Puts the files into the folder, each whole; a folder that was made for them goes away again where that fails.
 fn written(out: &Path, validated: &Validated) -> Result<[PathBuf; 2], CliError> {
-    let folder = NewFolder::make(out)?;
+    let folder = NewFolder::make_with_files(out)?;
     let [json, html] = FILES.map(|name| out.join(name));
     let text = validated.validation.to_json();
     let text = text.map_err(|why| Error::output(&json, why.to_string(), "Name another place with --out"))?;

@@ -1,6 +1,8 @@
 //! A robot's day: three files, each whole or as it was. Robot and day stand in the names of the folders, `robot=r07/date=2026-11-03`,
 //! and not in the files: who reads all of them as one table, partitioned as Hive does it, finds them as columns.
 
+use sha2::{Digest, Sha256};
+
 use super::answer::SessionAnswer;
 use super::cells::{Row, read, written};
 use super::rows::{CauseRow, EquationRow, SessionRow};
@@ -9,6 +11,13 @@ use crate::error::{Error, InputKind, Result};
 
 /// The columns that stand in the names of the folders.
 const PARTS: [&str; 2] = ["robot", "date"];
+
+/// Bytes of a folder's name at the most, of which every file system takes 255; and of a longer one the bytes that are kept.
+const LONGEST: usize = 200;
+const KEPT: usize = 150;
+
+/// Stands in a folder's name where that was too long and was cut, and in no other.
+const CUT: char = '~';
 
 /// The place of a robot's day within each table.
 pub(super) fn day_of(robot: &str, date: &str) -> String {
@@ -29,11 +38,16 @@ fn file_of(table: &str, day: &str) -> String {
     format!("{table}/{day}/part.parquet")
 }
 
-/// A name that any file system takes: other letters as their bytes, `%2F`.
+/// A name that any file system takes: other letters as their bytes, `%2F`; of a long one the beginning and a hash of all.
 fn escaped(name: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.".contains(&byte);
     let letter = |byte: u8| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
-    name.bytes().map(letter).collect()
+    let mut escaped: String = name.bytes().map(letter).collect();
+    if escaped.len() > LONGEST {
+        escaped.truncate(KEPT);
+        escaped += &format!("{CUT}{:.16}", format!("{:x}", Sha256::digest(name)));
+    }
+    escaped
 }
 
 fn unescaped(name: &str) -> String {
@@ -81,7 +95,8 @@ fn merge<R: Row>(storage: &dyn Storage, day: &str, sessions: &[String], new: Vec
     if rows.is_empty() {
         return storage.remove(&file);
     }
-    let bytes = written(&rows, &PARTS)
+    let left_out: &[&str] = if day.contains(CUT) { &[] } else { &PARTS };
+    let bytes = written(&rows, left_out)
         .map_err(|why| Error::output(&storage.place(&file), why.to_string(), "Tell its makers"))?;
     storage.write(&file, &bytes)
 }
@@ -112,7 +127,9 @@ mod tests {
     fn any_name_of_a_robot_is_a_name_of_a_folder_and_is_read_off_it() {
         assert_eq!(day_of("r07", "2026-11-03"), "robot=r07/date=2026-11-03");
         assert_eq!(day_of("../ä=b", "x"), "robot=..%2F%C3%A4%3Db/date=x");
-        for robot in ["r07", "../ä=b", "50 %", "%4", "%"] {
+        let [long, other] = ["x", "y"].map(|end| day_of(&("ä".repeat(2_000) + end), "2026-11-03"));
+        assert!(long != other && long.split('/').all(|name| name.len() <= 255), "{long}");
+        for robot in ["r07", "../ä=b", "50 %", "%4", "%", "~"] {
             let file = file_of("sessions", &day_of(robot, "2026-11-03"));
             assert_eq!(parts_of(&file), [("robot", robot.to_owned()), ("date", "2026-11-03".to_owned())]);
         }

@@ -37,9 +37,6 @@ pub trait Storage: Send + Sync {
     fn remove(&self, name: &str) -> Result<()>;
 }
 
-/// What a file is called as long as it is not whole.
-const UNFINISHED: &str = ".omni-gap-";
-
 /// How long another writer is waited for.
 const PATIENCE: Duration = Duration::from_secs(1);
 
@@ -99,8 +96,7 @@ impl Storage for Folder {
     fn write(&self, name: &str, bytes: &[u8]) -> Result<()> {
         let place = self.place(name);
         if let Some(folder) = place.parent() {
-            let made = std::fs::create_dir_all(folder).and_then(|()| sweep(folder));
-            made.map_err(|why| {
+            std::fs::create_dir_all(folder).map_err(|why| {
                 Error::output(folder, why.to_string(), "Free space, or name another folder with --out")
             })?;
         }
@@ -126,16 +122,6 @@ fn below(folder: &Path, name: &str, names: &mut Vec<String>) -> Result<()> {
             below(&path, &name, names)?;
         } else {
             names.push(name);
-        }
-    }
-    Ok(())
-}
-
-/// Takes away what was not finished in a folder when its writer was killed: there is one writer, and it is about to write.
-fn sweep(folder: &Path) -> std::io::Result<()> {
-    for path in std::fs::read_dir(folder)?.flatten().map(|file| file.path()) {
-        if path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(UNFINISHED.as_bytes())) {
-            std::fs::remove_file(&path)?;
         }
     }
     Ok(())

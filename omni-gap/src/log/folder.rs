@@ -11,6 +11,7 @@ use super::read::{open_bridges_apply_nothing, read};
 use super::robot_file::RobotFile;
 use super::run::Run;
 use super::source::{METADATA, files_of_recording, holds_topics, is_folder_of_topics};
+use super::unchanged::Unchanged;
 use crate::error::{Error, InputKind, Result};
 use std::path::{Path, PathBuf};
 
@@ -20,8 +21,15 @@ impl Run {
     /// The second value holds notices: what was left out, and offsets between clocks that were estimated.
     ///
     /// # Errors
-    /// Where a file cannot be read or is no log of this robot, and where the files of a folder are not one run.
+    /// Where a file cannot be read, changes meanwhile or is no log of this robot, and where the files of a folder are not one run.
     pub fn open(path: &Path, robot: &RobotFile, columns: Option<&Columns>) -> Result<(Run, Vec<String>)> {
+        let before = Unchanged::of(path);
+        let opened = Run::opened(path, robot, columns)?;
+        before.check()?;
+        Ok(opened)
+    }
+
+    fn opened(path: &Path, robot: &RobotFile, columns: Option<&Columns>) -> Result<(Run, Vec<String>)> {
         match columns {
             Some(columns) if path.is_dir() && !columns.parts.is_empty() => {
                 let mut notices = Vec::new();
@@ -92,21 +100,21 @@ fn found<'a>(
     tables: &'a [FileTable],
     notices: &mut Vec<String>,
 ) -> Result<Vec<(&'a FileTable, PathBuf)>> {
-    let files = entries(folder)?.into_iter().filter(|(_, path)| !path.is_dir());
-    let names: Vec<String> = files.map(|(name, _)| name).collect();
+    let files: Vec<(String, PathBuf)> = entries(folder)?.into_iter().filter(|(_, path)| !path.is_dir()).collect();
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     // files of one recording are that recording, which is the folder
     let recording = if is_folder_of_topics(folder) { files_of_recording(folder)? } else { Vec::new() };
     let mut all = Vec::new();
     for table in tables {
-        let mut fitting: Vec<&String> = names.iter().filter(|name| table.takes(&folder.join(name))).collect();
-        if fitting.len() > 1 && fitting.iter().any(|name| table.prefers(&folder.join(name))) {
-            fitting.retain(|name| table.prefers(&folder.join(name)));
+        let mut fitting: Vec<&(String, PathBuf)> = files.iter().filter(|(_, path)| table.takes(path)).collect();
+        if fitting.len() > 1 && fitting.iter().any(|(_, path)| table.prefers(path)) {
+            fitting.retain(|(_, path)| table.prefers(path));
         }
         match fitting.as_slice() {
-            [_, _, ..] if fitting.iter().all(|name| recording.contains(&folder.join(name))) => {
+            [_, _, ..] if fitting.iter().all(|(_, path)| recording.contains(path)) => {
                 all.push((table, folder.to_owned()));
             }
-            [name] => all.push((table, folder.join(name))),
+            [(_, path)] => all.push((table, path.clone())),
             [] if table.optional => notices.push(format!("{}: no file {}", folder.display(), table.title())),
             [] => {
                 let there =
@@ -116,14 +124,13 @@ fn found<'a>(
                 let fix = "Correct `name` in columns.toml, put the file there, or set optional = true";
                 return Err(Error::input(folder, problem, fix).of_kind(InputKind::Missing));
             }
-            [first, second, ..] => {
+            [(first, _), (second, _), ..] => {
                 let problem = format!("`{first}` and `{second}` both fit {}, expected one file", table.title());
                 let fix = "Name one of them in columns.toml, or move the other out of the run";
                 return Err(Error::input(folder, problem, fix).of_kind(InputKind::Conflict));
             }
         }
     }
-    let path_of = |name: &String| folder.join(name);
     for (k, (table, path)) in all.iter().enumerate() {
         let same = |(other, file): &&(&FileTable, PathBuf)| file == path && other.mapping.topic == table.mapping.topic;
         if let Some((other, _)) = all[..k].iter().find(same) {
@@ -134,7 +141,7 @@ fn found<'a>(
     }
     let is_used =
         |path: &PathBuf| all.iter().any(|(_, used)| used == path || used == folder && recording.contains(path));
-    let unused = names.iter().filter(|name| *name != METADATA).map(path_of).filter(|path| !is_used(path));
+    let unused = files.iter().filter(|(name, path)| name != METADATA && !is_used(path)).map(|(_, path)| path);
     notices.extend(unused.map(|path| format!("{}: no [[file]] names it, left out", path.display())));
     Ok(all)
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::model::Report;
 use crate::engine::findings::NextExperiment;
 use crate::error::{Error, Result};
+use crate::log::{HeldFolder, UNFINISHED};
 
 const NAME_ANOTHER: &str = "Name another folder with --out";
 const ROOM: &str = "Free space, or name a folder you may write to with --out";
@@ -50,35 +51,38 @@ pub fn write(dir: &Path, report: &Report, html: &str, beside: Beside<'_>) -> Res
     let there = own.iter().filter_map(|(name, text)| text.map(|text| (*name, text)));
     let files: Vec<(&str, &str)> =
         [("report.json", json.as_str()), ("report.html", html)].into_iter().chain(there).collect();
-    put_all(dir, &files)?;
+    let gone: Vec<&str> = own.iter().filter(|(_, text)| text.is_none()).map(|(name, _)| *name).collect();
+    put_all(dir, &files, &gone)?;
     let place = |name: &str| dir.join(name);
-    for (name, _) in own.iter().filter(|(_, text)| text.is_none()) {
-        match std::fs::remove_file(place(name)) {
-            Err(why) if why.kind() != io::ErrorKind::NotFound => return Err(unwritable(&why, &place(name))),
-            _ => {}
-        }
-    }
     let [refitted, corrected, script] = own.map(|(name, text)| text.map(|_| place(name)));
     Ok(Written { json: place("report.json"), html: place("report.html"), refitted, corrected, script })
 }
 
 /// Puts files into the folder, which is made where it is not there, and says where they stand; the error is as for [`write()`].
 pub(super) fn put<const COUNT: usize>(dir: &Path, files: [(&str, &str); COUNT]) -> Result<[PathBuf; COUNT]> {
-    put_all(dir, &files)?;
+    put_all(dir, &files, &[])?;
     Ok(files.map(|(name, _)| dir.join(name)))
 }
 
-fn put_all(dir: &Path, files: &[(&str, &str)]) -> Result<()> {
+/// As [`put`], in place of an older report, of which the files that are gone are taken away.
+pub(super) fn put_all(dir: &Path, files: &[(&str, &str)], gone: &[&str]) -> Result<()> {
     std::fs::create_dir_all(dir).map_err(|why| match dir.is_file() {
         true => Error::output(dir, "it is a file, and the report needs a folder", NAME_ANOTHER),
         false => Error::output(dir, why.to_string(), ROOM),
     })?;
+    let _held = HeldFolder::take(dir);
     let places: Vec<PathBuf> = files.iter().map(|(name, _)| dir.join(name)).collect();
     // All are staged before the first is put in place: a full disk then leaves an older report as it was.
     let staged: Vec<_> =
         places.iter().zip(files).map(|(path, (_, text))| stage(dir, path, text)).collect::<Result<_>>()?;
     for (path, file) in places.iter().zip(staged) {
         file.persist(path).map_err(|e| unwritable(&e.error, path))?;
+    }
+    for path in gone.iter().map(|name| dir.join(name)) {
+        match std::fs::remove_file(&path) {
+            Err(why) if why.kind() != io::ErrorKind::NotFound => return Err(unwritable(&why, &path)),
+            _ => {}
+        }
     }
     Ok(())
 }
@@ -92,8 +96,9 @@ fn stage(dir: &Path, path: &Path, text: &str) -> Result<tempfile::NamedTempFile>
             use std::os::unix::fs::PermissionsExt;
             builder.permissions(std::fs::Permissions::from_mode(0o644));
         }
-        let mut file = builder.prefix(".report-").tempfile_in(dir)?;
-        file.write_all(text.as_bytes())?;
+        let mut file = builder.prefix(UNFINISHED).tempfile_in(dir)?;
+        // its own writer tells the hidden name with every error
+        file.as_file_mut().write_all(text.as_bytes())?;
         file.as_file().sync_all()?;
         Ok(file)
     };

@@ -51,7 +51,7 @@ impl RunPlace {
     /// Writes the run, and what of the session is not there yet; `more` writes what else the run's folder gets. What was recorded,
     /// in words.
     pub fn write(&self, recorded: &Recorded, more: impl FnOnce(&Path) -> Result<()>) -> Result<String> {
-        let made = output_path::NewFolder::make(&self.folder)?;
+        let made = output_path::NewFolder::make_with_files(&self.folder)?;
         for (path, text) in self.beside.iter().filter(|(path, _)| !path.exists()) {
             write_whole(path, text.as_bytes())?;
         }

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::write::{put, unwritable};
+use super::write::put_all;
 use crate::engine::findings::{Design, NextExperiment};
 use crate::error::Result;
 use crate::log::Run;
@@ -68,14 +68,14 @@ pub fn script_csv(script: &Run) -> String {
 pub fn write(dir: &Path, report: &DesignReport, html: &str, script: Option<&Run>) -> Result<Vec<PathBuf>> {
     let [json, page, table] = FILES;
     let text = report.to_json();
-    match script {
-        Some(script) => Ok(put(dir, [(table, &script_csv(script)), (page, html), (json, &text)])?.to_vec()),
-        None => {
-            let written = put(dir, [(page, html), (json, &text)])?.to_vec();
-            match std::fs::remove_file(dir.join(table)) {
-                Err(why) if why.kind() != std::io::ErrorKind::NotFound => Err(unwritable(&why, &dir.join(table))),
-                _ => Ok(written),
-            }
+    let script = script.map(script_csv);
+    let mut files = vec![(page, html), (json, text.as_str())];
+    match &script {
+        Some(script) => {
+            files.insert(0, (table, script));
+            put_all(dir, &files, &[])?;
         }
+        None => put_all(dir, &files, &[table])?,
     }
+    Ok(files.iter().map(|(name, _)| dir.join(name)).collect())
 }
