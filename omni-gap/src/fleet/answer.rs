@@ -32,35 +32,37 @@ pub struct SessionAnswer {
 /// `reports`, the folder of the store, where that is named.
 ///
 /// Nothing that a session has wrong is an error: it is a row with its reason.
+///
+/// # Errors
+/// Where its report cannot be written, which says nothing of the session: it is done again once there is room.
 pub fn answer_session(
     found: &FoundSession,
     held: Option<&str>,
     knobs: &Knobs,
     reports: Option<&Path>,
-) -> Option<SessionAnswer> {
+) -> Result<Option<SessionAnswer>> {
     let key = match key_of(found, knobs) {
-        Ok(key) if held == Some(&key) => return None,
+        Ok(key) if held == Some(&key) => return Ok(None),
         Ok(key) => key,
-        Err(why) => return Some(SessionAnswer::unreadable(found, &why.to_string())),
+        Err(why) => return Ok(Some(SessionAnswer::unreadable(found, &why.to_string()))),
     };
     if let Some(why) = &found.refused {
-        return Some(SessionAnswer::failed(found, key, why));
+        return Ok(Some(SessionAnswer::failed(found, key, why)));
     }
     let name = report_folder(&found.name, &key);
     let keep = reports.map(|store| (store.join(&name), name));
     let one = match ThreadPoolBuilder::new().num_threads(1).build() {
         Ok(one) => one,
-        Err(why) => return Some(SessionAnswer::unreadable(found, &why.to_string())),
+        Err(why) => return Ok(Some(SessionAnswer::unreadable(found, &why.to_string()))),
     };
     // nothing of it is used after a panic, and one session's must not end a night's work on the others
-    Some(match catch_unwind(AssertUnwindSafe(|| one.install(|| diagnosed(found, &key, knobs, keep)))) {
-        Ok(Ok(answer)) => answer,
-        Ok(Err(why)) => SessionAnswer::failed(found, key, &why.to_string()),
-        Err(_) => {
-            let why = "the program itself failed on it: `omni-gap diagnose` of this session tells where";
-            SessionAnswer::failed(found, key, why)
-        }
-    })
+    let failed = match catch_unwind(AssertUnwindSafe(|| one.install(|| diagnosed(found, &key, knobs, keep)))) {
+        Ok(Ok(answer)) => return Ok(Some(answer)),
+        Ok(Err(why @ Error::Output { .. })) => return Err(why),
+        Ok(Err(why)) => why.to_string(),
+        Err(_) => "the program itself failed on it: `omni-gap diagnose` of this session tells where".to_owned(),
+    };
+    Ok(Some(SessionAnswer::failed(found, key, &failed)))
 }
 
 /// Where a session's report is kept: two copies of a session have a report each.

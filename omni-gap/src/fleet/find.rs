@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::time::UNIX_EPOCH;
 
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -71,7 +70,7 @@ impl Walked {
             return Ok(());
         }
         if folder.join("robot.toml").is_file() && folder.join("runs").is_dir() {
-            self.found.push(FoundSession::at(folder, root, folder.display().to_string()));
+            self.found.push(FoundSession::at(folder, root, as_text(folder)));
             return Ok(());
         }
         let mut below = entries(folder)?.into_iter().map(|(_, path)| path).filter(|path| path.is_dir());
@@ -100,6 +99,15 @@ impl FoundSession {
     }
 }
 
+/// A path as text; bytes that are none stand as `\xFF`, so that sessions whose names differ in them are told apart.
+fn as_text(path: &Path) -> String {
+    let part = |chunk: std::str::Utf8Chunk<'_>| {
+        let strange = chunk.invalid().iter().map(|byte| format!("\\x{byte:02X}"));
+        [chunk.valid().to_owned(), strange.collect()].concat()
+    };
+    path.as_os_str().as_encoded_bytes().utf8_chunks().map(part).collect()
+}
+
 /// ROBOT of ROBOT/…/SESSION.
 fn folder_of_robot(within: &Path) -> Option<String> {
     let first = within.components().next()?;
@@ -109,10 +117,8 @@ fn folder_of_robot(within: &Path) -> Option<String> {
 /// The day (UTC) on which its newest recording was written.
 fn newest(session: &Path) -> Date {
     let entries = std::fs::read_dir(session.join("runs")).into_iter().flatten().flatten();
-    let written = entries.filter_map(|entry| entry.metadata().ok()?.modified().ok());
-    let seconds = written.filter_map(|at| at.duration_since(UNIX_EPOCH).ok()).map(|since| since.as_secs()).max();
-    let at = Timestamp::from_second(seconds.unwrap_or(0).try_into().unwrap_or(0)).unwrap_or(Timestamp::UNIX_EPOCH);
-    Offset::UTC.to_datetime(at).date()
+    let written = entries.filter_map(|entry| Timestamp::try_from(entry.metadata().ok()?.modified().ok()?).ok());
+    Offset::UTC.to_datetime(written.max().unwrap_or(Timestamp::UNIX_EPOCH)).date()
 }
 
 #[cfg(test)]
@@ -147,6 +153,27 @@ mod tests {
         assert_eq!(told[1], ("r01/more/20261104".into(), Some("seven"), "2026-11-04".into()));
         assert_eq!(told[2], ("r02/2026-11-03 a".into(), Some("r02"), "2026-11-03".into()));
         assert_eq!(told.len(), 3);
+    }
+
+    #[test]
+    fn a_recording_from_before_1970_has_its_day() {
+        let root = tempfile::tempdir().unwrap();
+        session(root.path());
+        let run = std::fs::File::create(root.path().join("runs/a.csv")).unwrap();
+        run.set_modified(std::time::UNIX_EPOCH - std::time::Duration::from_secs(86_400)).unwrap();
+        assert_eq!(newest(root.path()).to_string(), "1969-12-31");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn names_that_differ_in_bytes_that_are_no_text_are_told_apart() {
+        use std::os::unix::ffi::OsStrExt;
+        let root = tempfile::tempdir().unwrap();
+        for end in [b"\xfe", b"\xff"] {
+            session(&root.path().join(std::ffi::OsStr::from_bytes(&[&b"r \xc3\xa4"[..], end].concat())));
+        }
+        let names: Vec<String> = find(&[root.path().into()]).unwrap().into_iter().map(|session| session.name).collect();
+        assert!(names[0].ends_with("r ä\\xFE") && names[1].ends_with("r ä\\xFF"), "{names:?}");
     }
 
     #[test]

@@ -107,7 +107,7 @@ impl Work<'_> {
 
     fn session(&self, session: &FoundSession, options: &FleetOptions<'_>) -> Result<()> {
         let held = self.with_state(|state| state.store.session(&session.name).map(|row| row.key.clone()));
-        let answer = answer_session(session, held.as_deref(), &options.knobs, options.reports);
+        let answer = answer_session(session, held.as_deref(), &options.knobs, options.reports)?;
         self.with_state(|state| {
             let Some(answer) = answer else {
                 state.tally.kept += 1;

@@ -75,7 +75,7 @@ fn answers_that_travelled_as_bytes_make_the_same_files_elsewhere() {
     let memory = Memory::default();
     let mut store = Store::of(Box::new(memory.clone())).unwrap();
     for session in sessions.iter().rev() {
-        let answer = answer_session(session, None, &knobs, None).unwrap();
+        let answer = answer_session(session, None, &knobs, None).unwrap().unwrap();
         let travelled = SessionAnswer::of_parquet(answer.to_parquet().unwrap()).unwrap();
         assert_eq!(travelled, answer);
         store.put(travelled).unwrap();
@@ -91,7 +91,11 @@ fn answers_that_travelled_as_bytes_make_the_same_files_elsewhere() {
 
     for session in &sessions {
         let key = store.session(&session.name).unwrap().key.clone();
-        assert!(answer_session(session, Some(&key), &knobs, None).is_none(), "{}: it is as it was", session.name);
+        assert!(
+            answer_session(session, Some(&key), &knobs, None).unwrap().is_none(),
+            "{}: it is as it was",
+            session.name
+        );
     }
     assert!(fleet_report(&memory, &Default::default()).is_ok());
 }
