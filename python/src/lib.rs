@@ -15,6 +15,7 @@ mod checked;
 mod compared;
 mod designed;
 mod diagnosed;
+mod fleet;
 mod identified;
 mod plants;
 mod robot;
@@ -40,6 +41,8 @@ mod _omni_gap {
     use super::designed::{Designed, next};
     #[pymodule_export]
     use super::diagnosed::{Diagnosed, diagnose};
+    #[pymodule_export]
+    use super::fleet::{FleetAnswer, FleetStore, FleetTold, fleet_answer, fleet_find, fleet_told, fleet_unreadable};
     #[pymodule_export]
     use super::identified::{Identified, identify};
     #[pymodule_export]

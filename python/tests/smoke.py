@@ -1,6 +1,6 @@
 """Imports the package, diagnoses a session, and compares all of the answer with what the command wrote.
 
-    python smoke.py SESSION REPORT.json
+    python smoke.py SESSION REPORT.json STORE
 
 Files and columns in memory, through NumPy alone; the test command runs it.
 """
@@ -8,11 +8,13 @@ Files and columns in memory, through NumPy alone; the test command runs it.
 import csv
 import json
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
 
 import omni_gap
+from omni_gap import fleet
 
 
 def columns(path):
@@ -29,7 +31,7 @@ def same(what, found, expected):
         sys.exit(f"{what}: found {found!r}, expected {expected!r}")
 
 
-def main(session, report):
+def main(session, report, store):
     written = Path(report).read_text(encoding="utf-8")
     diagnosis = omni_gap.diagnose(session)
     same("report.json, byte for byte", diagnosis.to_json(), written)
@@ -51,6 +53,14 @@ def main(session, report):
         same("the message", str(error).split(". ")[0], "run00: column `u1_V`: the column is missing: 3 of 4 wheels have one")
     else:
         sys.exit("a recording without a wheel's voltage was taken")
+
+    with tempfile.TemporaryDirectory() as own:
+        tally = fleet.diagnose(Path(session).parent, own)
+        same("the sessions of a fleet", (tally.done, tally.failed), (1, 0))
+        files = sorted(path.relative_to(store) for path in Path(store).rglob("*.parquet"))
+        same("the tables of a fleet", len(files), 3)
+        for file in files:
+            same(f"{file}, byte for byte", Path(own, file).read_bytes(), Path(store, file).read_bytes())
 
     run = in_memory[logs[0].stem]
     simulated = omni_gap.simulate(robot, run, noise=False)

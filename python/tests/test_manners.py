@@ -14,11 +14,12 @@ import numpy as np
 import pytest
 
 import omni_gap
-from omni_gap import plot
+from omni_gap import fleet, plot
 
 matplotlib.use("Agg")
 
 PACKAGE = Path(omni_gap.__file__).parent
+CONFIGURATION = Path(__file__).parents[1] / "pyproject.toml"
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signal")
@@ -57,7 +58,7 @@ def test_diagnoses_run_beside_each_other(session, robot, run):
 def test_the_package_is_typed():
     assert (PACKAGE / "py.typed").is_file()
     checked = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "--allow-any-generics", "--no-warn-return-any", "--python-version", "3.11", str(PACKAGE)],
+        [sys.executable, "-m", "mypy", "--strict", "--allow-any-generics", "--no-warn-return-any", "--python-version", "3.11", "--config-file", str(CONFIGURATION), str(PACKAGE)],
         capture_output=True,
         text=True,
         check=False,
@@ -79,9 +80,10 @@ def test_the_stub_names_what_the_compiled_part_has():
             assert members == {member for member in vars(one) if not member.startswith("_")}, name
 
 
-def test_everything_public_is_documented():
-    for name in omni_gap.__all__:
-        one = getattr(omni_gap, name)
+@pytest.mark.parametrize("module", [omni_gap, fleet])
+def test_everything_public_is_documented(module):
+    for name in module.__all__:
+        one = getattr(module, name)
         assert name == "__version__" or one.__doc__, name
         if isinstance(one, type):
             for member, what in vars(one).items():

@@ -6,7 +6,7 @@ use std::ffi::OsString;
 
 use crate::line::Line;
 use crate::python::Environment;
-use crate::{browser, images, invented, mjcf, real, steps, tool, wheel};
+use crate::{browser, cluster, images, invented, mjcf, real, steps, tool, wheel};
 
 /// One thing to ask for.
 #[derive(Clone, Copy, Debug)]
@@ -98,6 +98,12 @@ pub const ERRANDS: &[Errand] = &[
         takes: "[smoke]",
         does: "build sdist and wheel of the Python package, test them, time steps beside MuJoCo's (BLESS=1: rewrite the page)",
         run: python,
+    },
+    Errand {
+        name: "cluster",
+        takes: "[smoke]",
+        does: "answer 2,000 sessions on a cluster that loses a node, and some in an object store (BLESS=1: rewrite the page)",
+        run: on_a_cluster,
     },
     Errand {
         name: "peers",
@@ -309,6 +315,10 @@ fn mujoco(_: &[OsString]) -> Result<(), String> {
 
 fn in_mujoco(_: &[OsString]) -> Result<(), String> {
     mjcf::perform(&MUJOCO.ensure()?)
+}
+
+fn on_a_cluster(words: &[OsString]) -> Result<(), String> {
+    cluster::perform(words)
 }
 
 fn python(words: &[OsString]) -> Result<(), String> {

@@ -3,6 +3,7 @@
 //! Exit code: 0 done, 1 failed, 2 asked for in the wrong way.
 
 mod browser;
+mod cluster;
 mod errands;
 mod images;
 mod install;

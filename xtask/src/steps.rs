@@ -88,6 +88,7 @@ pub const STEPS: &[Step] = &[
     Step { name: "docs", command: "cargo doc --workspace --no-deps", env: &[("RUSTDOCFLAGS", "-D warnings")] },
     Step { name: "tests", command: "cargo test --workspace", env: &[] },
     Step { name: "python", command: "cargo xtask python smoke", env: &[] },
+    Step { name: "cluster", command: "cargo xtask cluster smoke", env: &[] },
     Step { name: "withheld", command: "cargo run --release -p host-tests --bin bench -- check", env: &[] },
     Step { name: "emulated images", command: EMULATED_IMAGES, env: &[] },
     Step { name: "board image", command: BOARD_IMAGE, env: &[] },

@@ -20,21 +20,22 @@ const BUILD: Environment = Environment { folder: "target/python/build", requirem
 const TEST: Environment = Environment { folder: "target/python/test", requirements: "python/requirements/test.txt" };
 
 /// All libraries and the command, with the features that the tests are built with: after them, little of it is left to build.
-const EXTENSION: &str = "cargo build --workspace --lib --bin omni-gap --test walls";
+pub const EXTENSION: &str = "cargo build --workspace --lib --bin omni-gap --test walls";
 
-/// Where the package is put together from the extension and its Python files.
-const PACKAGE: &str = "target/python/package";
+/// Where the package is put together from that extension and its Python files.
+pub const PACKAGE: &str = "target/python/package";
 
 /// The session of the smoke test, and the report that the command makes of it.
 const DEMO: &str = "target/python/demo";
+
+/// The tables that the command makes of it.
+const FLEET: &str = "target/python/fleet";
 
 /// Where sdist and wheel are put.
 const WHEELS: &str = "target/python/wheels";
 
 /// The page of the long errand.
 const PAGE: &str = "host-tests/golden/python.md";
-const RECORD: &str =
-    "A record of a long run, not compared by the test command: made by `cargo xtask python` at commit ";
 
 /// The word that asks for the smoke test.
 pub const SMOKE_TEST: &str = "smoke";
@@ -69,28 +70,43 @@ const FOUND: &str = if cfg!(windows) { "_omni_gap.pyd" } else { "_omni_gap.abi3.
 fn smoke() -> Result<(), String> {
     let python = SMOKE.ensure()?;
     Line::of(EXTENSION).announced()?;
-    put_together().map_err(|why| format!("{PACKAGE}: {why}"))?;
-    let program = built().join("debug/omni-gap");
-    Line::of("").word(program).word("--quiet").word("demo").word("--out").word(DEMO).announced()?;
+    put_together("debug", PACKAGE)?;
+    let program = || Line::of("").word(built().join("debug/omni-gap")).word("--quiet");
+    program().word("demo").word("--out").word(DEMO).announced()?;
+    program().word("fleet").word(DEMO).word("--out").word(FLEET).announced()?;
     let script = Line::of("").word(python).word("-W").word("error").word("python/tests/smoke.py");
-    let script = script.word(format!("{DEMO}/session")).word(format!("{DEMO}/report/report.json"));
+    let script = script.word(format!("{DEMO}/session")).word(format!("{DEMO}/report/report.json")).word(FLEET);
     script.env("PYTHONPATH", PACKAGE).announced()
 }
 
-/// The package as a folder that Python can import.
-fn put_together() -> std::io::Result<()> {
-    let folder = top().join(PACKAGE).join("omni_gap");
-    if folder.is_dir() {
-        fs::remove_dir_all(&folder)?;
-    }
-    fs::create_dir_all(&folder)?;
-    for entry in fs::read_dir(top().join("python/omni_gap"))? {
+/// The package as a folder that Python can import, with the extension that was built with a profile.
+///
+/// # Errors
+/// What to tell the person.
+pub fn put_together(profile: &str, package: &str) -> Result<(), String> {
+    let folder = top().join(package).join("omni_gap");
+    let put = || {
+        if folder.is_dir() {
+            fs::remove_dir_all(&folder)?;
+        }
+        copy_modules(&top().join("python/omni_gap"), &folder)?;
+        fs::copy(top().join(built()).join(profile).join(BUILT), folder.join(FOUND)).map(drop)
+    };
+    put().map_err(|why: std::io::Error| format!("{package}: {why}"))
+}
+
+fn copy_modules(from: &Path, to: &Path) -> std::io::Result<()> {
+    fs::create_dir_all(to)?;
+    for entry in fs::read_dir(from)? {
         let path = entry?.path();
-        if path.extension().is_some_and(|suffix| suffix == "py") {
-            fs::copy(&path, folder.join(path.file_name().unwrap_or_default()))?;
+        let copy = to.join(path.file_name().unwrap_or_default());
+        if path.is_dir() {
+            copy_modules(&path, &copy)?;
+        } else if path.extension().is_some_and(|suffix| suffix == "py") {
+            fs::copy(&path, copy)?;
         }
     }
-    fs::copy(top().join(built()).join("debug").join(BUILT), folder.join(FOUND)).map(drop)
+    Ok(())
 }
 
 fn whole() -> Result<(), String> {
@@ -145,17 +161,29 @@ fn kept(page: &Path, wheel: &Path) -> Result<(), String> {
     let size = fs::metadata(wheel).map_err(told)?.len() as f64 / 1e6;
     let tested =
         format!("\nThe wheel `{name}` ({size:.1} MB), built from the sdist and installed, passes `python/tests`.\n");
+    record(PAGE, &(text + &tested), "cargo xtask python")
+}
+
+/// Keeps a page that a long command made, where that is asked for: with the command and the commit.
+///
+/// # Errors
+/// What to tell the person.
+pub fn record(page: &str, text: &str, command: &str) -> Result<(), String> {
     if std::env::var_os("BLESS").is_none() {
         return Ok(());
     }
     let commit = Line::of("git rev-parse --short=8 HEAD").answer().unwrap_or_default();
-    let record = format!("{text}{tested}\n---\n\n{RECORD}{}.\n", commit.trim());
-    fs::write(top().join(PAGE), record).map_err(told)
+    let made = format!(
+        "A record of a long run, not compared by the test command: made by `{command}` at commit {}.",
+        commit.trim()
+    );
+    fs::write(top().join(page), format!("{text}\n---\n\n{made}\n")).map_err(|why| format!("{page}: {why}"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cluster;
 
     #[test]
     fn what_it_does_not_take_is_named_with_what_it_does() {
@@ -166,13 +194,13 @@ mod tests {
     #[test]
     fn a_folder_with_two_wheels_is_refused() {
         let folder = top().join("python/requirements");
-        assert!(only(&folder, ".txt").unwrap_err().ends_with("found 3 files named *.txt, expected one"));
+        assert!(only(&folder, ".txt").unwrap_err().ends_with("found 4 files named *.txt, expected one"));
         assert!(only(&folder, "smoke.txt").is_ok());
     }
 
     #[test]
     fn every_package_is_pinned_with_the_hashes_of_its_files() {
-        for Environment { requirements, .. } in [SMOKE, BUILD, TEST] {
+        for Environment { requirements, .. } in [SMOKE, BUILD, TEST, cluster::ENVIRONMENT] {
             let text = fs::read_to_string(top().join(requirements)).unwrap();
             let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
             let packages = lines.iter().filter(|line| !line.starts_with(' ')).count();

@@ -1,0 +1,21 @@
+"""A cluster of Ray's own test kit: several nodes, each with processes of its own, on this machine."""
+
+from contextlib import contextmanager
+
+import ray
+from ray.cluster_utils import Cluster
+
+STORE_BYTES = 150 * 2**20
+
+
+@contextmanager
+def cluster(nodes, cores=1):
+    """Nodes with so many cores each, and a head that works at nothing; the cluster and its nodes."""
+    made = Cluster(initialize_head=True, head_node_args={"num_cpus": 0, "include_dashboard": False})
+    try:
+        added = [made.add_node(num_cpus=cores, object_store_memory=STORE_BYTES) for _ in range(nodes)]
+        ray.init(address=made.address, log_to_driver=False, logging_level="ERROR")
+        yield made, added
+    finally:
+        ray.shutdown()
+        made.shutdown()
