@@ -24,6 +24,15 @@ fn a_log_of_the_contract_is_read_with_its_holes() {
 }
 
 #[test]
+fn of_many_columns_that_are_left_out_some_are_told_by_name() {
+    let more = |of: &dyn Fn(usize) -> String| (0..100_000).map(|k| ",".to_owned() + &of(k)).collect::<String>();
+    let row = more(&|_| "1".to_owned());
+    let text = format!("t_s,x_m,y_m,theta_rad{}\n0,1,2,3{row}\n1,1,2,3{row}\n", more(&|k| format!("c{k}")));
+    let (_, notices) = read(text.as_bytes(), 3).unwrap();
+    assert!(notices[0].ends_with("`c18`, `c19` and 99980 more"), "{}", notices[0]);
+}
+
+#[test]
 fn what_is_written_is_read_again() {
     let text = format!("{HEADER}0,1.25,2,3,0.5,0,0,7\n0.01,1,,3e-7,,,,7\n");
     let (run, _) = read(text.as_bytes(), 3).unwrap();

@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn names_that_stand_for_names_and_lists_within_lists_take_no_more_than_their_text() {
-        let ten = |name: &str| vec![name; 10].join(",");
+        let ten = |name: &str| [name; 10].join(",");
         let line = |k: usize| format!("a{k}: &a{k} [{}]\n", ten(&format!("*a{}", k - 1)));
         let bomb = format!("a0: &a0 [{}]\n", ten("x")) + &(1..20).map(line).collect::<String>();
         assert_eq!(list(&bomb), None);
