@@ -16,6 +16,8 @@
 //! - [`carried`]: effects that a robot file carries with a wrong size, and what `identify` makes of it;
 //! - [`laboratory`]: every cause, recorded by a simulator that shares no line with the one that judges;
 //! - `withheld`: the benchmark that others can enter, on recordings whose labels nobody is given (on Linux);
+//! - `fault_injection`: faults of the world around the program, and what it does then (on Linux);
+//! - [`peak_memory`]: what a process has held;
 //! - [`frozen`]: whole reports that stay as they are while walls move;
 //! - [`identification`]: the identification of robots whose truth is known, over many seeds;
 //! - [`pairs`]: two sessions that differ in one thing or in nothing, and what `compare` says of them;
@@ -44,6 +46,8 @@ pub mod costs;
 pub mod designs;
 pub mod emulator;
 pub mod excitation;
+#[cfg(target_os = "linux")]
+pub mod fault_injection;
 pub mod fit_case;
 pub mod fleet;
 pub mod flow;
@@ -60,6 +64,7 @@ pub mod mujoco;
 pub mod pairs;
 pub mod paper;
 pub mod paper_source;
+pub mod peak_memory;
 pub mod plant_cases;
 pub mod printed;
 pub mod real;

@@ -37,19 +37,19 @@ pub const ERRANDS: &[Errand] = &[
         name: "benchmark",
         takes: "",
         does: "diagnose every effect of the catalogue and rewrite the golden table",
-        run: benchmark,
+        run: |_| page_of("catalogue"),
     },
     Errand {
         name: "medicine",
         takes: "",
         does: "diagnose what the simulator records of every effect, beside what the self-test foretells (BLESS=1: rewrite)",
-        run: medicine,
+        run: |_| page_of("medicine"),
     },
     Errand {
         name: "confusion",
         takes: "",
         does: "compute which cause would be taken for which, by robot and motion (BLESS=1: rewrite page and pictures)",
-        run: confusion,
+        run: |_| page_of("confusion"),
     },
     Errand {
         name: "fleet",
@@ -58,28 +58,34 @@ pub const ERRANDS: &[Errand] = &[
         run: fleet,
     },
     Errand {
+        name: "fault-injection",
+        takes: "",
+        does: "stage full disks, bombs, loops, changing files and kills around the command, and tell what it does (BLESS=1: record)",
+        run: fault_injection,
+    },
+    Errand {
         name: "selftest",
         takes: "",
         does: "look in simulated recordings for the sizes that the self-test foretells (BLESS=1: rewrite)",
-        run: selftest,
+        run: |_| page_of("selftest"),
     },
     Errand {
         name: "laboratory",
         takes: "",
         does: "diagnose what a second simulator records of every cause and rewrite the golden table",
-        run: laboratory,
+        run: |_| page_of("laboratory"),
     },
     Errand {
         name: "carried",
         takes: "",
         does: "identify robots whose files carry each effect with a wrong size (BLESS=1: rewrite)",
-        run: carried,
+        run: |_| page_of("carried"),
     },
     Errand {
         name: "identification",
         takes: "",
         does: "identify robots whose truth is known by the thousand and rewrite the golden page (most of an hour)",
-        run: identification,
+        run: |_| page_of("identification"),
     },
     Errand {
         name: "mujoco",
@@ -127,7 +133,7 @@ pub const ERRANDS: &[Errand] = &[
         name: "commission",
         takes: "",
         does: "commission motors of 48 wirings on 8 seeds over the link of the firmware's program (BLESS=1: rewrite)",
-        run: commission,
+        run: |_| page_of("commission"),
     },
     Errand {
         name: "margin",
@@ -276,36 +282,19 @@ fn bench(words: &[OsString]) -> Result<(), String> {
     words.iter().fold(line, Line::word).announced()
 }
 
-fn benchmark(_: &[OsString]) -> Result<(), String> {
-    Line::of("cargo run --release -p host-tests --bin catalogue").announced()
-}
-
-fn medicine(_: &[OsString]) -> Result<(), String> {
-    Line::of("cargo run --release -p host-tests --bin medicine").announced()
-}
-
-fn confusion(_: &[OsString]) -> Result<(), String> {
-    Line::of("cargo run --release -p host-tests --bin confusion").announced()
+/// Runs the program that makes a page.
+fn page_of(program: &str) -> Result<(), String> {
+    Line::of("cargo run --release -p host-tests --bin").word(program).announced()
 }
 
 fn fleet(asked: &[OsString]) -> Result<(), String> {
     asked.iter().fold(Line::of("cargo run --release -p host-tests --bin fleet --"), Line::word).announced()
 }
 
-fn selftest(_: &[OsString]) -> Result<(), String> {
-    Line::of("cargo run --release -p host-tests --bin selftest").announced()
-}
-
-fn laboratory(_: &[OsString]) -> Result<(), String> {
-    Line::of("cargo run --release -p host-tests --bin laboratory").announced()
-}
-
-fn carried(_: &[OsString]) -> Result<(), String> {
-    Line::of("cargo run --release -p host-tests --bin carried").announced()
-}
-
-fn identification(_: &[OsString]) -> Result<(), String> {
-    Line::of("cargo run --release -p host-tests --bin identification").announced()
+/// In the build of the tests: what overflows ends a program there.
+fn fault_injection(_: &[OsString]) -> Result<(), String> {
+    Line::of("cargo build --workspace --bin omni-gap --bin fault_injection --test walls").announced()?;
+    Line::of("").word(wheel::built().join("debug/fault_injection")).announced()
 }
 
 fn mujoco(_: &[OsString]) -> Result<(), String> {
@@ -330,10 +319,6 @@ fn peers(_: &[OsString]) -> Result<(), String> {
     Line::of("cargo build --release -p omni-gap").announced()?;
     let tests = "-m pytest host-tests/peers".split(' ');
     tests.fold(Line::of("").word(python), Line::word).env("PYTHONPATH", "host-tests").announced()
-}
-
-fn commission(_: &[OsString]) -> Result<(), String> {
-    Line::of("cargo run --release -p host-tests --bin commission").announced()
 }
 
 fn fuzz(words: &[OsString]) -> Result<(), String> {

@@ -53,7 +53,7 @@ pub fn perform(words: &[OsString]) -> Result<(), String> {
 }
 
 /// Where cargo puts what it builds.
-fn built() -> PathBuf {
+pub fn built() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| PathBuf::from("target"), PathBuf::from)
 }
 

@@ -11,6 +11,7 @@ use omni_gap::fleet::{FleetOptions, Store, diagnose_fleet, find};
 use omni_gap::report::{num, percent};
 
 use super::kind::Kind;
+use crate::peak_memory::peak_memory;
 
 /// What was measured.
 #[derive(Clone, Debug)]
@@ -62,9 +63,9 @@ pub fn scale(kind: &Kind) -> Result<Scale, Error> {
         Ok(begun.elapsed().as_secs_f64())
     };
     timed("first", cores, sessions.len().div_ceil(10))?;
-    let after_first = largest_memory();
+    let after_first = peak_memory("self");
     let all_s = timed("all", cores, sessions.len())?;
-    let after_all = largest_memory();
+    let after_all = peak_memory("self");
     let known_s = timed("all", cores, sessions.len())?;
     let one_s = timed("one", 1, sessions.len())?;
     Ok(Scale {
@@ -83,13 +84,6 @@ pub fn scale(kind: &Kind) -> Result<Scale, Error> {
 fn size_of(folder: &Path) -> u64 {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     entries.map(|path| if path.is_dir() { size_of(&path) } else { path.metadata().map_or(0, |m| m.len()) }).sum()
-}
-
-/// The largest resident memory so far (VmHWM), where the system tells it [byte]
-fn largest_memory() -> Option<u64> {
-    let status = fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    Some(1024 * line.split_whitespace().nth(1)?.parse::<u64>().ok()?)
 }
 
 impl Scale {

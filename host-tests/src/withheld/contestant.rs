@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::answer::Answer;
 use super::set::{SetFolder, read, write};
 use super::watch::Watch;
+use crate::peak_memory::peak_memory;
 
 /// Who answers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -169,10 +170,7 @@ fn end(child: &mut Child) {
 
 /// The most memory that a command has held so far, as the system tells [MB].
 fn held(child: &Child) -> f64 {
-    let told = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
-    let line = told.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    let kilobytes = line.and_then(|line| line.trim().strip_suffix(" kB")).and_then(|number| number.trim().parse().ok());
-    kilobytes.unwrap_or(0.0) / 1024.0
+    peak_memory(&child.id().to_string()).map_or(0.0, |bytes| bytes as f64 / f64::from(1 << 20))
 }
 
 fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
