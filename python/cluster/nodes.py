@@ -1,6 +1,9 @@
 """A cluster of Ray's own test kit: several nodes, each with processes of its own, on this machine."""
 
+import os
 from contextlib import contextmanager
+
+os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # before Ray is imported: nothing is sent to its makers
 
 import ray
 from ray.cluster_utils import Cluster

@@ -3,6 +3,7 @@
     python smoke.py
 """
 
+import faulthandler
 import sys
 import tempfile
 from pathlib import Path
@@ -16,9 +17,11 @@ from omni_gap import fleet
 
 SESSIONS = 3
 PORT = 5573
+PATIENCE_S = 300
 
 
 def main():
+    faulthandler.dump_traceback_later(PATIENCE_S, exit=True)  # a cluster that hangs says where
     with tempfile.TemporaryDirectory() as folder, bucket(PORT) as s3:
         logs = Path(folder, "logs")
         stage(logs, SESSIONS)
