@@ -2,10 +2,10 @@
 
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::error::{Error, Result};
-use crate::log::{entries, write_whole};
+use crate::log::{entries, locked_within, write_whole};
 
 /// Files by name. A name is a path with `/`, relative to the storage: `sessions/robot=r07/date=2026-11-03/part.parquet`.
 pub trait Storage: Send + Sync {
@@ -37,7 +37,7 @@ pub trait Storage: Send + Sync {
     fn remove(&self, name: &str) -> Result<()>;
 }
 
-/// How long another writer is waited for.
+/// How long another writer is waited for: the lock of one that was just killed is free a moment later.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A folder.
@@ -62,7 +62,7 @@ impl Folder {
         let unwritable = |why: String| Error::output(path, why, "Name another folder with --out");
         std::fs::create_dir_all(path).map_err(|why| unwritable(why.to_string()))?;
         let lock = File::create(path.join(".lock")).map_err(|why| unwritable(why.to_string()))?;
-        locked(&lock).map_err(|why| match why {
+        locked_within(PATIENCE, &lock).map_err(|why| match why {
             TryLockError::WouldBlock => unwritable("another omni-gap fleet is writing to it".to_owned()),
             TryLockError::Error(why) => unwritable(why.to_string()),
         })?;
@@ -125,15 +125,4 @@ fn below(folder: &Path, name: &str, names: &mut Vec<String>) -> Result<()> {
         }
     }
     Ok(())
-}
-
-/// Takes the lock; of a writer that was just killed it is free a moment later.
-fn locked(lock: &File) -> std::result::Result<(), TryLockError> {
-    let begun = Instant::now();
-    loop {
-        match lock.try_lock() {
-            Err(TryLockError::WouldBlock) if begun.elapsed() < PATIENCE => std::thread::sleep(PATIENCE / 20),
-            done => return done,
-        }
-    }
 }

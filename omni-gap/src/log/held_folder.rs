@@ -23,7 +23,7 @@ impl HeldFolder {
     /// Takes a folder, and takes away what was left in it unfinished. Where a file system knows no locks, or somebody holds the folder for
     /// long, it is written to without: each file is whole then too.
     pub fn take(folder: &Path) -> Self {
-        let lock = File::open(folder).ok().filter(locked);
+        let lock = File::open(folder).ok().filter(|folder| locked_within(PATIENCE, folder).is_ok());
         if lock.is_some() {
             sweep(folder);
         }
@@ -31,13 +31,13 @@ impl HeldFolder {
     }
 }
 
-fn locked(folder: &File) -> bool {
+/// Locks a file or folder, for which whoever has it is waited for.
+pub(crate) fn locked_within(patience: Duration, file: &File) -> Result<(), TryLockError> {
     let begun = Instant::now();
     loop {
-        match folder.try_lock() {
-            Ok(()) => return true,
-            Err(TryLockError::WouldBlock) if begun.elapsed() < PATIENCE => std::thread::sleep(BETWEEN),
-            Err(_) => return false,
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) if begun.elapsed() < patience => std::thread::sleep(BETWEEN),
+            done => return done,
         }
     }
 }

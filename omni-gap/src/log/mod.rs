@@ -60,7 +60,7 @@ pub use driving::Chain;
 pub(crate) use edges::retimed;
 pub(crate) use entries::entries;
 pub use formats::{FORMATS, FormatPage};
-pub(crate) use held_folder::{HeldFolder, UNFINISHED};
+pub(crate) use held_folder::{HeldFolder, UNFINISHED, locked_within};
 pub(crate) use mapping::unit_factor;
 pub(crate) use permutations::permutations;
 pub use robot_file::*;
