@@ -8,6 +8,7 @@ mod csv;
 mod date_time;
 mod guarded;
 mod held;
+mod longest_part;
 mod opened;
 mod parquet;
 mod parquet_pages;

@@ -5,6 +5,7 @@
 //! A page's header is a struct in Thrift's compact protocol; fields that matter here: 2 and 3, its size unpacked and packed; the number of
 //! its values is field 1 of field 5 (version 1) or 8 (version 2); of the latter the lengths of what is never packed are fields 5 and 6.
 
+use super::longest_part::longest_part;
 use flate2::read::MultiGzDecoder;
 use lz4_flex::frame::FrameDecoder;
 use parquet::basic::Compression;
@@ -12,11 +13,6 @@ use parquet::errors::ParquetError;
 use parquet::file::metadata::ColumnChunkMetaData;
 use parquet::file::reader::ChunkReader;
 use std::io::Read;
-
-/// No page is believed to unpack to more (bytes), that short any may be, and so many times as long as the whole file.
-const LONGEST: u64 = 1 << 28;
-const SHORT: u64 = 1 << 24;
-const UNPACKED: u64 = 64;
 
 /// So few rows any column may have, and so many for each byte of the file.
 const FEW_ROWS: u64 = 1 << 20;
@@ -37,8 +33,7 @@ pub(super) struct Bounds {
 impl Bounds {
     /// Of a file that is so long (bytes).
     pub fn of(length: u64) -> Self {
-        let page = length.saturating_mul(UNPACKED).clamp(SHORT, LONGEST);
-        Self { page, values: length.saturating_mul(ROWS_A_BYTE).max(FEW_ROWS) }
+        Self { page: longest_part(length), values: length.saturating_mul(ROWS_A_BYTE).max(FEW_ROWS) }
     }
 
     /// Refuses a column whose pages say that they are more; hands over how many values they have.

@@ -3,6 +3,7 @@
 //! Chunks, compression and checksums are the library's matter. What a record holds is looked at here before the library
 //! reads it: it takes as much memory as a name says that it is long, and a spoiled byte makes of that what it likes.
 
+use super::super::longest_part::longest_part;
 use std::collections::BTreeMap;
 use std::io::{ErrorKind, Read};
 use std::rc::Rc;
@@ -10,13 +11,6 @@ use std::rc::Rc;
 use mcap::McapError;
 use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
-
-/// No record and no chunk is believed to be longer, packed or unpacked (bytes); room is made for what a length says.
-const LONGEST: usize = 1 << 28;
-
-/// That short any may be (bytes), and so many times as long as the whole recording where it is packed.
-const SHORT: usize = 1 << 24;
-const UNPACKED: usize = 64;
 
 /// What the messages of a channel are.
 #[derive(Debug, PartialEq, Eq)]
@@ -65,8 +59,8 @@ pub(super) struct Messages<R> {
 impl<R: Read> Messages<R> {
     /// Of a recording that is so long (bytes).
     pub(super) fn new(source: R, length: u64) -> Self {
-        let length = usize::try_from(length).unwrap_or(usize::MAX);
-        let longest = length.saturating_mul(UNPACKED).clamp(SHORT, LONGEST);
+        // of a record or chunk: room is made for what a length says
+        let longest = longest_part(length) as usize;
         let options = LinearReaderOptions::default().with_validate_chunk_crcs(true).with_record_length_limit(longest);
         let records = LinearReader::new_with_options(options);
         Messages { source, records, schemas: BTreeMap::new(), channels: BTreeMap::new(), over: false }

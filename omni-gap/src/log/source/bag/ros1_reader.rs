@@ -4,6 +4,7 @@
 //! first, then the index, with the connections: who sent what. Nothing is mapped into memory: a file that is cut off meanwhile would end the
 //! program. A chunk says what it unpacks to, and no more of it is unpacked.
 
+use super::super::longest_part::{LONGEST, SHORT, longest_part};
 use bzip2::read::BzDecoder;
 use lz4_flex::frame::FrameDecoder;
 use std::fs::File;
@@ -11,12 +12,6 @@ use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 
 /// How such a recording begins.
 pub(super) const MAGIC: &[u8] = b"#ROSBAG V2.0\n";
-
-/// No chunk is believed to be longer, packed or unpacked (bytes), that short any may be, and so many times as long as the whole recording
-/// where it is packed.
-const LONGEST: u64 = 1 << 28;
-const SHORT: u64 = 1 << 24;
-const UNPACKED: u64 = 64;
 
 /// Kinds of records.
 mod op {
@@ -153,7 +148,7 @@ impl Bag {
     }
 
     fn longest(&self) -> u64 {
-        self.end.saturating_mul(UNPACKED).clamp(SHORT, LONGEST)
+        longest_part(self.end)
     }
 }
 
