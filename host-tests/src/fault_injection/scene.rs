@@ -8,6 +8,7 @@ use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
 use omni_gap::known_effects;
+use omni_gap::log::write_session;
 use omni_gap::synthesize::{Scenario, synthesize};
 use tempfile::TempDir;
 
@@ -42,16 +43,9 @@ impl Scene {
     /// # Errors
     /// Where there is no room for it.
     pub fn add_session(&self, at: impl AsRef<OsStr>, seed: u64) -> io::Result<()> {
-        let at = Path::new(at.as_ref());
         let plan = Scenario { runs: 3, duration: 2.0, rate: 100.0, seed, ..Scenario::default() };
         let staged = synthesize(ROBOT, &plan, &known_effects()).map_err(io::Error::other)?;
-        self.write(at.join("robot.toml"), staged.robot_text.as_bytes())?;
-        for run in &staged.runs {
-            let mut text = Vec::new();
-            run.write_csv(&mut text)?;
-            self.write(at.join("runs").join(format!("{}.csv", run.name)), &text)?;
-        }
-        Ok(())
+        write_session(&self.at(at.as_ref()), &staged.robot_text, &staged.runs).map_err(io::Error::other)
     }
 
     /// A path in the folder.
@@ -81,6 +75,16 @@ impl Scene {
     /// The command with these words, to be run in the folder.
     pub fn asked(&self, words: &[impl AsRef<OsStr>]) -> Asked {
         Asked::new(&self.program, self.folder.path(), words)
+    }
+
+    /// Whether the session is sound.
+    pub fn check(&self) -> Asked {
+        self.asked(&["check", "session"])
+    }
+
+    /// The sessions below a folder, as a fleet with its tables in `season`.
+    pub fn fleet(&self, below: &str) -> Asked {
+        self.asked(&["fleet", below, "--out", "season"])
     }
 
     /// Everything in the folder, by path.

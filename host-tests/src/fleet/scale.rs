@@ -8,6 +8,7 @@ use std::time::Instant;
 use omni_gap::Error;
 use omni_gap::engine::Knobs;
 use omni_gap::fleet::{FleetOptions, Store, diagnose_fleet, find};
+use omni_gap::log::write_session;
 use omni_gap::report::{num, percent};
 
 use super::kind::Kind;
@@ -42,16 +43,9 @@ pub fn scale(kind: &Kind) -> Result<Scale, Error> {
     let folder =
         tempfile::tempdir().map_err(|why| Error::output(Path::new("a folder"), why.to_string(), "Free space"))?;
     let logs = folder.path().join("logs");
-    let unwritable = |why: std::io::Error| Error::output(&logs, why.to_string(), "Free space");
     for (robot, session) in kind.sessions()?.iter().enumerate() {
         let own = logs.join(format!("r{:03}/2026-11-{:02}", robot / 20, 1 + robot % 20));
-        fs::create_dir_all(own.join("runs")).map_err(unwritable)?;
-        fs::write(own.join("robot.toml"), &session.robot_text).map_err(unwritable)?;
-        for run in &session.runs {
-            let mut text = Vec::new();
-            run.write_csv(&mut text).map_err(unwritable)?;
-            fs::write(own.join(format!("runs/{}.csv", run.name)), text).map_err(unwritable)?;
-        }
+        write_session(&own, &session.robot_text, &session.runs)?;
     }
     let sessions = find(std::slice::from_ref(&logs))?;
     let cores = available_parallelism().map_or(1, usize::from);

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use omni_gap::Options;
-use omni_gap::log::{write_whole, write_whole_with};
+use omni_gap::log::write_session;
 use omni_gap::report::{self, estimate};
 use omni_gap::simulate::EffectInstance;
 use omni_gap::synthesize::{Scenario, synthesize};
@@ -53,7 +53,8 @@ impl Demo {
         console.phase("recording a robot that is not what its file says");
         let staged = synthesize(ROBOT, &plan(), &known_effects())?;
         let folder = NewFolder::make_with_files(&at)?;
-        write_session(&at, &staged)?;
+        let told = "what the simulator believes of the robot that was recorded.";
+        write_session(&at, &format!("{MARK}{told}\n{}", staged.robot_text), &staged.runs)?;
         drop(staged); // what follows knows the files alone
 
         console.phase("reading the recordings");
@@ -87,18 +88,6 @@ fn only_ours(session: &Path) -> Result<(), Error> {
 fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.map(|e| e.file_name().to_string_lossy().into_owned()).collect()
-}
-
-fn write_session(at: &Path, staged: &Session) -> Result<(), Error> {
-    let runs = at.join("runs");
-    std::fs::create_dir_all(&runs)
-        .map_err(|why| Error::output(&runs, why.to_string(), "Name another folder with --out"))?;
-    let told = "what the simulator believes of the robot that was recorded.";
-    write_whole(&at.join("robot.toml"), format!("{MARK}{told}\n{}", staged.robot_text).as_bytes())?;
-    for run in &staged.runs {
-        write_whole_with(&runs.join(format!("{}.csv", run.name)), |out| run.write_csv(out))?;
-    }
-    Ok(())
 }
 
 /// What was hidden beside what was found.

@@ -9,6 +9,7 @@ use super::*;
 use crate::engine::Knobs;
 use crate::error::Result;
 use crate::known::known_effects;
+use crate::log::write_session;
 use crate::synthesize::{Scenario, synthesize};
 
 const ROBOT: &str = include_str!("../../../examples/feup-3w/robot.toml");
@@ -47,14 +48,7 @@ fn logs(at: &Path) {
     for (robot, seed) in [("r01", 1), ("r02", 2)] {
         let plan = Scenario { runs: 3, duration: 2.0, rate: 100.0, seed, ..Scenario::default() };
         let staged = synthesize(ROBOT, &plan, &known_effects()).unwrap();
-        let session = at.join(robot).join("2026-11-03");
-        fs::create_dir_all(session.join("runs")).unwrap();
-        fs::write(session.join("robot.toml"), &staged.robot_text).unwrap();
-        for run in &staged.runs {
-            let mut text = Vec::new();
-            run.write_csv(&mut text).unwrap();
-            fs::write(session.join(format!("runs/{}.csv", run.name)), text).unwrap();
-        }
+        write_session(&at.join(robot).join("2026-11-03"), &staged.robot_text, &staged.runs).unwrap();
     }
     fs::create_dir_all(at.join("r02/2026-11-04/runs")).unwrap();
     fs::write(at.join("r02/2026-11-04/robot.toml"), "name = 7\n").unwrap();

@@ -66,7 +66,7 @@ pub(crate) use permutations::permutations;
 pub use robot_file::*;
 pub use run::{Group, Run, RunFile, Sampled};
 pub use session::Session;
-pub use sink::{holds_several, write_run, write_runs};
+pub use sink::{holds_several, write_run, write_runs, write_session};
 pub use source::Table;
 pub use toml_number::toml_number;
 pub(crate) use toml_walk::{Section, Source as TomlSource, read_text};

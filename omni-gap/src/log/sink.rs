@@ -37,6 +37,18 @@ pub fn write_runs(path: &Path, runs: &[(&str, &Run)]) -> Result<()> {
     write_bytes(path, mcap::bytes(runs))
 }
 
+/// Writes a session: the robot file, and its runs as CSV beside each other in `runs/`; the folder is made if need be.
+///
+/// # Errors
+/// Where a folder or file cannot be made.
+pub fn write_session(folder: &Path, robot_text: &str, runs: &[Run]) -> Result<()> {
+    let within = folder.join("runs");
+    std::fs::create_dir_all(&within)
+        .map_err(|why| Error::output(&within, why.to_string(), "Name another folder with --out"))?;
+    write_whole(&folder.join("robot.toml"), robot_text.as_bytes())?;
+    runs.iter().try_for_each(|run| write_run(&within.join(format!("{}.csv", run.name)), run))
+}
+
 fn write_bytes(path: &Path, bytes: std::result::Result<Vec<u8>, String>) -> Result<()> {
     let bytes = bytes.map_err(|reason| Error::output(path, reason, "Write it as .csv"))?;
     write_whole(path, &bytes)

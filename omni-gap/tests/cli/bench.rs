@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use omni_gap::known_effects;
+use omni_gap::log::write_session;
 use omni_gap::synthesize::{Scenario, synthesize};
 
 /// The robot of all tests here.
@@ -37,12 +38,7 @@ impl Bench {
         let bench = Bench::empty();
         let plan = Scenario { runs: 3, duration: 2.0, rate: 100.0, ..Scenario::default() };
         let staged = synthesize(ROBOT, &plan, &known_effects()).expect("a sound stage");
-        bench.write("session/robot.toml", &staged.robot_text);
-        for run in &staged.runs {
-            let mut text = Vec::new();
-            run.write_csv(&mut text).expect("memory takes all");
-            bench.write(&format!("session/runs/{}.csv", run.name), std::str::from_utf8(&text).unwrap());
-        }
+        write_session(&bench.at("session"), &staged.robot_text, &staged.runs).expect("room for a session");
         bench
     }
 

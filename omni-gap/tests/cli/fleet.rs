@@ -8,6 +8,7 @@ use std::thread;
 use std::time::Duration;
 
 use omni_gap::known_effects;
+use omni_gap::log::write_session;
 use omni_gap::synthesize::{Scenario, synthesize};
 
 use crate::bench::{Bench, ROBOT, refused};
@@ -26,12 +27,7 @@ fn fleet(robots: usize) -> Bench {
 fn session(bench: &Bench, at: &str, seed: u64) {
     let plan = Scenario { runs: 3, duration: 2.0, rate: 100.0, seed, ..Scenario::default() };
     let staged = synthesize(ROBOT, &plan, &known_effects()).expect("a sound stage");
-    bench.write(&format!("{at}/robot.toml"), &staged.robot_text);
-    for run in &staged.runs {
-        let mut text = Vec::new();
-        run.write_csv(&mut text).expect("memory takes all");
-        bench.write(&format!("{at}/runs/{}.csv", run.name), std::str::from_utf8(&text).unwrap());
-    }
+    write_session(&bench.at(at), &staged.robot_text, &staged.runs).expect("room for a session");
 }
 
 /// The tables of a store, file by file.
