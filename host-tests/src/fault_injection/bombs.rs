@@ -47,7 +47,7 @@ fn recorded(scene: &Scene, name: &str, bytes: &[u8], says: &str) -> io::Result<O
     fs::remove_dir_all(scene.at("session/runs"))?;
     let file = format!("session/runs/{name}");
     scene.write(&file, bytes)?;
-    let outcome = refused(scene, &scene.asked(&["check", "session"]).within(MOST_MB), &[&file, says])?;
+    let outcome = refused(scene, &scene.check().within(MOST_MB), &[&file, says])?;
     Ok(outcome.noting(&format!("a file of {:.1} kB", bytes.len() as f64 / 1e3)))
 }
 
@@ -149,7 +149,7 @@ fn many_records(scene: &Scene) -> io::Result<Outcome> {
 
 fn listed(scene: &Scene, text: &str) -> io::Result<Outcome> {
     scene.write("session/runs/drive/metadata.yaml", text.as_bytes())?;
-    refused(scene, &scene.asked(&["check", "session"]), &["runs/drive/metadata.yaml: ", "ros2 bag reindex"])
+    refused(scene, &scene.check(), &["runs/drive/metadata.yaml: ", "ros2 bag reindex"])
 }
 
 fn aliases(scene: &Scene) -> io::Result<Outcome> {

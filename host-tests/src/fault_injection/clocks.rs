@@ -6,7 +6,6 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use super::fault::Fault;
 use super::outcome::{Outcome, answered};
-use super::process::Asked;
 use super::scene::Scene;
 
 /// The faults.
@@ -18,11 +17,6 @@ pub const FAULTS: &[Fault] = &[
 ];
 
 const YEAR: Duration = Duration::from_secs(365 * 86_400);
-
-/// The session without a day in its path, in a fleet.
-fn fleet(scene: &Scene) -> Asked {
-    scene.asked(&["fleet", "session", "--out", "season"])
-}
 
 fn stamp(scene: &Scene, at: SystemTime) -> io::Result<()> {
     for run in ["run00", "run01", "run02"] {
@@ -39,20 +33,20 @@ fn on(scene: &Scene, outcome: Outcome, day: &str) -> Outcome {
 
 fn before_1970(scene: &Scene) -> io::Result<Outcome> {
     stamp(scene, UNIX_EPOCH - 10 * YEAR)?;
-    let outcome = answered(scene, &fleet(scene))?;
+    let outcome = answered(scene, &scene.fleet("session"))?;
     Ok(on(scene, outcome, "1960-01-04"))
 }
 
 fn far_in_the_future(scene: &Scene) -> io::Result<Outcome> {
     stamp(scene, UNIX_EPOCH + 430 * YEAR)?;
-    let outcome = answered(scene, &fleet(scene))?;
+    let outcome = answered(scene, &scene.fleet("session"))?;
     Ok(on(scene, outcome, "2399-09-19"))
 }
 
 fn set_back(scene: &Scene) -> io::Result<Outcome> {
-    fleet(scene).run()?;
+    scene.fleet("session").run()?;
     stamp(scene, SystemTime::now() - YEAR)?;
-    let outcome = answered(scene, &fleet(scene))?;
+    let outcome = answered(scene, &scene.fleet("session"))?;
     let known = outcome.happens.contains("0 diagnosed now, 1 known already");
     Ok(outcome.promising(known, "bytes count, not times").noting("bytes count, not times"))
 }
@@ -60,14 +54,14 @@ fn set_back(scene: &Scene) -> io::Result<Outcome> {
 fn changed_at_the_same_time(scene: &Scene) -> io::Result<Outcome> {
     let at = UNIX_EPOCH + 50 * YEAR;
     stamp(scene, at)?;
-    fleet(scene).run()?;
+    scene.fleet("session").run()?;
     let run = "session/runs/run01.csv";
     let text = scene.read(run)?;
     let last = text.trim_end().len() - 1;
     let other = if text.as_bytes()[last] == b'1' { "2" } else { "1" };
     scene.write(run, [&text[..last], other, &text[last + 1..]].concat().as_bytes())?;
     stamp(scene, at)?;
-    let outcome = answered(scene, &fleet(scene))?;
+    let outcome = answered(scene, &scene.fleet("session"))?;
     let again = outcome.happens.contains("1 diagnosed now, 0 known already");
     Ok(outcome.promising(again, "the change is seen").noting("the change is seen"))
 }

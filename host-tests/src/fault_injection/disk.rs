@@ -93,26 +93,19 @@ fn simulated(scene: &Scene, out: &str) -> Asked {
 }
 
 fn no_room_for_the_answer(scene: &Scene) -> io::Result<Outcome> {
-    refused(
-        scene,
-        &scene.asked(&["check", "session"]).answering_to(Path::new("/dev/full")),
-        &["standard output", "No space left"],
-    )
-}
-
-fn fleet(scene: &Scene) -> Asked {
-    scene.asked(&["fleet", "session", "--out", "season"])
+    refused(scene, &scene.check().answering_to(Path::new("/dev/full")), &["standard output", "No space left"])
 }
 
 fn no_room_for_a_fleet(scene: &Scene) -> io::Result<Outcome> {
-    let outcome = refused_on_the_way(scene, &fleet(scene).with_files_of(BLOCKS), &["season/", "cannot be written"])?;
+    let outcome =
+        refused_on_the_way(scene, &scene.fleet("session").with_files_of(BLOCKS), &["season/", "cannot be written"])?;
     let left = half_written_in(&scene.at("season"));
     Ok(outcome.promising(left.is_empty(), &format!("nothing half-written: {left:?}")))
 }
 
 fn room_for_a_fleet_again(scene: &Scene) -> io::Result<Outcome> {
-    fleet(scene).with_files_of(BLOCKS).run()?;
-    let outcome = answered(scene, &fleet(scene))?;
+    scene.fleet("session").with_files_of(BLOCKS).run()?;
+    let outcome = answered(scene, &scene.fleet("session"))?;
     let done = outcome.happens.contains("1 diagnosed now, 0 known already");
     Ok(outcome.promising(done, "what there was no room for is done now"))
 }

@@ -23,19 +23,19 @@ fn a_session_that_is_itself(scene: &Scene) -> io::Result<Outcome> {
 
 fn a_run_that_is_itself(scene: &Scene) -> io::Result<Outcome> {
     symlink("loop.csv", scene.at("session/runs/loop.csv"))?;
-    refused(scene, &scene.asked(&["check", "session"]), &["session/runs/loop.csv: ", "symbolic links"])
+    refused(scene, &scene.check(), &["session/runs/loop.csv: ", "symbolic links"])
 }
 
 fn a_folder_that_leads_back(scene: &Scene) -> io::Result<Outcome> {
     symlink("..", scene.at("session/runs/back"))?;
-    Ok(answered(scene, &scene.asked(&["check", "session"]))?.noting("the link is left out"))
+    Ok(answered(scene, &scene.check())?.noting("the link is left out"))
 }
 
 fn a_fleet_that_leads_back(scene: &Scene) -> io::Result<Outcome> {
     scene.add_session("logs/r01/2026-11-01", 1)?;
     symlink("..", scene.at("logs/r01/back"))?;
     symlink(scene.at("logs"), scene.at("logs/r01/2026-11-01/runs/back"))?;
-    let outcome = answered(scene, &scene.asked(&["fleet", "logs", "--out", "season"]))?;
+    let outcome = answered(scene, &scene.fleet("logs"))?;
     let once = outcome.happens.contains("1 sessions: 1 diagnosed now");
     Ok(outcome.promising(once, "the session counts once").noting("the session counts once"))
 }

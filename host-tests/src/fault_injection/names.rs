@@ -33,7 +33,7 @@ fn odd_names(scene: &Scene) -> io::Result<Outcome> {
 
 fn an_odd_run_that_is_refused(scene: &Scene) -> io::Result<Outcome> {
     scene.write(Path::new("session/runs").join(odd_name("run")).with_extension("csv"), b"t_s\n")?;
-    refused(scene, &scene.asked(&["check", "session"]), &["session/runs/run a\\nb", "found no signal"])
+    refused(scene, &scene.check(), &["session/runs/run a\\nb", "found no signal"])
 }
 
 fn an_odd_folder_of_files(scene: &Scene) -> io::Result<Outcome> {
@@ -42,7 +42,7 @@ fn an_odd_folder_of_files(scene: &Scene) -> io::Result<Outcome> {
     let name = odd_name("log");
     scene.write(Path::new("session/runs/drive").join(&name).with_extension("csv"), text.as_bytes())?;
     scene.write("session/columns.toml", b"[[file]]\nname = \"log*.csv\"\n")?;
-    answered(scene, &scene.asked(&["check", "session"]))
+    answered(scene, &scene.check())
 }
 
 fn odd_twins(scene: &Scene) -> io::Result<Outcome> {
@@ -50,7 +50,7 @@ fn odd_twins(scene: &Scene) -> io::Result<Outcome> {
         let name = OsStr::from_bytes(&[&b"logs/r01/2026-11-01 "[..], end].concat()).to_owned();
         scene.add_session(name, seed)?;
     }
-    let asked = scene.asked(&["fleet", "logs", "--out", "season"]);
+    let asked = scene.fleet("logs");
     asked.run()?;
     let outcome = answered(scene, &asked)?;
     let known = outcome.happens.contains("0 diagnosed now, 2 known already");
@@ -67,7 +67,7 @@ fn named(scene: &Scene, name: &str) -> io::Result<()> {
 fn a_robot_that_leads_out(scene: &Scene) -> io::Result<Outcome> {
     named(scene, "../../x")?;
     let before = fs::read_dir(scene.at("."))?.count();
-    let outcome = answered(scene, &scene.asked(&["fleet", "session", "--out", "season"]))?;
+    let outcome = answered(scene, &scene.fleet("session"))?;
     let within =
         fs::read_dir(scene.at("."))?.count() == before + 1 && scene.at("season/sessions/robot=..%2F..%2Fx").is_dir();
     Ok(outcome.promising(within, "all of it is in the store").noting("its tables are in `robot=..%2F..%2Fx`"))
@@ -75,7 +75,7 @@ fn a_robot_that_leads_out(scene: &Scene) -> io::Result<Outcome> {
 
 fn a_robot_with_a_long_name(scene: &Scene) -> io::Result<Outcome> {
     named(scene, &"x".repeat(5_000))?;
-    let outcome = answered(scene, &scene.asked(&["fleet", "session", "--out", "season"]))?;
+    let outcome = answered(scene, &scene.fleet("session"))?;
     let done = outcome.happens.contains("1 diagnosed now");
     Ok(outcome.promising(done, "it has an answer").noting("its tables' folder has the name's beginning and a hash"))
 }

@@ -28,21 +28,17 @@ fn listing(scene: &Scene, path: &str) -> io::Result<()> {
 
 fn a_part_above(scene: &Scene) -> io::Result<Outcome> {
     listing(scene, "../../robot.toml")?;
-    refused(
-        scene,
-        &scene.asked(&["check", "session"]),
-        &["metadata.yaml: lists `robot.toml`, which is not in the folder"],
-    )
+    refused(scene, &scene.check(), &["metadata.yaml: lists `robot.toml`, which is not in the folder"])
 }
 
 fn a_part_from_the_root(scene: &Scene) -> io::Result<Outcome> {
     listing(scene, "/etc/passwd")?;
-    refused(scene, &scene.asked(&["check", "session"]), &["metadata.yaml: lists `passwd`, which is not in the folder"])
+    refused(scene, &scene.check(), &["metadata.yaml: lists `passwd`, which is not in the folder"])
 }
 
 fn a_part_that_is_the_folder_above(scene: &Scene) -> io::Result<Outcome> {
     listing(scene, "..")?;
-    refused(scene, &scene.asked(&["check", "session"]), &["metadata.yaml: expected a list of files"])
+    refused(scene, &scene.check(), &["metadata.yaml: expected a list of files"])
 }
 
 fn a_file_of_a_mapping_above(scene: &Scene) -> io::Result<Outcome> {

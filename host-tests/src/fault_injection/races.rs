@@ -90,7 +90,7 @@ fn changed(scene: &Scene, change: fn(&Path) -> io::Result<()>) -> io::Result<Out
     let second = scene.at("session/runs/drive/b.csv");
     mknodat(CWD, &second, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0)?;
     scene.write("session/columns.toml", b"[[file]]\nname = \"a.csv\"\n\n[[file]]\nname = \"b.csv\"\n")?;
-    let asked = scene.asked(&["check", "session"]);
+    let asked = scene.check();
     let mut running = asked.start()?;
     if let Some(mut pipe) = opened(&second, &mut running)? {
         change(&first)?;

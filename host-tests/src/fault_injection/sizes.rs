@@ -53,13 +53,13 @@ fn many_names(more: &str) -> (String, String) {
 fn many_columns(scene: &Scene) -> io::Result<Outcome> {
     let (header, row) = many_names("");
     let bytes = widened(scene, 100, &header, &row)?;
-    answered(scene, &bounded(scene.asked(&["check", "session"]), bytes))
+    answered(scene, &bounded(scene.check(), bytes))
 }
 
 fn a_column_twice_of_many(scene: &Scene) -> io::Result<Outcome> {
     let (header, row) = many_names(",c77");
     let bytes = widened(scene, 1, &header, &row)?;
-    refused(scene, &bounded(scene.asked(&["check", "session"]), bytes), &["run01.csv:1: column `c77`", "twice"])
+    refused(scene, &bounded(scene.check(), bytes), &["run01.csv:1: column `c77`", "twice"])
 }
 
 fn mapped(scene: &Scene) -> Asked {
@@ -74,17 +74,13 @@ fn a_mapping_of_many_columns(scene: &Scene) -> io::Result<Outcome> {
 
 fn long_text(scene: &Scene) -> io::Result<Outcome> {
     let bytes = widened(scene, 10, "note", &"x".repeat(LONG))?;
-    answered(scene, &bounded(scene.asked(&["check", "session"]), bytes))
+    answered(scene, &bounded(scene.check(), bytes))
 }
 
 fn a_long_number(scene: &Scene) -> io::Result<Outcome> {
     let bytes = widened(scene, 2, "i0_A", &"9".repeat(LONG))?;
     scene.write(RUN, scene.read(RUN)?.replacen("i0_A,", "other,", 1).as_bytes())?;
-    refused(
-        scene,
-        &bounded(scene.asked(&["check", "session"]), bytes),
-        &["run01.csv:2: column `i0_A`", "finite number"],
-    )
+    refused(scene, &bounded(scene.check(), bytes), &["run01.csv:2: column `i0_A`", "finite number"])
 }
 
 fn a_mapping_of_long_rows(scene: &Scene) -> io::Result<Outcome> {
@@ -95,7 +91,7 @@ fn a_mapping_of_long_rows(scene: &Scene) -> io::Result<Outcome> {
 fn an_open_quote(scene: &Scene) -> io::Result<Outcome> {
     let text = scene.read(RUN)? + "\"" + &"1,2,3\n".repeat(LONG * 5 / 6);
     scene.write(RUN, text.as_bytes())?;
-    refused(scene, &bounded(scene.asked(&["check", "session"]), text.len()), &["run01.csv:202: found 1 fields"])
+    refused(scene, &bounded(scene.check(), text.len()), &["run01.csv:202: found 1 fields"])
 }
 
 fn an_endless_robot_file(scene: &Scene) -> io::Result<Outcome> {
@@ -108,5 +104,5 @@ fn empty_lines(scene: &Scene) -> io::Result<Outcome> {
     let (header, rows) = text.split_once('\n').unwrap_or_default();
     let text = [header, &"\n".repeat(20_000_000), rows].concat();
     scene.write(RUN, text.as_bytes())?;
-    answered(scene, &bounded(scene.asked(&["check", "session"]), text.len()))
+    answered(scene, &bounded(scene.check(), text.len()))
 }
