@@ -8,7 +8,7 @@ use std::fs;
 
 use crate::line::{Line, top};
 use crate::python::Environment;
-use crate::wheel::{EXTENSION, PACKAGE, SMOKE_TEST, put_together, record};
+use crate::wheel::{EXTENSION, PACKAGE, long_or_short, put_together, record};
 
 /// Ray, Dask, and a server with the interface of S3.
 pub const ENVIRONMENT: Environment =
@@ -28,11 +28,7 @@ const PAGE: &str = "host-tests/golden/cluster.md";
 /// # Errors
 /// What to tell the person.
 pub fn perform(words: &[OsString]) -> Result<(), String> {
-    match words {
-        [] => whole(),
-        [word] if word == SMOKE_TEST => smoke(),
-        [other, ..] => Err(format!("cluster does not take {}; `{SMOKE_TEST}` is its short form", other.display())),
-    }
+    long_or_short("cluster", words, whole, smoke)
 }
 
 fn smoke() -> Result<(), String> {

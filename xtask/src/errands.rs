@@ -103,13 +103,13 @@ pub const ERRANDS: &[Errand] = &[
         name: "python",
         takes: "[smoke]",
         does: "build sdist and wheel of the Python package, test them, time steps beside MuJoCo's (BLESS=1: rewrite the page)",
-        run: python,
+        run: wheel::perform,
     },
     Errand {
         name: "cluster",
         takes: "[smoke]",
         does: "answer 2,000 sessions on a cluster that loses a node, and some in an object store (BLESS=1: rewrite the page)",
-        run: on_a_cluster,
+        run: cluster::perform,
     },
     Errand {
         name: "peers",
@@ -304,14 +304,6 @@ fn mujoco(_: &[OsString]) -> Result<(), String> {
 
 fn in_mujoco(_: &[OsString]) -> Result<(), String> {
     mjcf::perform(&MUJOCO.ensure()?)
-}
-
-fn on_a_cluster(words: &[OsString]) -> Result<(), String> {
-    cluster::perform(words)
-}
-
-fn python(words: &[OsString]) -> Result<(), String> {
-    wheel::perform(words)
 }
 
 fn peers(_: &[OsString]) -> Result<(), String> {

@@ -38,17 +38,30 @@ const WHEELS: &str = "target/python/wheels";
 const PAGE: &str = "host-tests/golden/python.md";
 
 /// The word that asks for the smoke test.
-pub const SMOKE_TEST: &str = "smoke";
+const SMOKE_TEST: &str = "smoke";
 
 /// Does it: the smoke test where it is asked for, else all of it.
 ///
 /// # Errors
 /// What to tell the person.
 pub fn perform(words: &[OsString]) -> Result<(), String> {
+    long_or_short("python", words, whole, smoke)
+}
+
+/// Does all of an errand, or its smoke test where that is asked for.
+///
+/// # Errors
+/// What to tell the person.
+pub fn long_or_short(
+    errand: &str,
+    words: &[OsString],
+    whole: fn() -> Result<(), String>,
+    smoke: fn() -> Result<(), String>,
+) -> Result<(), String> {
     match words {
         [] => whole(),
         [word] if word == SMOKE_TEST => smoke(),
-        [other, ..] => Err(format!("python does not take {}; `{SMOKE_TEST}` is its short form", other.display())),
+        [other, ..] => Err(format!("{errand} does not take {}; `{SMOKE_TEST}` is its short form", other.display())),
     }
 }
 
