@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pyarrow.parquet
 import ray
-from nodes import cluster
+from nodes import cluster, kill_after_a_third
 from stage import ROWS, RUNS, stage, tables
 
 import omni_gap.fleet.ray
@@ -29,14 +29,8 @@ def on_threads(logs, store):
 
 def on_ray(logs, store):
     """The tables of a cluster that loses a node after a third of the sessions; when, what was done, and how long it took (s)."""
-    killed = []
     with cluster(NODES) as (made, nodes):
-
-        def kill(tally):
-            if tally.done >= tally.sessions // 3 and not killed:
-                killed.append(tally.done)
-                made.remove_node(nodes[1], allow_graceful=False)
-
+        kill, killed = kill_after_a_third(made, nodes[1])
         begun = time.perf_counter()
         tally = omni_gap.fleet.ray.diagnose(logs, store, reports=False, progress=kill)
         took_s = time.perf_counter() - begun

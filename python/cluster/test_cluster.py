@@ -8,7 +8,7 @@ import fsspec
 import pandas
 import pytest
 from bucket import bucket, download, upload
-from nodes import cluster
+from nodes import cluster, kill_after_a_third
 from stage import stage, tables
 
 import omni_gap.fleet.ray
@@ -34,13 +34,7 @@ def season(logs):
 
 def test_a_node_that_dies_in_the_middle_loses_nothing(logs, season, tmp_path):
     with cluster(nodes=3) as (made, nodes):
-        killed = []
-
-        def kill(tally):
-            if tally.done >= tally.sessions // 3 and not killed:
-                killed.append(tally.done)
-                made.remove_node(nodes[1], allow_graceful=False)
-
+        kill, killed = kill_after_a_third(made, nodes[1])
         tally = omni_gap.fleet.ray.diagnose(logs, tmp_path / "season", reports=False, progress=kill)
         assert killed and killed[0] < tally.sessions
         assert (tally.done, tally.kept, tally.failed) == (24, 0, 0)

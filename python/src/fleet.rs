@@ -20,31 +20,27 @@ pub fn fleet_find(py: Python<'_>, folders: Vec<PathBuf>) -> PyResult<Vec<(String
     Ok(found.into_iter().map(|session| (session.name, session.path, session.root)).collect())
 }
 
-/// The answer of a session, or why it could not be read: its own row as JSON, and its rows as three Parquet files.
-#[pyclass(module = "omni_gap._omni_gap")]
+/// The answer of a session, or why it could not be read.
+#[pyclass(frozen, module = "omni_gap._omni_gap")]
 #[derive(Debug)]
-pub struct FleetAnswer {
-    row: String,
-    tables: [Vec<u8>; 3],
-}
+pub struct FleetAnswer(SessionAnswer);
 
 #[pymethods]
 impl FleetAnswer {
+    /// Of the files of [`FleetAnswer::tables`].
+    #[staticmethod]
+    fn of(py: Python<'_>, sessions: Vec<u8>, causes: Vec<u8>, equations: Vec<u8>) -> PyResult<Self> {
+        work(py, |_| SessionAnswer::of_parquet([sessions, causes, equations])).map(Self)
+    }
+
     /// The session's row in the table `sessions`, as JSON.
-    fn row(&self) -> &str {
-        &self.row
+    fn row(&self) -> PyResult<String> {
+        serde_json::to_string(self.0.session()).map_err(mistake)
     }
 
-    /// The files, of the tables `sessions`, `causes` and `equations`.
-    fn tables<'py>(&self, py: Python<'py>) -> [Bound<'py, PyBytes>; 3] {
-        self.tables.each_ref().map(|bytes| PyBytes::new(py, bytes))
-    }
-}
-
-impl FleetAnswer {
-    fn of(answer: &SessionAnswer) -> std::result::Result<Self, String> {
-        let row = serde_json::to_string(answer.session()).map_err(|why| why.to_string())?;
-        Ok(Self { row, tables: answer.to_parquet().map_err(|why| why.to_string())? })
+    /// Its rows as Parquet files, of the tables `sessions`, `causes` and `equations`.
+    fn tables<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyBytes>; 3]> {
+        Ok(work(py, |_| self.0.to_parquet())?.map(|bytes| PyBytes::new(py, &bytes)))
     }
 }
 
@@ -60,16 +56,15 @@ pub fn fleet_answer(
     work(py, |_| {
         let found = FoundSession::at(&folder, &root, name);
         let knobs = Knobs { equations: true, ..Knobs::default() };
-        let answer = answer_session(&found, held.as_deref(), &knobs, reports.as_deref());
-        answer.map_err(|why| why.to_string())?.as_ref().map(FleetAnswer::of).transpose()
+        answer_session(&found, held.as_deref(), &knobs, reports.as_deref()).map(|answer| answer.map(FleetAnswer))
     })
 }
 
 /// The answer of a session that could not be read, and why.
 #[pyfunction]
-pub fn fleet_unreadable(session: (String, PathBuf, PathBuf), why: &str) -> PyResult<FleetAnswer> {
+pub fn fleet_unreadable(session: (String, PathBuf, PathBuf), why: &str) -> FleetAnswer {
     let (name, folder, root) = session;
-    FleetAnswer::of(&SessionAnswer::unreadable(&FoundSession::at(&folder, &root, name), why)).map_err(mistake)
+    FleetAnswer(SessionAnswer::unreadable(&FoundSession::at(&folder, &root, name), why))
 }
 
 /// The tables of a fleet, to write to as the only one.
@@ -97,9 +92,9 @@ impl FleetStore {
     }
 
     /// Takes an answer up, in place of what it holds of the same session.
-    fn put(&mut self, py: Python<'_>, sessions: Vec<u8>, causes: Vec<u8>, equations: Vec<u8>) -> PyResult<()> {
+    fn put(&mut self, py: Python<'_>, answer: &FleetAnswer) -> PyResult<()> {
         let store = self.open()?;
-        work(py, |_| store.put(SessionAnswer::of_parquet([sessions, causes, equations])?))
+        work(py, |_| store.put(answer.0.clone()))
     }
 
     /// Writes what waits, and lets others write.
@@ -148,11 +143,11 @@ impl FleetTold {
 #[pyfunction]
 pub fn fleet_told(py: Python<'_>, place: Place) -> PyResult<FleetTold> {
     work(py, |_| {
-        let storage: Box<dyn Storage> = match place {
-            Place::Folder(folder) => Box::new(Folder::to_read(&folder)),
-            Place::Files(files) => Box::new(Files(files)),
+        let storage: &dyn Storage = match place {
+            Place::Folder(folder) => &Folder::to_read(&folder),
+            Place::Files(files) => &Files(files),
         };
-        let told = fleet_report(&*storage, &PoolingKnobs::default()).map_err(|why| why.to_string())?;
+        let told = fleet_report(storage, &PoolingKnobs::default()).map_err(|why| why.to_string())?;
         let json = told.to_json().map_err(|why| why.to_string())?;
         Ok::<_, String>(FleetTold { json, html: report::html(&told), text: report::terminal(&told, None) })
     })

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from dataclasses import dataclass
 from typing import Any, Optional
 
 from .. import _omni_gap
@@ -13,23 +12,33 @@ from ._find import FoundSession
 from ._places import Place, PlaceLike, put
 
 
-@dataclass(frozen=True)
 class Answer:
     """The rows of a session: small, and can be pickled."""
 
-    sessions: bytes
-    """Its row of the table ``sessions``, as a Parquet file."""
-    causes: bytes
-    """Its rows of the table ``causes``."""
-    equations: bytes
-    """Its rows of the table ``equations``."""
-    json: str
-    """The same row as JSON."""
+    def __init__(self, made: _omni_gap.FleetAnswer) -> None:
+        self._made = made
+
+    @staticmethod
+    def of_tables(sessions: bytes, causes: bytes, equations: bytes) -> Answer:
+        """The answer whose :meth:`tables` these are.
+
+        Raises:
+            OmniGapError: Where they are not those of one session.
+        """
+        return Answer(_omni_gap.FleetAnswer.of(sessions, causes, equations))
+
+    def tables(self) -> tuple[bytes, bytes, bytes]:
+        """Its rows of the tables ``sessions``, ``causes`` and ``equations``, each as a Parquet file."""
+        sessions, causes, equations = self._made.tables()
+        return sessions, causes, equations
 
     @property
     def row(self) -> dict[str, Any]:
-        """The same row: verdict, causes, gap, and, where there is no answer, the reason."""
-        return json.loads(self.json)
+        """Its row of the table ``sessions``: verdict, causes, gap, and, where there is no answer, the reason."""
+        return json.loads(self._made.row())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Answer.of_tables, self.tables()
 
 
 def answer(session: FoundSession, held: Optional[str] = None, store: Optional[PlaceLike] = None) -> Optional[Answer]:
@@ -45,9 +54,7 @@ def answer(session: FoundSession, held: Optional[str] = None, store: Optional[Pl
             made = _made(here, held, None if store is None else Place.of(store))
     except OSError as why:
         made = _omni_gap.fleet_unreadable((session.name, session.place.path, session.root.path), str(why))
-    if made is None:
-        return None
-    return Answer(*made.tables(), made.row())
+    return None if made is None else Answer(made)
 
 
 def _made(here: tuple[str, str, str], held: Optional[str], store: Optional[Place]) -> Optional[_omni_gap.FleetAnswer]:

@@ -13,7 +13,7 @@ from typing import Union
 
 from .. import _omni_gap
 from .._omni_gap import OmniGapError
-from ._places import Place, PlaceLike
+from ._places import Place, PlaceLike, files_below
 
 FILES = ("robot.toml", "columns.toml", "session.toml")
 FOLDERS = ("runs", "heldout")
@@ -62,19 +62,16 @@ def find(source: Union[PlaceLike, Iterable[PlaceLike]]) -> list[FoundSession]:
 
 
 def _files(root: Place) -> list[str]:
-    from pyarrow.fs import FileSelector, FileType
-
     try:
-        infos = root.filesystem.get_file_info(FileSelector(root.path, recursive=True))
+        return [info.path for info in files_below(root)]
     except OSError as why:
         raise OmniGapError(f"{root}: cannot be listed: {why}") from why
-    return [info.path for info in infos if info.type == FileType.File]
 
 
 def _sessions(files: list[str], root: Place) -> list[Place]:
     """The outermost folders that have both, hidden ones left out."""
     within = [PurePosixPath(path).relative_to(root.path) for path in files]
-    shown = [path for path in within if not any(part.startswith(".") for part in path.parts)]
+    shown = [path for path in within if not _is_hidden(path)]
     with_robot = {path.parent for path in shown if path.name == "robot.toml"}
     with_runs = {path.parents[at + 1] for path in shown for at, parent in enumerate(path.parents) if parent.name == "runs"}
     both = with_robot & with_runs
@@ -82,18 +79,20 @@ def _sessions(files: list[str], root: Place) -> list[Place]:
     return [root / str(folder) if folder.parts else root for folder in outermost]
 
 
+def _is_hidden(path: PurePosixPath) -> bool:
+    return any(part.startswith(".") for part in path.parts)
+
+
 def _copy(place: Place, folder: str) -> None:
     """Copies what a session is read from, with the times at which it was written."""
-    from pyarrow.fs import FileSelector, FileType
-
     filesystem = place.filesystem
-    infos = filesystem.get_file_info([f"{place.path}/{name}" for name in FILES])
+    infos = [info for info in filesystem.get_file_info([(place / name).path for name in FILES]) if info.is_file]
     for name in FOLDERS:
-        infos += filesystem.get_file_info(FileSelector(f"{place.path}/{name}", recursive=True, allow_not_found=True))
+        infos += files_below(place / name, may_be_missing=True)
     os.makedirs(os.path.join(folder, "runs"))
     for info in infos:
         within = PurePosixPath(info.path).relative_to(place.path)
-        if info.type != FileType.File or any(part.startswith(".") for part in within.parts):
+        if _is_hidden(within):
             continue
         copy = os.path.join(folder, *within.parts)
         os.makedirs(os.path.dirname(copy), exist_ok=True)

@@ -56,6 +56,13 @@ class Place:
         return f"{self.filesystem.type_name.rpartition('+')[2]}://{self.path}"  # one of fsspec is "py::fsspec+memory"
 
 
+def files_below(place: Place, *, may_be_missing: bool = False) -> list[Any]:
+    """What pyarrow tells of every file below a folder elsewhere."""
+    pyarrow_fs = _pyarrow_fs(str(place))
+    selector = pyarrow_fs.FileSelector(place.path, recursive=True, allow_not_found=may_be_missing)
+    return [info for info in place.filesystem.get_file_info(selector) if info.is_file]
+
+
 OBJECT_STORES = ("s3", "gcs", "abfs")
 """Where a file that is being written is not there before it is whole, and folders are parts of names."""
 

@@ -8,7 +8,7 @@ from typing import Optional
 
 from .. import _omni_gap
 from ._answer import Answer
-from ._places import Place, PlaceLike, put
+from ._places import Place, PlaceLike, files_below, put
 
 
 class Store:
@@ -39,7 +39,7 @@ class Store:
 
     def put(self, answer: Answer) -> None:
         """Takes an answer up, in place of what it holds of the same session; it is written a few seconds later."""
-        self._store.put(answer.sessions, answer.causes, answer.equations)
+        self._store.put(answer._made)
 
     def close(self) -> None:
         """Writes what waits, and lets others write."""
@@ -67,17 +67,14 @@ class _Files:
         self._filesystem = root.filesystem
 
     def _path(self, name: str) -> str:
-        return posixpath.join(self._root.path, name) if name else self._root.path
+        return (self._root / name).path
 
     def place(self, name: str) -> str:
         return str(self._root / name) if name else str(self._root)
 
     def files(self, folder: str) -> list[str]:
-        from pyarrow.fs import FileSelector, FileType
-
-        infos = self._filesystem.get_file_info(FileSelector(self._path(folder), recursive=True, allow_not_found=True))
-        paths = [info.path for info in infos if info.type == FileType.File]
-        return sorted(posixpath.relpath(path, self._root.path) for path in paths)
+        infos = files_below(self._root / folder, may_be_missing=True)
+        return sorted(posixpath.relpath(info.path, self._root.path) for info in infos)
 
     def read(self, name: str) -> Optional[bytes]:
         try:

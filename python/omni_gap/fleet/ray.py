@@ -34,8 +34,8 @@ AT_A_TIME = 4
 
 
 def dataset(sessions: Iterable[FoundSession], held: dict[str, Optional[str]], store: Optional[PlaceLike] = None) -> ray.data.Dataset:
-    """The answers of sessions as a data set, a row each: the fields of :class:`~omni_gap.fleet.Answer`; no row of a session that is
-    as it was when the answer of the key in ``held`` was made.
+    """The answers of sessions as a data set, a row each: what :meth:`Answer.of_tables <omni_gap.fleet.Answer.of_tables>` takes; no row
+    of a session that is as it was when the answer of the key in ``held`` was made.
 
     Args:
         sessions: The sessions.
@@ -49,7 +49,7 @@ def dataset(sessions: Iterable[FoundSession], held: dict[str, Optional[str]], st
 
 def _answered(row: dict[str, Any], store: Optional[PlaceLike]) -> list[dict[str, Any]]:
     found = answer(pickle.loads(row["session"]), row["held"], store)
-    return [] if found is None else [vars(found)]
+    return [] if found is None else [dict(zip(("sessions", "causes", "equations"), found.tables()))]
 
 
 def diagnose(
@@ -75,7 +75,7 @@ def diagnose(
     with Store(store) as tables:
         held = {session.name: tables.key(session.name) for session in sessions}
         for row in dataset(sessions, held, Place.of(store) if reports else None).iter_rows():
-            found = Answer(**row)
+            found = Answer.of_tables(**row)
             tally.count(found)
             tables.put(found)
             if progress is not None:
