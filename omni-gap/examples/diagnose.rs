@@ -26,7 +26,7 @@ pub fn main() -> Result<(), Error> {
 }
 
 fn recorded() -> Result<Session, Error> {
-    let robot = include_str!("../../examples/feup-4w/robot.toml");
+    let robot = include_str!("../robots/feup-4w/robot.toml");
     let hidden = EffectInstance::typical(EffectKind::DeadTime.card(), None);
     let plan = Scenario { hidden: vec![hidden], runs: 8, duration: 3.0, rate: 200.0, ..Scenario::default() };
     synthesize(robot, &plan, &known_effects())

@@ -32,7 +32,7 @@ pub fn main() -> Result<(), Error> {
 }
 
 fn recorded() -> Result<Session, Error> {
-    let robot = include_str!("../../examples/feup-4w/robot.toml");
+    let robot = include_str!("../robots/feup-4w/robot.toml");
     let wrong = vec![("resistance_ohm", 1.3)];
     let plan = Scenario { wrong, uncertain: false, runs: 4, duration: 3.0, rate: 200.0, ..Scenario::default() };
     synthesize(robot, &plan, &known_effects())

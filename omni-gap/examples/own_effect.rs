@@ -82,7 +82,7 @@ fn distance(robot: &RobotFile, effects: Effects<4, f64, OwnEffects>) -> f64 {
 
 /// The program; the tests call it too.
 pub fn main() -> Result<(), Error> {
-    let text = include_str!("../../examples/feup-4w/robot.toml");
+    let text = include_str!("../robots/feup-4w/robot.toml");
     let robot = RobotFile::parse(text, Path::new("examples/feup-4w/robot.toml"), &known_effects())?;
     let mut effects = Effects::none();
     effects

@@ -9,7 +9,7 @@ use omni_gap::log::Group;
 
 /// The program; the tests call it too.
 pub fn main() -> Result<(), Error> {
-    let text = include_str!("../../examples/feup-4w/robot.toml");
+    let text = include_str!("../robots/feup-4w/robot.toml");
     let robot = |text: &str| RobotFile::parse(text, Path::new("robot.toml"), &known_effects());
     let plain = robot(text)?;
     let slipping = robot(&format!("{text}\n[effects.wheel_slip]\nfriction_coefficient = 0.1\n"))?;

@@ -82,7 +82,7 @@ pub struct Diagnosis {
 /// use omni_gap::{Options, Verdict, diagnose, known_effects};
 ///
 /// // a recording of a robot that is just what its file says, give or take the stated uncertainty
-/// let robot = include_str!("../../examples/feup-4w/robot.toml");
+/// let robot = include_str!("../robots/feup-4w/robot.toml");
 /// let plan = Scenario { runs: 3, duration: 3.0, rate: 200.0, ..Scenario::default() };
 /// let session = synthesize(robot, &plan, &known_effects())?;
 ///

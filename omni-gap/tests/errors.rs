@@ -6,7 +6,7 @@ use std::path::Path;
 use omni_gap::api::{Error, Session, known_effects};
 use omni_gap::error::InputKind;
 
-const ROBOT: &str = include_str!("../../examples/feup-3w/robot.toml");
+const ROBOT: &str = include_str!("../robots/feup-3w/robot.toml");
 const RUN: &str = "t_s,w0_rad_s,w1_rad_s,w2_rad_s\n0.0,1.0,1.0,1.0\n0.1,1.0,1.0,1.0\n";
 
 /// What loading says of a session with one file of it replaced (`None`: taken away).

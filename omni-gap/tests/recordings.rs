@@ -34,7 +34,7 @@ fn folder() -> PathBuf {
 }
 
 fn robot() -> RobotFile {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/feup-3w/robot.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("robots/feup-3w/robot.toml");
     RobotFile::load(&path, &Catalogue::default()).unwrap()
 }
 

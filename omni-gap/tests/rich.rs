@@ -21,11 +21,11 @@ fn robot(text: &str) -> RobotFile {
 }
 
 fn three() -> RobotFile {
-    robot(include_str!("../../examples/feup-3w/robot.toml"))
+    robot(include_str!("../robots/feup-3w/robot.toml"))
 }
 
 fn four() -> RobotFile {
-    robot(include_str!("../../examples/feup-4w/robot.toml"))
+    robot(include_str!("../robots/feup-4w/robot.toml"))
 }
 
 /// What the robot of a file does in one row of a script.

@@ -45,7 +45,7 @@ pub struct SessionsCompared {
 /// use omni_gap::synthesize::{Scenario, synthesize};
 ///
 /// // the same robot twice
-/// let robot = include_str!("../../../examples/feup-4w/robot.toml");
+/// let robot = include_str!("../../robots/feup-4w/robot.toml");
 /// let plan = Scenario { runs: 3, duration: 2.0, rate: 200.0, uncertain: false, ..Scenario::default() };
 /// let [before, after] = [1, 2].map(|seed| {
 ///     synthesize(robot, &Scenario { seed, ..plan.clone() }, &known_effects()).expect("a sound stage")

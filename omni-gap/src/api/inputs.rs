@@ -52,7 +52,7 @@ mod tests {
     use crate::known_effects;
     use crate::log::RobotFile;
 
-    const ROBOT: &str = include_str!("../../../examples/feup-4w/robot.toml");
+    const ROBOT: &str = include_str!("../../robots/feup-4w/robot.toml");
 
     #[test]
     fn a_file_has_the_hash_that_everybody_gives_it() {

@@ -19,7 +19,7 @@ use crate::report::design::{DesignReport, SCHEMA};
 /// use omni_gap::synthesize::{Scenario, synthesize};
 ///
 /// // a sound robot: what could these runs not have shown, and what would?
-/// let robot = include_str!("../../../examples/feup-4w/robot.toml");
+/// let robot = include_str!("../../robots/feup-4w/robot.toml");
 /// let plan = Scenario { runs: 3, duration: 3.0, rate: 100.0, ..Scenario::default() };
 /// let session = synthesize(robot, &plan, &known_effects())?;
 /// let (_, designed) = next(&session, &Options::default(), &DesignKnobs::default());

@@ -23,7 +23,7 @@ pub use reset::Reset;
 /// use omni_gap::api::{Plants, Reset, RobotFile, known_effects};
 /// use std::path::Path;
 ///
-/// let text = include_str!("../../../examples/feup-4w/robot.toml");
+/// let text = include_str!("../../robots/feup-4w/robot.toml");
 /// let robot = RobotFile::parse(text, Path::new("robot.toml"), &known_effects())?;
 /// let mut plants = Plants::new(&[&robot; 3], None)?;
 /// // 6 V on all wheels of the first, nothing on those of the others

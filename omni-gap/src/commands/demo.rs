@@ -28,7 +28,7 @@ pub struct Demo {
 }
 
 /// The robot of the demo, and of whatever is shown where no robot is named.
-pub(super) const ROBOT: &str = include_str!("../../../examples/feup-4w/robot.toml");
+pub(super) const ROBOT: &str = include_str!("../../robots/feup-4w/robot.toml");
 
 /// What marks a robot file as the demo's own, which it may write over.
 const MARK: &str = "# Made by `omni-gap demo`: ";

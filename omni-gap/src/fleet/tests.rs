@@ -12,7 +12,7 @@ use crate::known::known_effects;
 use crate::log::write_session;
 use crate::synthesize::{Scenario, synthesize};
 
-const ROBOT: &str = include_str!("../../../examples/feup-3w/robot.toml");
+const ROBOT: &str = include_str!("../../robots/feup-3w/robot.toml");
 
 /// Files in memory.
 #[derive(Clone, Default)]

@@ -188,7 +188,7 @@ mod tests {
 
     /// A run of three wheels at a hundred rows a second.
     fn lasting(seconds: f64) -> AlignedRun<3> {
-        let text = include_str!("../../../examples/feup-3w/robot.toml");
+        let text = include_str!("../../robots/feup-3w/robot.toml");
         let robot = RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap();
         let rows = (100.0 * seconds) as usize;
         let still = || Group::new((0..3).map(|_| Channel::from_values((0..rows).map(|_| 0.0))).collect());

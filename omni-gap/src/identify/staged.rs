@@ -43,7 +43,7 @@ impl Default for Staging {
 
 /// The paper's four-wheel robot.
 pub fn robot() -> RobotFile {
-    let text = include_str!("../../../examples/feup-4w/robot.toml");
+    let text = include_str!("../../robots/feup-4w/robot.toml");
     RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap()
 }
 

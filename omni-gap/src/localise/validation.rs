@@ -65,7 +65,7 @@ pub struct RunTraces {
 /// use omni_gap::localise::validation::{HORIZONS_S, Signal, validate};
 /// use omni_gap::synthesize::{Scenario, synthesize};
 ///
-/// let robot = include_str!("../../../examples/feup-3w/robot.toml");
+/// let robot = include_str!("../../robots/feup-3w/robot.toml");
 /// let plan = Scenario { uncertain: false, runs: 1, duration: 2.0, rate: 100.0, ..Scenario::default() };
 /// let session = synthesize(robot, &plan, &known_effects())?;
 ///

@@ -260,7 +260,7 @@ mod tests {
 
     /// What a gyro with some noise tells of a turning robot, `hz` times a second for 10 s, on a clock that is late.
     fn turning(hz: f64, late_s: f64, rate: impl Fn(f64) -> f64) -> Motion {
-        let text = include_str!("../../../examples/feup-3w/robot.toml");
+        let text = include_str!("../../robots/feup-3w/robot.toml");
         let robot = RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap();
         let t: Vec<f64> = (0..(10.0 * hz) as usize).map(|k| k as f64 / hz).collect();
         let noise = |k: usize| 0.1 * ((k * 7919 % 1009) as f64 / 1009.0 - 0.5);

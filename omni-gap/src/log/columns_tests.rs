@@ -9,8 +9,8 @@ fn read(mapping: &str, log: &str, wheels: usize) -> Result<(Run, Vec<String>)> {
     Run::load(&path, wheels, Some(&Columns::parse(mapping, Path::new("columns.toml"))?))
 }
 
-const ROBOTINO: &str = include_str!("../../../examples/robotino/columns.toml");
-const SSL2018: &str = include_str!("../../../examples/ssl2018/columns.toml");
+const ROBOTINO: &str = include_str!("../../robots/robotino/columns.toml");
+const SSL2018: &str = include_str!("../../robots/ssl2018/columns.toml");
 
 /// The TOML blocks of the page above.
 fn blocks() -> Vec<&'static str> {

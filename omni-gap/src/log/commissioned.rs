@@ -151,7 +151,7 @@ mod tests {
     use super::super::{Catalogue, RobotFile};
     use super::*;
 
-    const FILE: &str = include_str!("../../../examples/feup-4w/robot.toml");
+    const FILE: &str = include_str!("../../robots/feup-4w/robot.toml");
 
     fn crossed() -> MotorWiring {
         let inverted = [true, false, false];

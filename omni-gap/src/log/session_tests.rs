@@ -71,10 +71,9 @@ fn what_is_missing_is_named() {
 
 #[test]
 fn the_example_robots_are_sound() {
-    for (text, wheels) in [
-        (include_str!("../../../examples/robotino/robot.toml"), 3),
-        (include_str!("../../../examples/ssl2018/robot.toml"), 4),
-    ] {
+    for (text, wheels) in
+        [(include_str!("../../robots/robotino/robot.toml"), 3), (include_str!("../../robots/ssl2018/robot.toml"), 4)]
+    {
         let robot = RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap();
         assert_eq!(robot.wheel.len(), wheels);
     }

@@ -3,7 +3,7 @@ use crate::error::InputKind;
 use crate::known_effects;
 use std::path::Path;
 
-const ROBOT: &str = include_str!("../../../examples/feup-3w/robot.toml");
+const ROBOT: &str = include_str!("../../robots/feup-3w/robot.toml");
 
 /// Three rows of a robot with three wheels; a sample is missing, and the heading runs over half a turn.
 const COLUMNS: [(&str, [f64; 3]); 10] = [

@@ -3,7 +3,7 @@ use std::path::Path;
 use super::*;
 use crate::known_effects;
 
-const ROBOT: &str = include_str!("../../../examples/feup-4w/robot.toml");
+const ROBOT: &str = include_str!("../../robots/feup-4w/robot.toml");
 
 fn exported(effects: &str) -> Mjcf {
     let file = RobotFile::parse(&format!("{ROBOT}\n{effects}"), Path::new("robot.toml"), &known_effects());

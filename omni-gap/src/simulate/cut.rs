@@ -39,7 +39,7 @@ mod tests {
 
     /// Nine seconds at a hundred rows each. Speeds of wheels 0 and 2 are told all along, those of the others from `told_s` on.
     fn run(told_s: f64) -> AlignedRun<4> {
-        let text = include_str!("../../../examples/feup-4w/robot.toml");
+        let text = include_str!("../../robots/feup-4w/robot.toml");
         let robot = RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap();
         let t_s: Vec<f64> = (0..900).map(|row| f64::from(row) / 100.0).collect();
         let speed = |wheel: usize| {

@@ -227,7 +227,7 @@ mod tests {
     use crate::log::{Catalogue, EffectEntry};
     use std::path::Path;
 
-    const FOUR: &str = include_str!("../../../examples/feup-4w/robot.toml");
+    const FOUR: &str = include_str!("../../robots/feup-4w/robot.toml");
 
     fn four() -> RobotFile {
         RobotFile::parse(FOUR, Path::new("robot.toml"), &Catalogue::default()).unwrap()

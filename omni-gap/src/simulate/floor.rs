@@ -65,7 +65,7 @@ mod tests {
 
     #[test]
     fn a_step_ahead_takes_floor_ahead_and_a_spin_takes_none() {
-        let text = include_str!("../../../examples/feup-3w/robot.toml");
+        let text = include_str!("../../robots/feup-3w/robot.toml");
         let file = RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap();
         let model = Model::<3>::nominal(&file, 12.0);
         let plan = Plan { rate: 50.0, voltage: 8.0, field: 3.0, repeats: 1, loads: 1 };

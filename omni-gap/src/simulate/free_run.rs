@@ -167,7 +167,7 @@ mod tests {
     use crate::log::{Catalogue, RobotFile, Run};
 
     fn robot() -> RobotFile {
-        let text = include_str!("../../../examples/feup-4w/robot.toml");
+        let text = include_str!("../../robots/feup-4w/robot.toml");
         RobotFile::parse(text, std::path::Path::new("robot.toml"), &Catalogue::default()).unwrap()
     }
 

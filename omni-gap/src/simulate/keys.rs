@@ -73,7 +73,7 @@ mod tests {
     use super::*;
     use crate::log::Catalogue;
 
-    const FILE: &str = include_str!("../../../examples/feup-4w/robot.toml");
+    const FILE: &str = include_str!("../../robots/feup-4w/robot.toml");
 
     #[test]
     fn every_number_of_a_card_is_read_and_written_where_the_file_has_it() {

@@ -120,7 +120,7 @@ mod tests {
     use std::path::Path;
 
     fn file(limits: LimitsFile) -> RobotFile {
-        let text = include_str!("../../../examples/feup-4w/robot.toml");
+        let text = include_str!("../../robots/feup-4w/robot.toml");
         let file = RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap();
         RobotFile { limits: Some(limits), ..file }
     }

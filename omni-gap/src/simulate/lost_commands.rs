@@ -177,7 +177,7 @@ mod tests {
     const RATE: f64 = 200.0;
 
     fn robot() -> RobotFile {
-        let text = include_str!("../../../examples/feup-3w/robot.toml");
+        let text = include_str!("../../robots/feup-3w/robot.toml");
         RobotFile::parse(text, std::path::Path::new("robot.toml"), &Catalogue::default()).unwrap()
     }
 

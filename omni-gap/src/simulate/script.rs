@@ -268,7 +268,7 @@ mod tests {
     use std::path::Path;
 
     fn robot() -> Robot<3, f64> {
-        let text = include_str!("../../../examples/feup-3w/robot.toml");
+        let text = include_str!("../../robots/feup-3w/robot.toml");
         robot_of(&RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap(), 12.0)
     }
 

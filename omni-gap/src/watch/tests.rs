@@ -13,7 +13,7 @@ use crate::simulate::{EffectInstance, Excitation, Model, SensorSetup, excite, re
 const RATE: f64 = 200.0;
 
 fn robot() -> RobotFile {
-    let text = include_str!("../../../examples/feup-4w/robot.toml");
+    let text = include_str!("../../robots/feup-4w/robot.toml");
     RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap()
 }
 

@@ -191,8 +191,8 @@ mod tests {
     use crate::known_effects;
     use model_core::link::block::Parameters;
 
-    const FOUR: &str = include_str!("../../../examples/feup-4w/robot.toml");
-    const THREE: &str = include_str!("../../../examples/feup-3w/robot.toml");
+    const FOUR: &str = include_str!("../../robots/feup-4w/robot.toml");
+    const THREE: &str = include_str!("../../robots/feup-3w/robot.toml");
 
     fn exported(text: &str) -> Result<Exported> {
         let path = Path::new("robot.toml");

@@ -8,7 +8,7 @@ use omni_gap::log::write_session;
 use omni_gap::synthesize::{Scenario, synthesize};
 
 /// The robot of all tests here.
-pub const ROBOT: &str = include_str!("../../../examples/feup-4w/robot.toml");
+pub const ROBOT: &str = include_str!("../../robots/feup-4w/robot.toml");
 
 /// A folder that goes away with the test.
 pub struct Bench(tempfile::TempDir);

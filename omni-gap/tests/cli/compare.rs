@@ -75,7 +75,7 @@ fn a_side_without_a_robot_file_is_of_the_others_robot() {
 #[test]
 fn robots_with_another_number_of_wheels_are_refused() {
     let bench = Bench::with_session();
-    let three = include_str!("../../../examples/feup-3w/robot.toml");
+    let three = include_str!("../../robots/feup-3w/robot.toml");
     bench.write("other/robot.toml", three);
     bench.done(&["experiment", "other/robot.toml", "--out", "morning", "--only", "spin", "--rehearse", "paper"]);
     let args = ["compare", "session", "morning/session", "--out", "out"];

@@ -95,7 +95,7 @@ fn recordings_with_a_fault_are_compared_and_the_fault_is_told() {
 #[test]
 fn what_cannot_be_compared_is_refused_in_one_message() {
     let bench = Bench::with_session();
-    bench.write("three.toml", include_str!("../../../examples/feup-3w/robot.toml"));
+    bench.write("three.toml", include_str!("../../robots/feup-3w/robot.toml"));
     let says = ["run01.csv: column `u3_V`", "does not have", "3 wheels"];
     refused(&bench, &["validate", "--robot", "three.toml", RUN, "--out", "out"], &says);
     refused(&bench, &["validate", "--robot", "session/robot.toml", "gone.csv"], &["gone.csv", "no such file"]);

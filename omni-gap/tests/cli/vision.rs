@@ -3,7 +3,7 @@
 use crate::bench::{Bench, refused, table};
 use std::path::{Path, PathBuf};
 
-const ROBOT: &str = include_str!("../../../examples/feup-3w/robot.toml");
+const ROBOT: &str = include_str!("../../robots/feup-3w/robot.toml");
 
 const DRIVE: &str = "[[file]]\nname = \"drive.csv\"\n\n";
 

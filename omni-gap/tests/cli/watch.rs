@@ -121,7 +121,7 @@ fn where_no_terminal_is_a_line_a_window_says_the_same_in_words() {
 fn what_cannot_be_watched_is_told() {
     let bench = Bench::empty();
     bench.write("robot.toml", ROBOT);
-    bench.write("three.toml", include_str!("../../../examples/feup-3w/robot.toml"));
+    bench.write("three.toml", include_str!("../../robots/feup-3w/robot.toml"));
     std::fs::write(bench.at("short.rec"), frames(turning(0..500))).unwrap();
     std::fs::write(bench.at("drive.rec"), frames(turning(0..2000))).unwrap();
     bench.write("empty.rec", "");

@@ -107,18 +107,16 @@ pub fn spoiled() -> impl Strategy<Value = Spoiled> {
 }
 
 static SOUND: LazyLock<[Texts; 2]> = LazyLock::new(|| {
-    [include_str!("../../../examples/feup-4w/robot.toml"), include_str!("../../../examples/feup-3w/robot.toml")].map(
-        |robot| {
-            let plan = Scenario { runs: 2, duration: 1.5, rate: 100.0, ..Scenario::default() };
-            let staged = synthesize(robot, &plan, &known_effects()).expect("the examples are sound");
-            let text = |k: usize| {
-                let mut text = Vec::new();
-                staged.runs[k].write_csv(&mut text).expect("memory takes all");
-                String::from_utf8(text).expect("numbers are text")
-            };
-            Texts { robot: staged.robot_text.clone(), runs: [text(0), text(1)] }
-        },
-    )
+    [include_str!("../../robots/feup-4w/robot.toml"), include_str!("../../robots/feup-3w/robot.toml")].map(|robot| {
+        let plan = Scenario { runs: 2, duration: 1.5, rate: 100.0, ..Scenario::default() };
+        let staged = synthesize(robot, &plan, &known_effects()).expect("the examples are sound");
+        let text = |k: usize| {
+            let mut text = Vec::new();
+            staged.runs[k].write_csv(&mut text).expect("memory takes all");
+            String::from_utf8(text).expect("numbers are text")
+        };
+        Texts { robot: staged.robot_text.clone(), runs: [text(0), text(1)] }
+    })
 });
 
 impl RobotChange {

@@ -5,8 +5,8 @@ use crate::api::simulate;
 use crate::known_effects;
 use crate::log::{Group, RobotFile, Run};
 
-const FOUR: &str = include_str!("../../../../examples/feup-4w/robot.toml");
-const THREE: &str = include_str!("../../../../examples/feup-3w/robot.toml");
+const FOUR: &str = include_str!("../../../robots/feup-4w/robot.toml");
+const THREE: &str = include_str!("../../../robots/feup-3w/robot.toml");
 
 fn robot(text: &str) -> RobotFile {
     RobotFile::parse(text, Path::new("robot.toml"), &known_effects()).unwrap()

@@ -9,11 +9,11 @@ pub struct ReadyMade {
 
 /// All of them.
 static READY_MADE: [ReadyMade; 5] = [
-    ReadyMade { name: "feup-3w", text: include_str!("../../../../examples/feup-3w/robot.toml") },
-    ReadyMade { name: "feup-4w", text: include_str!("../../../../examples/feup-4w/robot.toml") },
-    ReadyMade { name: "robotino", text: include_str!("../../../../examples/robotino/robot.toml") },
-    ReadyMade { name: "ssl", text: include_str!("../../../../examples/ssl2018/robot.toml") },
-    ReadyMade { name: "kiwi", text: include_str!("../../../../examples/kiwi2026/robot.toml") },
+    ReadyMade { name: "feup-3w", text: include_str!("../../../robots/feup-3w/robot.toml") },
+    ReadyMade { name: "feup-4w", text: include_str!("../../../robots/feup-4w/robot.toml") },
+    ReadyMade { name: "robotino", text: include_str!("../../../robots/robotino/robot.toml") },
+    ReadyMade { name: "ssl", text: include_str!("../../../robots/ssl2018/robot.toml") },
+    ReadyMade { name: "kiwi", text: include_str!("../../../robots/kiwi2026/robot.toml") },
 ];
 
 /// The robot of this name.

@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn an_order_is_named_by_what_the_model_has_so_often_else_by_its_shafts() {
-        let text = include_str!("../../../../examples/feup-4w/robot.toml");
+        let text = include_str!("../../../robots/feup-4w/robot.toml");
         let file = RobotFile::parse(text, std::path::Path::new("robot.toml"), &Catalogue::default()).unwrap();
         let mut model = Model::<4>::nominal(&file, 12.0);
         let rollers = EffectKind::find("roller_ripple").unwrap().card();

@@ -7,8 +7,8 @@ use super::*;
 use crate::log::{Catalogue, RobotFile};
 use crate::simulate::{EffectInstance, Excitation, HORIZON_S, Model, SensorSetup, excite, record};
 
-const FOUR: &str = include_str!("../../../../examples/feup-4w/robot.toml");
-const THREE: &str = include_str!("../../../../examples/feup-3w/robot.toml");
+const FOUR: &str = include_str!("../../../robots/feup-4w/robot.toml");
+const THREE: &str = include_str!("../../../robots/feup-3w/robot.toml");
 
 /// Runs that are looked at, and how long each is [s]
 const RUNS: u64 = 4;

@@ -7,8 +7,8 @@ use super::*;
 use crate::log::{Catalogue, Group, RobotFile, SensorsFile};
 use crate::simulate::{Excitation, SensorSetup, excite, record};
 
-const FOUR: &str = include_str!("../../../../examples/feup-4w/robot.toml");
-const THREE: &str = include_str!("../../../../examples/feup-3w/robot.toml");
+const FOUR: &str = include_str!("../../../robots/feup-4w/robot.toml");
+const THREE: &str = include_str!("../../../robots/feup-3w/robot.toml");
 
 /// Rows a second: each is one step of the plant, in a recording as in a simulation.
 const RATE: f64 = 500.0;
