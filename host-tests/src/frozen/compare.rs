@@ -15,28 +15,78 @@ pub fn differences(frozen: &str, now: &[Value]) -> Vec<String> {
         found.push(format!("{} recordings, frozen were {}", now.len(), frozen.len()));
     }
     for (old, new) in frozen.iter().zip(now) {
-        let mut here = Vec::new();
-        walk(old, new, "", &mut here);
         let name = new["recording"].as_str().unwrap_or("?");
-        found.extend(here.into_iter().map(|what| format!("{name}: {what}")));
+        walk(old, new, "", &mut |old, new, path| found.push(format!("{name}: {path}: {old} was frozen, now {new}")));
     }
     found
 }
 
-fn walk(old: &Value, new: &Value, path: &str, found: &mut Vec<String>) {
+/// Tells every pair of fields that differ, with their path.
+fn walk(old: &Value, new: &Value, path: &str, differs: &mut impl FnMut(&Value, &Value, &str)) {
     match (old, new) {
         (Value::Object(old), Value::Object(new)) => {
             for (key, value) in old {
-                walk(value, new.get(key).unwrap_or(&Value::Null), &format!("{path}.{key}"), found);
+                walk(value, new.get(key).unwrap_or(&Value::Null), &format!("{path}.{key}"), differs);
             }
         }
         (Value::Array(old), Value::Array(new)) if old.len() == new.len() => {
             for (k, (old, new)) in old.iter().zip(new).enumerate() {
-                walk(old, new, &format!("{path}[{k}]"), found);
+                walk(old, new, &format!("{path}[{k}]"), differs);
             }
         }
         _ if old == new => {}
-        _ => found.push(format!("{path}: {old} was frozen, now {new}")),
+        _ => differs(old, new, path),
+    }
+}
+
+/// How far answers are from frozen ones that another machine made.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Distance {
+    /// Numbers that were compared.
+    pub numbers: usize,
+    /// Those whose last digits differ.
+    pub moved: usize,
+    /// The largest difference of a number, relative to the larger one or to [`NOTHING`].
+    pub farthest: f64,
+    /// Where that is: the recording and the path of the field.
+    pub at: String,
+    /// What differs and is no number.
+    pub others: Vec<String>,
+}
+
+/// What is smaller is nothing in any unit of a report.
+const NOTHING: f64 = 1e-9;
+
+/// How far answers are from a file of frozen ones.
+pub fn distance(frozen: &str, now: &[Value]) -> Distance {
+    let mut distance = Distance::default();
+    let mut others = Vec::new();
+    for (old, new) in frozen.lines().zip(now) {
+        let old: Value = serde_json::from_str(old).unwrap_or(Value::Null);
+        let name = new["recording"].as_str().unwrap_or("?");
+        distance.numbers += numbers(&old);
+        walk(&old, new, "", &mut |old, new, path| match (old.as_f64(), new.as_f64()) {
+            (Some(x), Some(y)) => {
+                distance.moved += 1;
+                let relative = (x - y).abs() / x.abs().max(y.abs()).max(NOTHING);
+                if relative > distance.farthest {
+                    distance.farthest = relative;
+                    distance.at = format!("{name}: {path}: {x} was frozen, now {y}");
+                }
+            }
+            _ => others.push(format!("{name}: {path}: {old} was frozen, now {new}")),
+        });
+    }
+    distance.others = others;
+    distance
+}
+
+fn numbers(value: &Value) -> usize {
+    match value {
+        Value::Object(fields) => fields.values().map(numbers).sum(),
+        Value::Array(values) => values.iter().map(numbers).sum(),
+        Value::Number(_) => 1,
+        _ => 0,
     }
 }
 
@@ -60,5 +110,16 @@ mod tests {
         let frozen = written(&[json!({ "recording": "a", "x": 1 }), json!({ "recording": "b" })]);
         let found = differences(&frozen, &[json!({ "recording": "a" })]);
         assert_eq!(found, ["1 recordings, frozen were 2", "a: .x: 1 was frozen, now null"]);
+    }
+
+    #[test]
+    fn the_distance_of_numbers_is_relative_and_words_are_told_by_themselves() {
+        let frozen = written(&[json!({ "recording": "a", "x": [2.0, 1e-12], "which": "creep" })]);
+        let same = distance(&frozen, &[json!({ "recording": "a", "x": [2.0, 1e-12], "which": "creep" })]);
+        assert_eq!(same, Distance { numbers: 2, ..Distance::default() });
+        let other = distance(&frozen, &[json!({ "recording": "a", "x": [2.5, 0.0], "which": "slip" })]);
+        assert_eq!((other.numbers, other.moved, other.farthest), (2, 2, 0.2));
+        assert_eq!(other.at, "a: .x[0]: 2 was frozen, now 2.5");
+        assert_eq!(other.others, ["a: .which: \"creep\" was frozen, now \"slip\""]);
     }
 }
