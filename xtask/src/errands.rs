@@ -1,6 +1,6 @@
 //! # Errands: what a developer can ask for
 
-mod lines;
+pub mod lines;
 mod table;
 
 use std::ffi::OsString;

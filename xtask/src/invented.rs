@@ -1,12 +1,13 @@
 //! # Invented: what a new effect touches
 //!
-//! Copies the tree, adds an effect that nobody has, holds the copy to the tests of the catalogue, and prints what was
+//! Copies the last commit, adds an effect that nobody has, holds the copy to the tests of the catalogue, and prints what was
 //! written by hand: one new file, and its lines in one other. Whatever more an effect needs some day shows here.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::line::{Line, top};
+use crate::clean_copy;
+use crate::line::Line;
 
 /// The list of effects.
 const LIST: &str = "model-core/src/effects/mod.rs";
@@ -35,21 +36,9 @@ const TESTS: [&str; 2] = ["cargo test -p model-core --lib", "cargo test -p host-
 /// What could not be done, or which test fails.
 pub fn perform() -> Result<(), String> {
     let copy = std::env::temp_dir().join(format!("omni-gap-invented-{}", std::process::id()));
-    let done = copied(&copy).and_then(|()| tried(&copy));
+    let done = clean_copy::make(&copy).and_then(|()| tried(&copy));
     let removed = fs::remove_dir_all(&copy);
     done.and(removed.map_err(|why| format!("{}: {why}", copy.display())))
-}
-
-/// The files that git knows, in a tree of their own.
-fn copied(copy: &Path) -> Result<(), String> {
-    let files = Line::of("git ls-files").answer().ok_or("git does not say which files there are")?;
-    for file in files.lines().filter(|file| top().join(file).is_file()) {
-        let to = copy.join(file);
-        let made = fs::create_dir_all(to.parent().unwrap_or(copy)).and_then(|()| fs::copy(top().join(file), &to));
-        made.map_err(|why| format!("{file}: {why}"))?;
-    }
-    git(copy, &["init", "--quiet"])?;
-    git(copy, &["add", "--all"])
 }
 
 fn tried(copy: &Path) -> Result<(), String> {
@@ -95,6 +84,7 @@ fn git(copy: &Path, words: &[&str]) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::line::top;
 
     #[test]
     fn the_new_effect_gets_its_number() {

@@ -6,9 +6,10 @@ use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-/// A command with the environment that it needs, run from the top of the tree.
+/// A command with the environment that it needs, run from the top of the tree or a folder in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
+    folder: PathBuf,
     env: Vec<(String, String)>,
     words: Vec<OsString>,
 }
@@ -16,12 +17,18 @@ pub struct Line {
 impl Line {
     /// The command of a text without quotes: its words, parted by spaces.
     pub fn of(text: &str) -> Self {
-        Self { env: Vec::new(), words: text.split_whitespace().map(OsString::from).collect() }
+        Self { folder: PathBuf::new(), env: Vec::new(), words: text.split_whitespace().map(OsString::from).collect() }
     }
 
     /// The same with one variable set.
     pub fn env(mut self, name: &str, value: &str) -> Self {
         self.env.push((name.into(), value.into()));
+        self
+    }
+
+    /// The same, run in a folder, whose path begins at the top of the tree.
+    pub fn within(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.folder = folder.into();
         self
     }
 
@@ -35,7 +42,11 @@ impl Line {
     pub fn shown(&self) -> String {
         let env = self.env.iter().map(|(name, value)| format!("{name}={}", quoted(value)));
         let words = self.words.iter().map(|word| quoted(&word.to_string_lossy()));
-        env.chain(words).collect::<Vec<_>>().join(" ")
+        let typed = env.chain(words).collect::<Vec<_>>().join(" ");
+        match self.folder.as_os_str().is_empty() {
+            true => typed,
+            false => format!("(cd {} && {typed})", quoted(&self.folder.to_string_lossy())),
+        }
     }
 
     /// Runs it in the open; true if it could be started and succeeded.
@@ -64,7 +75,10 @@ impl Line {
     fn command(&self) -> Command {
         let mut words = self.words.iter();
         let mut command = Command::new(words.next().map_or(OsStr::new(""), OsString::as_os_str));
-        command.args(words).envs(self.env.iter().map(|(name, value)| (name, value))).current_dir(top());
+        command
+            .args(words)
+            .envs(self.env.iter().map(|(name, value)| (name, value)))
+            .current_dir(top().join(&self.folder));
         command
     }
 }
@@ -91,6 +105,14 @@ mod tests {
     fn is_shown_as_it_would_be_typed() {
         let line = Line::of("cargo doc  --no-deps").env("RUSTDOCFLAGS", "-D warnings").word("it's here");
         assert_eq!(line.shown(), r"RUSTDOCFLAGS='-D warnings' cargo doc --no-deps 'it'\''s here'");
+    }
+
+    #[test]
+    fn a_folder_is_gone_to_first() {
+        let line = Line::of("cargo --version").within("model-core");
+        assert_eq!(line.shown(), "(cd model-core && cargo --version)");
+        assert!(line.answer().is_some());
+        assert_eq!(Line::of("cargo --version").within("no-such-folder").answer(), None);
     }
 
     #[test]

@@ -2,8 +2,11 @@
 //!
 //! Exit code: 0 done, 1 failed, 2 asked for in the wrong way.
 
+mod api;
 mod browser;
+mod clean_copy;
 mod cluster;
+mod dist;
 mod errands;
 mod images;
 mod install;
@@ -13,6 +16,7 @@ mod mjcf;
 mod python;
 mod real;
 mod steps;
+mod supply_chain;
 mod tool;
 mod wheel;
 

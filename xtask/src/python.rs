@@ -52,6 +52,27 @@ impl Environment {
         Ok(python)
     }
 
+    /// The same, made anew: nothing is in it but its packages.
+    ///
+    /// # Errors
+    /// What to tell the person.
+    pub fn renewed(self) -> Result<PathBuf, String> {
+        let folder = top().join(self.folder);
+        if folder.is_dir() {
+            fs::remove_dir_all(&folder).map_err(|why| format!("{}: {why}", self.folder))?;
+        }
+        self.ensure()
+    }
+
+    /// Installs its packages in another environment.
+    ///
+    /// # Errors
+    /// What to tell the person.
+    pub fn add_to(self, python: &Path) -> Result<(), String> {
+        let [_, filled] = self.lines(python);
+        filled.announced().map_err(|_| self.advice(&filled))
+    }
+
     /// What makes it.
     fn lines(self, python: &Path) -> [Line; 2] {
         let pip = "-m pip install --quiet --disable-pip-version-check --no-deps --only-binary :all: --requirement";

@@ -53,17 +53,66 @@ pub const TOOLS: &[Tool] = &[
     },
 ];
 
+/// The compiler of tomorrow, for tools that ask it for more than it promises.
+const NIGHTLY: Tool = Tool {
+    name: "a nightly compiler",
+    probe: Probe("rustup toolchain list", "nightly"),
+    installs: Install::Rustup("toolchain install nightly --profile minimal"),
+};
+
 /// What a fuzzer is built with.
 pub const FUZZERS: &[Tool] = &[
-    Tool {
-        name: "a nightly compiler",
-        probe: Probe("rustup toolchain list", "nightly"),
-        installs: Install::Rustup("toolchain install nightly --profile minimal"),
-    },
+    NIGHTLY,
     Tool {
         name: "cargo-fuzz",
         probe: Probe("cargo fuzz --version", "cargo-fuzz"),
         installs: Install::Crate("cargo-fuzz"),
+    },
+];
+
+/// What tells what the product is made of.
+pub const SUPPLY_CHAIN: &[Tool] = &[Tool {
+    name: "cargo-deny",
+    probe: Probe("cargo deny --version", "cargo-deny"),
+    installs: Install::Crate("cargo-deny"),
+}];
+
+/// A C library with a library of mathematics of its own, and what builds for it.
+pub const OTHER_LIBRARY: &[Tool] = &[
+    Tool { name: "musl", probe: Probe("musl-gcc --version", "gcc"), installs: Install::Apt("musl-tools") },
+    Tool {
+        name: "its target (x86_64-unknown-linux-musl)",
+        probe: Probe("rustup target list --installed", "x86_64-unknown-linux-musl"),
+        installs: Install::Rustup("target add x86_64-unknown-linux-musl"),
+    },
+];
+
+/// What lists what programs of others may call, and compares it.
+pub const API: &[Tool] = &[
+    NIGHTLY,
+    Tool {
+        name: "cargo-public-api",
+        probe: Probe("cargo public-api --version", "cargo-public-api"),
+        installs: Install::Crate("cargo-public-api"),
+    },
+    Tool {
+        name: "cargo-semver-checks",
+        probe: Probe("cargo semver-checks --version", "cargo-semver-checks"),
+        installs: Install::Crate("cargo-semver-checks"),
+    },
+];
+
+/// What tells of all that is handed out what is in it.
+pub const NOTICES: &[Tool] = &[
+    Tool {
+        name: "cargo-about",
+        probe: Probe("cargo about --version", "cargo-about"),
+        installs: Install::Crate("cargo-about --features cli"),
+    },
+    Tool {
+        name: "cargo-cyclonedx",
+        probe: Probe("cargo cyclonedx --version", "cargo-cyclonedx"),
+        installs: Install::Crate("cargo-cyclonedx"),
     },
 ];
 

@@ -7,11 +7,11 @@ use crate::python::Environment;
 use crate::{mjcf, real, steps, tool, wheel};
 
 /// What the comparison with MuJoCo runs on.
-const MUJOCO: Environment =
+pub const MUJOCO: Environment =
     Environment { folder: "target/mujoco-venv", requirements: "host-tests/mujoco/requirements.txt" };
 
 /// What the benchmark's peers run on.
-const PEERS: Environment =
+pub const PEERS: Environment =
     Environment { folder: "target/peers-venv", requirements: "host-tests/peers/requirements.txt" };
 
 pub fn test(_: &[OsString]) -> Result<(), String> {
@@ -88,6 +88,13 @@ pub fn frozen(given: &[OsString]) -> Result<(), String> {
         false => line,
     };
     line.announced()
+}
+
+/// The frozen reports are those of the test command's build.
+pub fn same_answer(_: &[OsString]) -> Result<(), String> {
+    tool::ensure(tool::OTHER_LIBRARY)?;
+    Line::of("cargo run --release -p host-tests --bin frozen").announced()?;
+    Line::of("cargo run --release -p host-tests --bin elsewhere --target x86_64-unknown-linux-musl").announced()
 }
 
 pub fn book(_: &[OsString]) -> Result<(), String> {

@@ -5,7 +5,7 @@
 use std::ffi::OsString;
 
 use super::lines;
-use crate::{browser, cluster, images, invented, wheel};
+use crate::{api, browser, cluster, dist, images, invented, supply_chain, wheel};
 
 /// One thing to ask for.
 #[derive(Clone, Copy, Debug)]
@@ -201,6 +201,12 @@ pub const ERRANDS: &[Errand] = &[
         run: lines::frozen,
     },
     Errand {
+        name: "same-answer",
+        takes: "",
+        does: "compare whole reports of a release build with the frozen ones, bit for bit, and of one with another library of mathematics",
+        run: lines::same_answer,
+    },
+    Errand {
         name: "book",
         takes: "",
         does: "run the commands of every page of the book, and build it into target/book with an mdBook of its own",
@@ -211,6 +217,24 @@ pub const ERRANDS: &[Errand] = &[
         takes: "[PAGE.html...]",
         does: "open every kind of page in Chromium, three widths, light and dark: charts, switches, accessibility",
         run: browser::perform,
+    },
+    Errand {
+        name: "supply-chain",
+        takes: "",
+        does: "check licences, duplicates and sources of all that the product is made of, and what is known of weaknesses",
+        run: supply_chain::perform,
+    },
+    Errand {
+        name: "api",
+        takes: "",
+        does: "compare what programs of others may call with its list (BLESS=1: rewrite), and with the last release",
+        run: api::perform,
+    },
+    Errand {
+        name: "dist",
+        takes: "",
+        does: "make all that is handed out of the last commit, in target/dist/out, and try it where nothing else is (BLESS=1: record)",
+        run: dist::perform,
     },
     Errand {
         name: "invented",
