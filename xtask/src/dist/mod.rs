@@ -32,6 +32,7 @@ const PAGE: &str = "host-tests/golden/dist.md";
 /// # Errors
 /// What to tell the person.
 pub fn perform(_: &[OsString]) -> Result<(), String> {
+    tool::ensure(tool::TOOLS)?;
     tool::ensure(tool::NOTICES)?;
     let advisories = supply_chain::checked()?;
     api::perform(&[])?;
