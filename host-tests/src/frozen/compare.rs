@@ -46,7 +46,7 @@ pub struct Distance {
     pub numbers: usize,
     /// Those whose last digits differ.
     pub moved: usize,
-    /// The largest difference of a number, relative to the larger one or to [`NOTHING`].
+    /// The largest difference of a number, relative to the larger one, or to what is nothing in any unit.
     pub farthest: f64,
     /// Where that is: the recording and the path of the field.
     pub at: String,
