@@ -22,3 +22,7 @@ pub mod effects;
 pub mod control;
 
 pub mod link;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -63,3 +63,7 @@ pub use known::{cause_ids, known_effects};
 pub use log::Session;
 pub use report::Report;
 pub use vocabulary::Verdict;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

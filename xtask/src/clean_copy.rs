@@ -2,9 +2,9 @@
 //!
 //! What is made of it holds nothing that is only on this machine.
 
-use std::fs;
 use std::path::Path;
 
+use crate::folder::removed;
 use crate::line::{Line, top};
 
 /// Makes it, in place of what is in the folder; refuses while something is not committed, which would be left out.
@@ -19,9 +19,6 @@ pub fn make(folder: &Path) -> Result<(), String> {
             first.trim()
         ));
     }
-    let at = top().join(folder);
-    if at.is_dir() {
-        fs::remove_dir_all(&at).map_err(|why| format!("{}: {why}", folder.display()))?;
-    }
+    removed(&top().join(folder))?;
     Line::of("git clone --quiet --local .").word(folder).announced()
 }

@@ -3,7 +3,7 @@
 //! What is announced is what is run, because both are made from the same value.
 
 use std::ffi::{OsStr, OsString};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// A command with the environment that it needs, run from the top of the tree or a folder in it.
@@ -86,7 +86,7 @@ impl Line {
 /// The top of the tree: the folder above this crate's, as cargo tells it at run time.
 pub fn top() -> PathBuf {
     match std::env::var_os("CARGO_MANIFEST_DIR") {
-        Some(here) => PathBuf::from(here).join(".."),
+        Some(here) => PathBuf::from(here).parent().map_or_else(PathBuf::new, Path::to_path_buf),
         None => PathBuf::from("."),
     }
 }

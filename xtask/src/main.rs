@@ -8,6 +8,7 @@ mod clean_copy;
 mod cluster;
 mod dist;
 mod errands;
+mod folder;
 mod images;
 mod install;
 mod invented;

@@ -5,6 +5,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::folder::{removed, told};
 use crate::install::Install;
 use crate::line::{Line, top};
 use crate::tool::{Probe, Tool, ensure};
@@ -48,7 +49,7 @@ impl Environment {
                 return Err(self.advice(&line));
             }
         }
-        fs::write(&installed, asked).map_err(|why| format!("{}: {why}", installed.display()))?;
+        told(&installed.display().to_string(), fs::write(&installed, asked))?;
         Ok(python)
     }
 
@@ -57,10 +58,7 @@ impl Environment {
     /// # Errors
     /// What to tell the person.
     pub fn renewed(self) -> Result<PathBuf, String> {
-        let folder = top().join(self.folder);
-        if folder.is_dir() {
-            fs::remove_dir_all(&folder).map_err(|why| format!("{}: {why}", self.folder))?;
-        }
+        removed(&top().join(self.folder))?;
         self.ensure()
     }
 

@@ -9,6 +9,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::folder::{copied, fresh, removed, told};
 use crate::line::{Line, top};
 use package::{Packages, SMOKE, TEST};
 
@@ -95,37 +96,15 @@ fn smoke() -> Result<(), String> {
 /// What to tell the person.
 pub fn put_together(profile: &str, package: &str) -> Result<(), String> {
     let folder = top().join(package).join("omni_gap");
-    let put = || {
-        if folder.is_dir() {
-            fs::remove_dir_all(&folder)?;
-        }
-        copy_modules(&top().join("python/omni_gap"), &folder)?;
-        fs::copy(top().join(built()).join(profile).join(BUILT), folder.join(FOUND)).map(drop)
-    };
-    put().map_err(|why: std::io::Error| format!("{package}: {why}"))
-}
-
-fn copy_modules(from: &Path, to: &Path) -> std::io::Result<()> {
-    fs::create_dir_all(to)?;
-    for entry in fs::read_dir(from)? {
-        let path = entry?.path();
-        let copy = to.join(path.file_name().unwrap_or_default());
-        if path.is_dir() {
-            copy_modules(&path, &copy)?;
-        } else if path.extension().is_some_and(|suffix| suffix == "py") {
-            fs::copy(&path, copy)?;
-        }
-    }
-    Ok(())
+    fresh(&folder)?;
+    copied(&top().join("python/omni_gap"), &folder, |file| file.extension().is_some_and(|suffix| suffix == "py"))?;
+    told(package, fs::copy(top().join(built()).join(profile).join(BUILT), folder.join(FOUND))).map(drop)
 }
 
 fn whole() -> Result<(), String> {
     let test = TEST.ensure()?;
-    let wheels = top().join(WHEELS);
-    if wheels.is_dir() {
-        fs::remove_dir_all(&wheels).map_err(|why| format!("{WHEELS}: {why}"))?;
-    }
-    let Packages { wheel, .. } = package::build("", WHEELS)?;
+    removed(&top().join(WHEELS))?;
+    let Packages { wheel, .. } = package::build(Path::new(""), WHEELS)?;
     let python = |words: &str| words.split(' ').fold(Line::of("").word(&test), Line::word);
     python("-m pip install --no-deps --force-reinstall --disable-pip-version-check").word(&wheel).announced()?;
     Line::of("cargo build --release -p omni-gap").announced()?;
@@ -141,10 +120,10 @@ fn whole() -> Result<(), String> {
 
 /// Keeps the page, where that is asked for.
 fn kept(page: &Path, wheel: &Path) -> Result<(), String> {
-    let told = |why: std::io::Error| format!("{}: {why}", page.display());
-    let text = fs::read_to_string(page).map_err(told)?;
+    let shown = page.display().to_string();
+    let text = told(&shown, fs::read_to_string(page))?;
     let name = wheel.file_name().unwrap_or_default().to_string_lossy();
-    let size = fs::metadata(wheel).map_err(told)?.len() as f64 / 1e6;
+    let size = told(&shown, fs::metadata(wheel))?.len() as f64 / 1e6;
     let tested =
         format!("\nThe wheel `{name}` ({size:.1} MB), built from the sdist and installed, passes `python/tests`.\n");
     record(PAGE, &(text + &tested), "cargo xtask python")
@@ -163,7 +142,7 @@ pub fn record(page: &str, text: &str, command: &str) -> Result<(), String> {
         "A record of a long run, not compared by the test command: made by `{command}` at commit {}.",
         commit.trim()
     );
-    fs::write(top().join(page), format!("{text}\n---\n\n{made}\n")).map_err(|why| format!("{page}: {why}"))
+    told(page, fs::write(top().join(page), format!("{text}\n---\n\n{made}\n")))
 }
 
 #[cfg(test)]

@@ -9,16 +9,23 @@ pub fn written(answers: &[Value]) -> String {
 
 /// Where answers differ from a file of frozen ones: the recording, the path of the field, and what stands there.
 pub fn differences(frozen: &str, now: &[Value]) -> Vec<String> {
-    let frozen: Vec<Value> = frozen.lines().map(|line| serde_json::from_str(line).unwrap_or(Value::Null)).collect();
-    let mut found = Vec::new();
-    if frozen.len() != now.len() {
-        found.push(format!("{} recordings, frozen were {}", now.len(), frozen.len()));
-    }
-    for (old, new) in frozen.iter().zip(now) {
-        let name = new["recording"].as_str().unwrap_or("?");
-        walk(old, new, "", &mut |old, new, path| found.push(format!("{name}: {path}: {old} was frozen, now {new}")));
+    let mut found = missing(frozen, now);
+    for (old, new, name) in pairs(frozen, now) {
+        walk(&old, new, "", &mut |old, new, path| found.push(format!("{name}: {path}: {old} was frozen, now {new}")));
     }
     found
+}
+
+/// What to tell of another number of answers than were frozen.
+fn missing(frozen: &str, now: &[Value]) -> Vec<String> {
+    let were = frozen.lines().count();
+    if were == now.len() { Vec::new() } else { vec![format!("{} recordings, frozen were {were}", now.len())] }
+}
+
+/// Every frozen answer with its new one and the recording's name.
+fn pairs<'a>(frozen: &'a str, now: &'a [Value]) -> impl Iterator<Item = (Value, &'a Value, &'a str)> {
+    let read = |line| serde_json::from_str(line).unwrap_or(Value::Null);
+    frozen.lines().zip(now).map(move |(old, new)| (read(old), new, new["recording"].as_str().unwrap_or("?")))
 }
 
 /// Tells every pair of fields that differ, with their path.
@@ -60,10 +67,8 @@ const NOTHING: f64 = 1e-9;
 /// How far answers are from a file of frozen ones.
 pub fn distance(frozen: &str, now: &[Value]) -> Distance {
     let mut distance = Distance::default();
-    let mut others = Vec::new();
-    for (old, new) in frozen.lines().zip(now) {
-        let old: Value = serde_json::from_str(old).unwrap_or(Value::Null);
-        let name = new["recording"].as_str().unwrap_or("?");
+    let mut others = missing(frozen, now);
+    for (old, new, name) in pairs(frozen, now) {
         distance.numbers += numbers(&old);
         walk(&old, new, "", &mut |old, new, path| match (old.as_f64(), new.as_f64()) {
             (Some(x), Some(y)) => {
@@ -120,6 +125,7 @@ mod tests {
         let other = distance(&frozen, &[json!({ "recording": "a", "x": [2.5, 0.0], "which": "slip" })]);
         assert_eq!((other.numbers, other.moved, other.farthest), (2, 2, 0.2));
         assert_eq!(other.at, "a: .x[0]: 2 was frozen, now 2.5");
+        assert_eq!(distance(&frozen, &[]).others, ["0 recordings, frozen were 1"]);
         assert_eq!(other.others, ["a: .which: \"creep\" was frozen, now \"slip\""]);
     }
 }

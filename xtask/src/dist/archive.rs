@@ -10,6 +10,8 @@ use flate2::{Compression, GzBuilder};
 use sha2::{Digest, Sha256};
 use tar::{Builder, Header};
 
+use crate::folder::files;
+
 /// Packs a folder, under its own name.
 ///
 /// # Errors
@@ -27,23 +29,6 @@ pub fn pack(folder: &Path, archive: &Path, time_s: u64) -> io::Result<()> {
         tar.append_data(&mut header, file.strip_prefix(above).unwrap_or(&file), bytes.as_slice())?;
     }
     tar.into_inner()?.finish().map(drop)
-}
-
-/// All files below a folder, in the order of their paths.
-///
-/// # Errors
-/// Where a folder cannot be read.
-pub fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        match path.is_dir() {
-            true => found.extend(files(&path)?),
-            false => found.push(path),
-        }
-    }
-    found.sort();
-    Ok(found)
 }
 
 #[cfg(unix)]

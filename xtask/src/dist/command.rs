@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use super::archive;
 use super::notices::Part;
-use super::place::{OUT, SOURCE, VERSION, copied, fresh, in_source, told};
+use super::place::{OUT, VERSION, brought, in_source, source};
+use crate::folder::{copied, fresh, told};
 use crate::line::{Line, top};
 use crate::wheel::package::{self, built};
 
@@ -13,7 +14,7 @@ use crate::wheel::package::{self, built};
 const SHELLS: [&str; 5] = ["bash", "elvish", "fish", "powershell", "zsh"];
 
 /// What of the tree goes into the archive as it is.
-const FILES: [&str; 4] = ["README.md", "CHANGELOG.md", "LICENSE-APACHE", "LICENSE-MIT"];
+const FILES: [&str; 4] = ["omni-gap/README.md", "CHANGELOG.md", "LICENSE-APACHE", "LICENSE-MIT"];
 
 /// The oldest C library that it runs with; what any distribution since 2014 has.
 const C_LIBRARY: &str = ".2.17";
@@ -32,10 +33,8 @@ pub fn make(time_s: u64) -> Result<PathBuf, String> {
     ["completions", "man"].into_iter().try_for_each(put)?;
     let own = folder.join(program.file_name().unwrap_or_default());
     told("the command", fs::copy(&program, &own))?;
-    for file in FILES {
-        told(file, fs::copy(top().join(SOURCE).join(file), folder.join(file)))?;
-    }
-    copied(&top().join(SOURCE).join("omni-gap/robots"), &folder.join("examples"))?;
+    brought(&FILES, &folder)?;
+    copied(&source().join("omni-gap/robots"), &folder.join("examples"), |_| true)?;
     for shell in SHELLS {
         let script = Line::of("").word(&own).word("completions").word(shell).answer();
         let script = script.ok_or_else(|| format!("the command has no completions of {shell}"))?;

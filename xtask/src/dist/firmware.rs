@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use super::archive;
 use super::notices::Part;
-use super::place::{OUT, SOURCE, VERSION, fresh, in_source, told};
+use super::place::{OUT, VERSION, brought, in_source};
+use crate::folder::{fresh, told};
 use crate::line::top;
 use crate::wheel::package::built;
 
@@ -24,13 +25,11 @@ pub fn make(time_s: u64) -> Result<PathBuf, String> {
     let folder = top().join("target/dist").join(&name);
     fresh(&folder)?;
     let words = "cargo build --locked --profile firmware -p firmware --bin firmware --features f405 --target";
-    in_source(words).word(TARGET).announced()?;
+    // with symbols, by which a probe reads what it logs
+    in_source(words).word(TARGET).env("CARGO_PROFILE_FIRMWARE_STRIP", "none").announced()?;
     let image = built().join(TARGET).join("firmware/firmware");
     told("the image", fs::copy(image, folder.join("firmware.elf")))?;
-    for file in FILES {
-        let source = top().join(SOURCE).join(file);
-        told(file, fs::copy(&source, folder.join(source.file_name().unwrap_or_default())))?;
-    }
+    brought(&FILES, &folder)?;
     let part = Part { name: "firmware", features: "f405", target: TARGET };
     part.write_licences(&folder)?;
     part.write_bill(&folder, time_s)?;

@@ -12,15 +12,16 @@ mod tried;
 
 use std::ffi::OsString;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use crate::folder::{files, fresh, told};
 use crate::line::{Line, top};
 use crate::supply_chain::{self, Advisories};
 use crate::tool;
 use crate::wheel::package::{self, built};
 use crate::wheel::record;
 use notices::Part;
-use place::{OUT, SOURCE, VERSION, fresh, in_source, told};
+use place::{OUT, VERSION, in_source, source};
 
 use crate::{api, clean_copy};
 
@@ -34,20 +35,20 @@ const PAGE: &str = "host-tests/golden/dist.md";
 pub fn perform(_: &[OsString]) -> Result<(), String> {
     tool::ensure(tool::TOOLS)?;
     tool::ensure(tool::NOTICES)?;
+    clean_copy::make(&source())?;
     let advisories = supply_chain::checked()?;
     api::perform(&[])?;
-    clean_copy::make(Path::new(SOURCE))?;
     fresh(&top().join(OUT))?;
     in_source("cargo fetch --locked").announced()?; // the licences are in the crates
     let time_s = time_s()?;
     let python = Part { name: "python", features: "", target: &command::host()? };
-    python.write_licences(&top().join(SOURCE).join("python/omni_gap"))?;
-    let packages = package::build(SOURCE, OUT)?;
+    python.write_licences(&source().join("python/omni_gap"))?;
+    let packages = package::build(&source(), OUT)?;
     crates()?;
     let command = command::make(time_s)?;
     firmware::make(time_s)?;
     let out = top().join(OUT);
-    let files = told(OUT, archive::files(&out))?;
+    let files = told(OUT, files(&out))?;
     told(OUT, fs::write(out.join("SHA256SUMS"), told(OUT, archive::sums(&files))?))?;
     tried::all(&command, &packages)?;
     let page = told(OUT, page(&files, advisories))?;

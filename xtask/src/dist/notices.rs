@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use super::place::{SOURCE, in_source, told};
-use crate::line::{Line, top};
+use super::place::{in_source, source};
+use crate::folder::told;
+use crate::line::Line;
 
 /// What is handed out: a crate, its features, and what it is built for.
 #[derive(Clone, Copy, Debug)]
@@ -38,10 +39,10 @@ impl Part<'_> {
         let line = self.asked("cargo cyclonedx --quiet --format json --spec-version 1.5 --no-build-deps");
         let line = line.word("--override-filename").word(BILL);
         line.env("SOURCE_DATE_EPOCH", &time_s.to_string()).announced()?;
-        let made = top().join(SOURCE).join(self.name).join(BILL).with_extension("json");
+        let made = source().join(self.name).join(BILL).with_extension("json");
         let text = told(BILL, fs::read_to_string(made))?;
         // a path on this machine tells nobody anything
-        let here = told(SOURCE, top().join(SOURCE).canonicalize())?;
+        let here = told(BILL, source().canonicalize())?;
         let text = text.replace(&format!("file://{}", here.display()), "file://");
         told(self.name, fs::write(folder.join(format!("{}.cdx.json", self.name)), text))
     }

@@ -3,7 +3,8 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use super::place::{VERSION, fresh, told};
+use super::place::VERSION;
+use crate::folder::{fresh, told};
 use crate::line::{Line, top};
 use crate::python::Environment;
 use crate::wheel::package::{self, Packages};
