@@ -48,6 +48,10 @@ pub fn checked() -> Result<Advisories, String> {
 mod tests {
     use std::fs;
 
+    use std::collections::BTreeSet;
+
+    use toml::{Table, Value};
+
     use crate::cluster;
     use crate::errands::lines;
     use crate::line::top;
@@ -66,6 +70,28 @@ mod tests {
             for (at, line) in lines.iter().enumerate().filter(|(_, line)| !line.starts_with(' ')) {
                 assert!(line.contains("==") && lines[at + 1].contains("--hash=sha256:"), "{requirements}: {line}");
             }
+        }
+    }
+
+    /// The words of a list in a file.
+    fn words(list: &Value) -> BTreeSet<String> {
+        list.as_array().unwrap().iter().map(|word| word.as_str().unwrap().to_owned()).collect()
+    }
+
+    fn table(file: &str) -> Table {
+        fs::read_to_string(top().join(file)).unwrap().parse().unwrap()
+    }
+
+    #[test]
+    fn the_licences_that_are_allowed_are_those_that_an_archive_tells_of() {
+        let (deny, about) = (table(".cargo/deny.toml"), table(".cargo/about.toml"));
+        assert_eq!(words(&deny["licenses"]["allow"]), words(&about["accepted"]));
+        let banned: Vec<&Value> = deny["bans"]["deny"].as_array().unwrap().iter().map(|one| &one["crate"]).collect();
+        for exception in deny["licenses"]["exceptions"].as_array().unwrap() {
+            let name = &exception["crate"];
+            let told = about.get(name.as_str().unwrap()).map(|own| words(&own["accepted"]));
+            let expected = (!banned.contains(&name)).then(|| words(&exception["allow"]));
+            assert_eq!(told, expected, "{name}: in both files, or linked with nothing that is handed out");
         }
     }
 }
