@@ -56,13 +56,13 @@ fn unpacked(archive: &Path, folder: &Path) -> Result<PathBuf, String> {
 fn install(python: &Path, package: &Path, how: &str) -> Result<(), String> {
     let pip = "-m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall".split(' ');
     let line = pip.fold(Line::of("").word(python), Line::word).word(how).word(package);
-    let line = line.env("PATH", &package::path_with(python));
-    line.env("CARGO_TARGET_DIR", &package::built().to_string_lossy()).announced()
+    package::unmarked(line.env("PATH", &package::path_with(python))).announced()
 }
 
-/// The package's own smoke test, with what is installed.
+/// The package's own smoke test, with what is installed, from where the command was run: a report tells its inputs as they were named.
 fn used(python: &Path) -> Result<(), String> {
-    let script = Line::of("").word(python).word("-W").word("error").word("python/tests/smoke.py");
-    let report = format!("{FOLDER}/omni-gap-demo/report/report.json");
-    script.word(format!("{FOLDER}/omni-gap-demo/session")).word(report).word(format!("{FOLDER}/season")).announced()
+    let script =
+        Line::of("").word(top().join(python)).word("-W").word("error").word(top().join("python/tests/smoke.py"));
+    let script = script.word("omni-gap-demo/session").word("omni-gap-demo/report/report.json").word("season");
+    script.within(FOLDER).announced()
 }
