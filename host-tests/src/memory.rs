@@ -1,11 +1,25 @@
-//! The most memory that a process has held so far, as Linux tells it.
+//! The memory that a process holds, as Linux tells it.
 
 use std::fs;
 
-/// The largest resident memory so far of a process, `self` or its number (VmHWM) [byte]; none where the system does not tell it.
+/// Resident memory of a process, `self` or its number (VmRSS) [byte]; none where the system does not tell it.
+pub fn held_memory(process: &str) -> Option<u64> {
+    told(process, "VmRSS:")
+}
+
+/// The most of it so far (VmHWM) [byte]; none where the system does not tell it.
 pub fn peak_memory(process: &str) -> Option<u64> {
+    told(process, "VmHWM:")
+}
+
+/// Forgets the most that this process has held; where the system lets it.
+pub fn forget_peak() {
+    fs::write("/proc/self/clear_refs", "5").ok();
+}
+
+fn told(process: &str, name: &str) -> Option<u64> {
     let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let line = status.lines().find(|line| line.starts_with(name))?;
     Some(1024 * line.split_whitespace().nth(1)?.parse::<u64>().ok()?)
 }
 
@@ -15,7 +29,8 @@ mod tests {
 
     #[test]
     fn it_is_told_of_this_process_and_not_of_none() {
-        assert!(peak_memory("self").is_some_and(|bytes| bytes > 1 << 20));
-        assert_eq!(peak_memory("none"), None);
+        let (held, peak) = (held_memory("self"), peak_memory("self"));
+        assert!(held.is_some_and(|bytes| bytes > 1 << 20) && peak >= held, "{held:?} {peak:?}");
+        assert_eq!((held_memory("none"), peak_memory("none")), (None, None));
     }
 }

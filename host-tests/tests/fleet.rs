@@ -1,12 +1,12 @@
 //! Thirty robots with one weak effect in common, and thirty with none.
 
-use host_tests::fleet::kind::Kind;
+use host_tests::fleet::kind::{Kind, Length};
 use host_tests::fleet::trials::{FOUND, ROBOTS, trial};
 use model_core::effects::EffectKind;
 
 fn kind(in_common: f64, seed: u64) -> Kind {
     let file = include_str!("../../examples/feup-4w/robot.toml");
-    Kind { file, robots: ROBOTS, hidden: Vec::new(), in_common, seed }
+    Kind { file, robots: ROBOTS, hidden: Vec::new(), in_common, length: Length::SHORT, seed }
 }
 
 #[test]

@@ -4,9 +4,9 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use host_tests::fleet::kind::Kind;
+use host_tests::fleet::kind::{Kind, Length};
 use host_tests::fleet::page::{Trials, page};
-use host_tests::fleet::scale::scale;
+use host_tests::fleet::scale::{Scale, page_of};
 use host_tests::fleet::trials::{ROBOTS, trial};
 use host_tests::golden;
 use omni_gap::Error;
@@ -24,7 +24,7 @@ const HEALTHY: u64 = 10;
 const ERRORS: f64 = 1.5;
 
 /// Sessions to be timed.
-const SESSIONS: usize = 2000;
+const TIMED: [(usize, Length); 2] = [(2000, Length::SHORT), (100, Length::FULL)];
 
 /// Shares of what is stated that healthy robots have in common.
 const SHARES: [f64; 3] = [0.0, 0.5, 1.0];
@@ -38,7 +38,8 @@ fn main() -> ExitCode {
 
 /// Times are never the same twice: they are recorded, not compared.
 fn timed() -> Result<bool, Error> {
-    let page = scale(&Kind { robots: SESSIONS, ..kind(0.5, 300) })?.page();
+    let kind = |(robots, length)| Kind { robots, length, ..kind(0.5, 300) };
+    let page = page_of(&TIMED.map(kind).iter().map(Scale::of).collect::<Result<Vec<_>, _>>()?);
     println!("{page}");
     if golden::blessed() {
         golden::record("fleet_scale.md", &page, "cargo xtask fleet scale")?;
@@ -48,7 +49,7 @@ fn timed() -> Result<bool, Error> {
 
 fn kind(in_common: f64, seed: u64) -> Kind {
     let file = include_str!("../../../examples/feup-4w/robot.toml");
-    Kind { file, robots: ROBOTS, hidden: Vec::new(), in_common, seed }
+    Kind { file, robots: ROBOTS, hidden: Vec::new(), in_common, length: Length::SHORT, seed }
 }
 
 fn made() -> Result<bool, Error> {

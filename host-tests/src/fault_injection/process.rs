@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use crate::peak_memory::peak_memory;
+use crate::memory::peak_memory;
 
 /// How often a running command is looked at.
 const LOOK: Duration = Duration::from_micros(200);

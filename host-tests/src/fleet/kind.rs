@@ -14,6 +14,30 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
+/// How much of each robot is recorded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Length {
+    /// Runs.
+    pub runs: usize,
+    /// How long each takes [s]
+    pub duration: f64,
+    /// Rows a second [Hz]
+    pub rate: f64,
+}
+
+impl Length {
+    /// Shorter than the benchmark's: 600 rows.
+    pub const SHORT: Self = Self { runs: 3, duration: 2.0, rate: 100.0 };
+
+    /// As the demonstration records: 30,000 rows.
+    pub const FULL: Self = Self { runs: 10, duration: 6.0, rate: 500.0 };
+
+    /// All rows.
+    pub fn rows(self) -> usize {
+        self.runs * (self.duration * self.rate).round() as usize
+    }
+}
+
 /// Robots of a kind.
 #[derive(Clone, Debug)]
 pub struct Kind {
@@ -25,12 +49,14 @@ pub struct Kind {
     pub hidden: Vec<EffectInstance>,
     /// The share of the stated uncertainty's variance that is common to all \[1\]
     pub in_common: f64,
+    /// How much of each is recorded.
+    pub length: Length,
     /// Everything random.
     pub seed: u64,
 }
 
 impl Kind {
-    /// A session of each, shorter than the benchmark's: three runs of two seconds with 100 rows each second.
+    /// A session of each.
     ///
     /// # Errors
     /// Where the file is no robot file.
@@ -38,16 +64,21 @@ impl Kind {
         (0..self.robots).map(|robot| self.session(robot)).collect()
     }
 
-    fn session(&self, robot: usize) -> Result<Session, Error> {
+    /// That of one robot.
+    ///
+    /// # Errors
+    /// Where the file is no robot file.
+    pub fn session(&self, robot: usize) -> Result<Session, Error> {
+        let Length { runs, duration, rate } = self.length;
         let file = RobotFile::parse(self.file, Path::new("robot.toml"), &known_effects())?;
         let truth = self.truth(&file, robot)?;
         let seed = self.seed.wrapping_mul(7919).wrapping_add(robot as u64);
         let plan = Scenario {
             hidden: self.hidden.clone(),
             uncertain: false,
-            runs: 3,
-            duration: 2.0,
-            rate: 100.0,
+            runs,
+            duration,
+            rate,
             seed,
             ..Scenario::default()
         };

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::answer::Answer;
 use super::set::{SetFolder, read, write};
 use super::watch::Watch;
-use crate::peak_memory::peak_memory;
+use crate::memory::peak_memory;
 
 /// Who answers.
 #[derive(Clone, Debug, PartialEq, Eq)]
