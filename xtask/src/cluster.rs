@@ -8,7 +8,7 @@ use std::fs;
 
 use crate::line::{Line, top};
 use crate::python::Environment;
-use crate::wheel::{EXTENSION, PACKAGE, long_or_short, put_together, record};
+use crate::wheel::{EXTENSION, PACKAGE, built, long_or_short, put_together, record};
 
 /// Ray, Dask, and a server with the interface of S3.
 pub const ENVIRONMENT: Environment =
@@ -34,14 +34,14 @@ pub fn perform(words: &[OsString]) -> Result<(), String> {
 fn smoke() -> Result<(), String> {
     let python = ENVIRONMENT.ensure()?;
     Line::of(EXTENSION).announced()?;
-    put_together("debug", PACKAGE)?;
+    put_together(&built().join("debug"), PACKAGE)?;
     Line::of("").word(python).word("python/cluster/smoke.py").env("PYTHONPATH", PACKAGE).announced()
 }
 
 fn whole() -> Result<(), String> {
     let python = ENVIRONMENT.ensure()?;
     Line::of("cargo build --release -p omni-gap-python").announced()?;
-    put_together("release", RELEASED)?;
+    put_together(&built().join("release"), RELEASED)?;
     let python = |words: &str| {
         let line = words.split(' ').fold(Line::of("").word(&python), Line::word);
         line.env("PYTHONPATH", RELEASED)

@@ -90,6 +90,7 @@ pub const STEPS: &[Step] = &[
     Step { name: "python", command: "cargo xtask python smoke", env: &[] },
     Step { name: "cluster", command: "cargo xtask cluster smoke", env: &[] },
     Step { name: "withheld", command: "cargo run --release -p host-tests --bin bench -- check", env: &[] },
+    Step { name: "notebooks", command: "cargo xtask notebooks", env: &[] },
     Step { name: "emulated images", command: EMULATED_IMAGES, env: &[] },
     Step { name: "board image", command: BOARD_IMAGE, env: &[] },
     Step { name: "board tests", command: BOARD_TESTS, env: &[] },

@@ -55,14 +55,21 @@ mod tests {
     use crate::cluster;
     use crate::errands::lines;
     use crate::line::top;
+    use crate::notebooks;
     use crate::python::Environment;
     use crate::wheel::package;
 
     #[test]
     fn every_package_is_pinned_with_the_hashes_of_its_files() {
-        for Environment { requirements, .. } in
-            [package::SMOKE, package::BUILD, package::TEST, cluster::ENVIRONMENT, lines::MUJOCO, lines::PEERS]
-        {
+        for Environment { requirements, .. } in [
+            package::SMOKE,
+            package::BUILD,
+            package::TEST,
+            cluster::ENVIRONMENT,
+            notebooks::ENVIRONMENT,
+            lines::MUJOCO,
+            lines::PEERS,
+        ] {
             let text = fs::read_to_string(top().join(requirements)).unwrap();
             let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
             let packages = lines.iter().filter(|line| !line.starts_with(' ')).count();

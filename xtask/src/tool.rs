@@ -70,6 +70,26 @@ pub const FUZZERS: &[Tool] = &[
     },
 ];
 
+/// What executes tests and tells of what is undefined.
+pub const MIRI: &[Tool] = &[
+    NIGHTLY,
+    Tool {
+        name: "Miri",
+        probe: Probe("cargo +nightly miri --version", "miri"),
+        installs: Install::Rustup("component add --toolchain nightly miri rust-src"),
+    },
+];
+
+/// What watches memory: a compiler that marks it, and the library that looks at the marks.
+pub const SANITIZER: &[Tool] = &[
+    NIGHTLY,
+    Tool {
+        name: "the address sanitizer",
+        probe: Probe("gcc -print-file-name=libasan.so", "/"),
+        installs: Install::Apt("gcc libc6-dev"),
+    },
+];
+
 /// What tells what the product is made of.
 pub const SUPPLY_CHAIN: &[Tool] = &[Tool {
     name: "cargo-deny",

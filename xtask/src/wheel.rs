@@ -80,7 +80,7 @@ const FOUND: &str = if cfg!(windows) { "_omni_gap.pyd" } else { "_omni_gap.abi3.
 fn smoke() -> Result<(), String> {
     let python = SMOKE.ensure()?;
     Line::of(EXTENSION).announced()?;
-    put_together("debug", PACKAGE)?;
+    put_together(&built().join("debug"), PACKAGE)?;
     let program = || Line::of("").word(built().join("debug/omni-gap")).word("--quiet");
     program().word("demo").word("--out").word(DEMO).announced()?;
     program().word("fleet").word(DEMO).word("--out").word(FLEET).announced()?;
@@ -90,15 +90,15 @@ fn smoke() -> Result<(), String> {
     script.env("PYTHONPATH", PACKAGE).announced()
 }
 
-/// The package as a folder that Python can import, with the extension that was built with a profile.
+/// The package as a folder that Python can import, with the extension that was built in another folder.
 ///
 /// # Errors
 /// What to tell the person.
-pub fn put_together(profile: &str, package: &str) -> Result<(), String> {
+pub fn put_together(extension: &Path, package: &str) -> Result<(), String> {
     let folder = top().join(package).join("omni_gap");
     fresh(&folder)?;
     copied(&top().join("python/omni_gap"), &folder, |file| file.extension().is_some_and(|suffix| suffix == "py"))?;
-    told(package, fs::copy(top().join(built()).join(profile).join(BUILT), folder.join(FOUND))).map(drop)
+    told(package, fs::copy(top().join(extension).join(BUILT), folder.join(FOUND))).map(drop)
 }
 
 fn whole() -> Result<(), String> {

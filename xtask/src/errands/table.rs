@@ -5,7 +5,7 @@
 use std::ffi::OsString;
 
 use super::lines;
-use crate::{api, browser, cluster, dist, images, invented, supply_chain, wheel};
+use crate::{api, browser, cluster, dist, images, invented, notebooks, soundness, supply_chain, wheel};
 
 /// One thing to ask for.
 #[derive(Clone, Copy, Debug)]
@@ -121,6 +121,24 @@ pub const ERRANDS: &[Errand] = &[
         takes: "[smoke]",
         does: "answer 2,000 sessions on a cluster that loses a node, and some in an object store (BLESS=1: rewrite the page)",
         run: cluster::perform,
+    },
+    Errand {
+        name: "notebooks",
+        takes: "[NAME...]",
+        does: "run the notebooks in python/notebooks and compare what they print (BLESS=1: keep it)",
+        run: notebooks::perform,
+    },
+    Errand {
+        name: "miri",
+        takes: "",
+        does: "run tests of the core where whatever is undefined is told",
+        run: soundness::miri,
+    },
+    Errand {
+        name: "sanitizer",
+        takes: "",
+        does: "run the Python package's tests while every access to memory is watched",
+        run: soundness::sanitizer,
     },
     Errand {
         name: "peers",
