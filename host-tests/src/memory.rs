@@ -29,8 +29,9 @@ mod tests {
 
     #[test]
     fn it_is_told_of_this_process_and_not_of_none() {
-        let (held, peak) = (held_memory("self"), peak_memory("self"));
-        assert!(held.is_some_and(|bytes| bytes > 1 << 20) && peak >= held, "{held:?} {peak:?}");
-        assert_eq!((held_memory("none"), peak_memory("none")), (None, None));
+        for told in [held_memory, peak_memory] {
+            assert!(told("self").is_some_and(|bytes| bytes > 1 << 20));
+            assert_eq!(told("none"), None);
+        }
     }
 }
