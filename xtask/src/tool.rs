@@ -80,16 +80,6 @@ pub const MIRI: &[Tool] = &[
     },
 ];
 
-/// What watches memory: a compiler that marks it, and the library that looks at the marks.
-pub const SANITIZER: &[Tool] = &[
-    NIGHTLY,
-    Tool {
-        name: "the address sanitizer",
-        probe: Probe("gcc -print-file-name=libasan.so", "/"),
-        installs: Install::Apt("gcc libc6-dev"),
-    },
-];
-
 /// What tells what the product is made of.
 pub const SUPPLY_CHAIN: &[Tool] = &[Tool {
     name: "cargo-deny",

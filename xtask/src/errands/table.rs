@@ -135,12 +135,6 @@ pub const ERRANDS: &[Errand] = &[
         run: soundness::miri,
     },
     Errand {
-        name: "sanitizer",
-        takes: "",
-        does: "run the Python package's tests while every access to memory is watched",
-        run: soundness::sanitizer,
-    },
-    Errand {
         name: "peers",
         takes: "",
         does: "install the peers that enter the benchmark beside us under target/, and test them",
