@@ -6,6 +6,7 @@
 use std::ffi::OsString;
 use std::fs;
 
+use crate::folder::told;
 use crate::line::{Line, top};
 use crate::tool;
 
@@ -43,9 +44,9 @@ fn as_listed(name: &str) -> Result<(), String> {
     let list = format!("{LISTS}/{name}.txt");
     let at = top().join(&list);
     if std::env::var_os("BLESS").is_some() {
-        return fs::write(&at, now).map_err(|why| format!("{list}: {why}"));
+        return told(&list, fs::write(&at, now));
     }
-    let listed = fs::read_to_string(&at).map_err(|why| format!("{list}: {why}"))?;
+    let listed = told(&list, fs::read_to_string(&at))?;
     match difference(&listed, &now) {
         told if told.is_empty() => Ok(()),
         told => Err(format!("{list} lists something else; where that is meant, BLESS=1 lists it anew:\n{told}")),

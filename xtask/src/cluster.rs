@@ -6,9 +6,10 @@
 use std::ffi::OsString;
 use std::fs;
 
+use crate::folder::told;
 use crate::line::{Line, top};
 use crate::python::Environment;
-use crate::wheel::{EXTENSION, PACKAGE, built, long_or_short, put_together, record};
+use crate::wheel::{PACKAGE, dev_package, long_or_short, put_together, record};
 
 /// Ray, Dask, and a server with the interface of S3.
 pub const ENVIRONMENT: Environment =
@@ -33,15 +34,14 @@ pub fn perform(words: &[OsString]) -> Result<(), String> {
 
 fn smoke() -> Result<(), String> {
     let python = ENVIRONMENT.ensure()?;
-    Line::of(EXTENSION).announced()?;
-    put_together(&built().join("debug"), PACKAGE)?;
+    dev_package()?;
     Line::of("").word(python).word("python/cluster/smoke.py").env("PYTHONPATH", PACKAGE).announced()
 }
 
 fn whole() -> Result<(), String> {
     let python = ENVIRONMENT.ensure()?;
     Line::of("cargo build --release -p omni-gap-python").announced()?;
-    put_together(&built().join("release"), RELEASED)?;
+    put_together("release", RELEASED)?;
     let python = |words: &str| {
         let line = words.split(' ').fold(Line::of("").word(&python), Line::word);
         line.env("PYTHONPATH", RELEASED)
@@ -49,7 +49,7 @@ fn whole() -> Result<(), String> {
     python("-m pytest python/cluster -q -W default").announced()?;
     let page = "target/python/cluster.md";
     python("python/cluster/scale.py").word(SESSIONS).word(page).announced()?;
-    let text = fs::read_to_string(top().join(page)).map_err(|why| format!("{page}: {why}"))?;
+    let text = told(page, fs::read_to_string(top().join(page)))?;
     record(PAGE, &text, "cargo xtask cluster")
 }
 

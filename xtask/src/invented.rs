@@ -7,6 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::clean_copy;
+use crate::folder::{removed, told};
 use crate::line::Line;
 
 /// The list of effects.
@@ -37,13 +38,12 @@ const TESTS: [&str; 2] = ["cargo test -p model-core --lib", "cargo test -p host-
 pub fn perform() -> Result<(), String> {
     let copy = std::env::temp_dir().join(format!("omni-gap-invented-{}", std::process::id()));
     let done = clean_copy::make(&copy).and_then(|()| tried(&copy));
-    let removed = fs::remove_dir_all(&copy);
-    done.and(removed.map_err(|why| format!("{}: {why}", copy.display())))
+    done.and(removed(&copy))
 }
 
 fn tried(copy: &Path) -> Result<(), String> {
-    let write = |path: PathBuf, text: &str| fs::write(&path, text).map_err(|why| format!("{}: {why}", path.display()));
-    let read = |path: &str| fs::read_to_string(copy.join(path)).map_err(|why| format!("{path}: {why}"));
+    let write = |path: PathBuf, text: &str| told(&path.display().to_string(), fs::write(&path, text));
+    let read = |path: &str| told(path, fs::read_to_string(copy.join(path)));
     write(copy.join(FILE), &with_number(read(NUMBERS)?.lines().count() + 1))?;
     let list = read(LIST)?;
     write(copy.join(LIST), &with_lines(&list)?)?;

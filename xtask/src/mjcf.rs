@@ -6,6 +6,7 @@
 use std::fs;
 use std::path::Path;
 
+use crate::folder::told;
 use crate::line::{Line, top};
 
 /// Where all of it goes.
@@ -46,10 +47,10 @@ fn lines(python: &Path, name: &str, most: &str) -> [Line; 3] {
 /// What to tell the person.
 pub fn perform(python: &Path) -> Result<(), String> {
     Line::of(&format!("cargo omni-gap --quiet demo --out {FOLDER}/demo")).announced()?;
-    let robot = fs::read_to_string(top().join(ROBOT)).map_err(|why| format!("{ROBOT}: {why}"))?;
+    let robot = told(ROBOT, fs::read_to_string(top().join(ROBOT)))?;
     for (name, effects, most) in CASES {
         let path = top().join(FOLDER).join(name).with_extension("toml");
-        fs::write(&path, format!("{robot}{CORIOLIS}{effects}")).map_err(|why| format!("{}: {why}", path.display()))?;
+        told(&path.display().to_string(), fs::write(&path, format!("{robot}{CORIOLIS}{effects}")))?;
         lines(python, name, most).iter().try_for_each(Line::announced)?;
     }
     Ok(())

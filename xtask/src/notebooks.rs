@@ -6,7 +6,7 @@ use std::ffi::OsString;
 
 use crate::line::{Line, top};
 use crate::python::Environment;
-use crate::wheel::{EXTENSION, PACKAGE, built, put_together};
+use crate::wheel::{PACKAGE, dev_package};
 
 /// What runs them, and what they use.
 pub const ENVIRONMENT: Environment =
@@ -22,8 +22,7 @@ const NOTEBOOKS: [&str; 3] = ["csv_to_answer", "design_an_experiment", "enter_th
 pub fn perform(words: &[OsString]) -> Result<(), String> {
     let asked = asked(words)?;
     let python = ENVIRONMENT.ensure()?;
-    Line::of(EXTENSION).announced()?;
-    put_together(&built().join("debug"), PACKAGE)?;
+    dev_package()?;
     let script = Line::of("").word(python).word("python/tests/notebooks.py");
     let script = asked.iter().fold(script, |line, name| line.word(format!("python/notebooks/{name}.ipynb")));
     let package = top().join(PACKAGE).to_string_lossy().into_owned();

@@ -46,9 +46,8 @@ pub fn checked() -> Result<Advisories, String> {
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use std::collections::BTreeSet;
+    use std::fs;
 
     use toml::{Table, Value};
 

@@ -14,7 +14,7 @@ use crate::line::{Line, top};
 use package::{Packages, SMOKE, TEST};
 
 /// All libraries and the command, with the features that the tests are built with: after them, little of it is left to build.
-pub const EXTENSION: &str = "cargo build --workspace --lib --bin omni-gap --test walls";
+const EXTENSION: &str = "cargo build --workspace --lib --bin omni-gap --test walls";
 
 /// Where the package is put together from that extension and its Python files.
 pub const PACKAGE: &str = "target/python/package";
@@ -79,8 +79,7 @@ const FOUND: &str = if cfg!(windows) { "_omni_gap.pyd" } else { "_omni_gap.abi3.
 
 fn smoke() -> Result<(), String> {
     let python = SMOKE.ensure()?;
-    Line::of(EXTENSION).announced()?;
-    put_together(&built().join("debug"), PACKAGE)?;
+    dev_package()?;
     let program = || Line::of("").word(built().join("debug/omni-gap")).word("--quiet");
     program().word("demo").word("--out").word(DEMO).announced()?;
     program().word("fleet").word(DEMO).word("--out").word(FLEET).announced()?;
@@ -90,15 +89,24 @@ fn smoke() -> Result<(), String> {
     script.env("PYTHONPATH", PACKAGE).announced()
 }
 
-/// The package as a folder that Python can import, with the extension that was built in another folder.
+/// The package with the extension of a dev build, in [`PACKAGE`].
 ///
 /// # Errors
 /// What to tell the person.
-pub fn put_together(extension: &Path, package: &str) -> Result<(), String> {
+pub fn dev_package() -> Result<(), String> {
+    Line::of(EXTENSION).announced()?;
+    put_together("debug", PACKAGE)
+}
+
+/// The package as a folder that Python can import, with the extension that was built with a profile.
+///
+/// # Errors
+/// What to tell the person.
+pub fn put_together(profile: &str, package: &str) -> Result<(), String> {
     let folder = top().join(package).join("omni_gap");
     fresh(&folder)?;
     copied(&top().join("python/omni_gap"), &folder, |file| file.extension().is_some_and(|suffix| suffix == "py"))?;
-    told(package, fs::copy(top().join(extension).join(BUILT), folder.join(FOUND))).map(drop)
+    told(package, fs::copy(top().join(built()).join(profile).join(BUILT), folder.join(FOUND))).map(drop)
 }
 
 fn whole() -> Result<(), String> {

@@ -1,4 +1,4 @@
-//! # Place: where all of it is made, under `target/dist`
+//! # Place: where all of it is made
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use crate::folder::told;
 use crate::line::Line;
 use crate::wheel::package::unmarked;
 
-/// What is handed out.
+/// Where that is put which is handed out.
 pub const OUT: &str = "target/dist/out";
 
 /// The clean copy of the commit. It is outside of the tree, whose own settings cargo would find above it.
