@@ -81,3 +81,21 @@ fn coriolis_terms_of_a_robot_whose_mass_does_not_all_turn_have_their_share() {
     let factor = &report.which[0].parameters["factor"];
     assert!((factor.value - 0.4).abs() < 3.0 * factor.std.expect("fitted") + 0.01, "{factor:?}");
 }
+
+/// Radius and distance of all wheels can imitate a camera that measures too short, if both are off by many stated sigmas.
+#[test]
+fn a_scale_of_the_camera_is_named_though_numbers_far_from_what_is_stated_predict_as_well() {
+    let (session, label) =
+        Case { suite: Suite::Life, number: 185, seed: 7_517_567_691_400_772_304, fresh: false }.made();
+    assert_eq!(label.hidden[0].cause, "camera_scale");
+    assert_eq!(named(&answered(&session)), ["camera_scale"]);
+}
+
+/// A load that swings is in no catalogue. A friction predicts a few lucky windows better, which is no reason to name it.
+#[test]
+fn a_number_that_predicts_better_by_chance_alone_is_not_named() {
+    let (session, label) =
+        Case { suite: Suite::Open, number: 16, seed: 4_590_677_401_489_147_919, fresh: false }.made();
+    assert_eq!(label.foreign.as_deref(), Some("swinging_load"));
+    assert_eq!(answered(&session).verdict, Verdict::Unknown);
+}

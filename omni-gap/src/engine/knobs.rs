@@ -157,6 +157,9 @@ pub struct SearchKnobs {
     /// Of one channel, since what shows in the poses alone, or on one wheel, is not made smaller by what else was logged. What a
     /// record shows event by event need not: it was counted.
     pub relevant: f64,
+    /// Where no effect is known, one that takes so much off what the robot's numbers cost by what is stated of them is as
+    /// relevant [σ²]: without it they predict as well, but one would be 5 of its stated sigmas off.
+    pub unbelievable: f64,
     /// A further effect has to take this share off what the first causes left of one channel [1]. By trial.
     pub relevant_further: f64,
     /// Score within which two causes are not told apart [1]: a likelihood ratio of e⁴ at the most. No window counts for more.
@@ -306,6 +309,7 @@ impl Default for SearchKnobs {
             convincing_number: 3.6,
             convincing_further_number: 2.3,
             relevant: 0.01,
+            unbelievable: 25.0,
             relevant_further: 0.05,
             tie: 8.0,
             tie_errors: 2.0,

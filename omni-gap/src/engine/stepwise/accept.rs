@@ -38,7 +38,10 @@ pub(super) fn convincing<const N: usize>(
     let (base, scale) = (&ranking.base, ranking.scale);
     let numbers = best.cause.freedom(prior);
     let (gain, _) = best.scored.better_than(base, scale);
-    if gain < asked_of(&best.cause, numbers, beside, knobs) {
+    let sure = best.scored.surely_better_than(base, scale, knobs);
+    // of what predicts better by chance only what was stated counts
+    let by_chance = if sure { 0.0 } else { (base.held() - best.scored.held()).max(0.0) / scale };
+    if gain - by_chance < asked_of(&best.cause, numbers, beside, knobs) {
         return false;
     }
     let Cause::Effect(card, _) = best.cause else {
@@ -46,8 +49,10 @@ pub(super) fn convincing<const N: usize>(
         return !beside.causes || beside.numbers_alone || best.scored.share_taken(base) > knobs.relevant;
     };
     let least = if beside.causes { knobs.relevant_further } else { knobs.relevant };
-    (best.scored.share_taken(base) > least || card.shows_event_by_event())
-        && best.scored.surely_better_than(base, scale, knobs)
+    // what an effect is not quite right about is put on numbers beside it: that another spares them says nothing
+    let spares = (!beside.causes || beside.numbers_alone) && base.stated - best.scored.stated > knobs.unbelievable;
+    (best.scored.share_taken(base) > least || spares || card.shows_event_by_event())
+        && sure
         && has_size(best, prior, knobs.size_errors)
 }
 
