@@ -44,16 +44,16 @@ pub(super) fn convincing<const N: usize>(
     if gain - by_chance < asked_of(&best.cause, numbers, beside, knobs) {
         return false;
     }
+    let no_effect = !beside.causes || beside.numbers_alone;
+    let taken = best.scored.share_taken(base);
     let Cause::Effect(card, _) = best.cause else {
         // what was stated is data too: where no effect is known, a parameter need not predict better, only be more believable
-        return !beside.causes || beside.numbers_alone || best.scored.share_taken(base) > knobs.relevant;
+        return no_effect || taken > knobs.relevant;
     };
     let least = if beside.causes { knobs.relevant_further } else { knobs.relevant };
     // what an effect is not quite right about is put on numbers beside it: that another spares them says nothing
-    let spares = (!beside.causes || beside.numbers_alone) && base.stated - best.scored.stated > knobs.unbelievable;
-    (best.scored.share_taken(base) > least || spares || card.shows_event_by_event())
-        && sure
-        && has_size(best, prior, knobs.size_errors)
+    let spares = no_effect && base.stated - best.scored.stated > knobs.unbelievable;
+    (taken > least || spares || card.shows_event_by_event()) && sure && has_size(best, prior, knobs.size_errors)
 }
 
 /// By how much a cause has to better the score.
