@@ -1,12 +1,9 @@
 //! The gap: errors of free runs restarted every horizon, in units of the sensors' sigma.
 
 use model_core::plant::Plant;
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use crate::simulate::{AlignedRun, FreeRun, HORIZON_S, MAX_CHANNELS, PerGroup, Row, RowPassed, SignalGroup, predict};
+use crate::simulate::{AlignedRun, HORIZON_S, PerGroup, SignalGroup, predict};
 
 /// Lengths between restarts of the horizon curves [s]
 pub const HORIZONS_S: [f64; 5] = [0.1, 0.25, HORIZON_S, 1.0, 2.0];
@@ -28,6 +25,14 @@ fn rms(sums: &PerGroup<(f64, f64)>) -> (PerGroup<Option<f64>>, f64) {
 }
 
 impl Measured {
+    /// Both together, window by window, of recordings of the same windows.
+    pub(super) fn and(mut self, other: Self) -> Self {
+        for (sum, part) in self.windows.iter_mut().flatten().zip(other.windows.iter().flatten()) {
+            *sum = (sum.0 + part.0, sum.1 + part.1);
+        }
+        self
+    }
+
     fn sums(&self, pick: impl Iterator<Item = usize>) -> PerGroup<(f64, f64)> {
         let mut sums = [(0.0, 0.0); SignalGroup::COUNT];
         for k in pick {
@@ -79,62 +84,22 @@ pub fn measure<const N: usize>(plant: &Plant<N, f64>, runs: &[&AlignedRun<N>], h
     Measured { windows: per_run.into_iter().flatten().collect() }
 }
 
-/// Seed of the noise of simulated runs.
-pub const FLOOR_SEED: u64 = 20_080_511;
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// What the protocol would measure if the model were the truth: the same runs, simulated from it with the sensors' noise.
-pub fn floor<const N: usize>(plant: &Plant<N, f64>, runs: &[&AlignedRun<N>], horizon: f64) -> Measured {
-    measure(plant, &replayed(plant, runs, FLOOR_SEED).iter().collect::<Vec<_>>(), horizon)
-}
-
-/// The runs, simulated from a model with the sensors' noise.
-pub(super) fn replayed<const N: usize>(
-    plant: &Plant<N, f64>,
-    runs: &[&AlignedRun<N>],
-    seed: u64,
-) -> Vec<AlignedRun<N>> {
-    let replayed = |(k, run): (usize, &&AlignedRun<N>)| replay(FreeRun::new(plant, run), seed.wrapping_add(k as u64));
-    runs.par_iter().enumerate().map(replayed).collect()
-}
-
-/// A run of the same input and the same holes as that which a plant is about to go along, as the plant says it.
-pub(super) fn quiet<const N: usize>(mut on_the_way: FreeRun<'_, N, f64>) -> AlignedRun<N> {
-    let run = on_the_way.run();
-    let mut quiet = run.clone();
-    let each = |row: usize, passed: &RowPassed<N, f64>| quiet.measured[row] = run.row_of(passed);
-    on_the_way.drive(0..run.rows(), &[0], |row| run.input(row), each);
-    quiet
-}
-
-/// The same with the sensors' noise: of its sigma, and with its memory.
-///
-/// ```text
-/// n_k = ρ·n_{k−1} + σ·√(1 − ρ²)·e_k,  ρ = e^(−Δt/τ)
-/// ```
-pub fn replay<const N: usize>(on_the_way: FreeRun<'_, N, f64>, seed: u64) -> AlignedRun<N> {
-    // a stream for each channel: one more of them changes nothing of the others
-    let stream = |channel: usize| {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        random.set_stream(channel as u64);
-        random
-    };
-    let mut random: Vec<ChaCha8Rng> = (0..AlignedRun::<N>::channels().count()).map(stream).collect();
-    let mut replayed = quiet(on_the_way);
-    let mut noise: Option<Row> = None;
-    for row in 0..replayed.rows() {
-        let mut now = [0.0; MAX_CHANNELS];
-        for (c, random) in random.iter_mut().enumerate() {
-            let fresh: f64 = StandardNormal.sample(random);
-            now[c] = match noise {
-                Some(before) if replayed.correlation_time[c] > 0.0 => {
-                    let ratio = (replayed.t[row] - replayed.t[row - 1]) / replayed.correlation_time[c];
-                    (-ratio).exp() * before[c] + (-(-2.0 * ratio).exp_m1()).sqrt() * fresh
-                }
-                _ => fresh,
+    #[test]
+    fn recordings_of_the_same_windows_have_the_mean_of_their_squares() {
+        let of = |errors: [f64; 2]| {
+            let window = |error: f64| {
+                let mut sums = [(0.0, 0.0); SignalGroup::COUNT];
+                sums[SignalGroup::Pose as usize] = (4.0 * error * error, 4.0);
+                sums
             };
-            replayed.measured[row][c] += replayed.sigma[c] * now[c];
-        }
-        noise = Some(now);
+            Measured { windows: errors.map(window).to_vec() }
+        };
+        let both = of([1.0, 2.0]).and(of([3.0, 2.0]));
+        assert!((both.total() - (18.0_f64 / 4.0).sqrt()).abs() < 1e-12);
+        assert!((both.total_of(&[0]) - 5.0_f64.sqrt()).abs() < 1e-12);
     }
-    replayed
 }

@@ -9,7 +9,7 @@
 use model_core::plant::{Input, Plant};
 use rayon::prelude::*;
 
-use super::gap::{FLOOR_SEED, replayed};
+use super::floor::{FLOOR_SEED, replayed};
 use crate::simulate::{AlignedRun, Row, SignalGroup, free_run};
 
 /// A link between two measured signals.

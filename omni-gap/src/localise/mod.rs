@@ -5,12 +5,14 @@
 //! ([`shape`]). [`validation`] lays whole free runs over what was
 //! measured, signal by signal.
 
+mod floor;
 mod gap;
 mod links;
 mod regime;
 pub mod shape;
 pub mod validation;
 
-pub use gap::{FLOOR_SEED, HORIZONS_S, Measured, floor, measure, replay};
+pub use floor::{FLOOR_SEED, floor, replay};
+pub use gap::{HORIZONS_S, Measured, measure};
 pub use links::{Link, Links, links};
 pub use regime::{Hotspot, RegimeSettings, regimes};

@@ -13,7 +13,7 @@ use super::order::Beats;
 use super::residual::Residuals;
 use super::settings::ShapeSettings;
 use super::window::{MODELS, Window};
-use crate::localise::gap::quiet;
+use crate::localise::floor::quiet;
 use crate::localise::links::by_speeds;
 use crate::simulate::{AlignedRun, Chain, FreeRun, Prediction, Row, SignalGroup, predict};
 
