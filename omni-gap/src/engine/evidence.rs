@@ -105,6 +105,13 @@ impl<const N: usize> Runs<N> {
         if fit.iter().chain(&held).all(|run| run.has.iter().all(|has| *has == 0)) {
             return Err(NOTHING_TO_COMPARE);
         }
+        let holes: usize = fit.iter().chain(&held).map(|run| run.resumes.len()).sum();
+        if holes > 0 {
+            notices.push(format!(
+                "in {holes} place(s) rows were lost over which the command changed: what drove the robot meanwhile is not known, and \
+                 free runs begin anew behind each"
+            ));
+        }
         if fit[0].chain != Chain::Voltage {
             notices.push(format!("no usable voltage: the model is driven by {}", fit[0].chain.said()));
         }

@@ -23,11 +23,21 @@ pub const WINDOW_S: f64 = HORIZON_S;
 pub struct Windows(Vec<usize>);
 
 impl Windows {
-    /// Windows of `horizon` [s]; a last one shorter than half of that joins the one before.
+    /// Windows of `horizon` [s], and one more wherever the driving signal is known again; those shorter than half of that join
+    /// one beside them, but none goes on over what is not known.
     pub fn new<const N: usize>(run: &AlignedRun<N>, horizon: f64) -> Self {
         let mut rows = run.restart_rows(horizon);
-        if rows.len() > 1 && run.t[run.rows() - 1] - run.t[rows[rows.len() - 1]] < 0.5 * horizon {
-            rows.pop();
+        let near = |a: usize, b: usize| (run.t[a] - run.t[b]).abs() < 0.5 * horizon;
+        let (first, last) = (rows.first().copied(), run.rows().saturating_sub(1));
+        rows.retain(|row| {
+            let by_the_grid = Some(*row) != first && run.resumes.binary_search(row).is_err();
+            !(by_the_grid && (near(*row, last) || run.resumes.iter().any(|resumes| near(*row, *resumes))))
+        });
+        // before the first row that is compared the driving signal may not be known
+        if let [first, second, ..] = rows[..]
+            && (first..second).all(|row| run.has[row] == 0)
+        {
+            rows.remove(0);
         }
         rows.push(run.rows());
         Self(rows)

@@ -81,6 +81,7 @@ mod tests {
             chain: Chain::Voltage,
             input: Vec::new(),
             open: Vec::new(),
+            resumes: Vec::new(),
             driven: Vec::new(),
             measured: Vec::new(),
             has: Vec::new(),

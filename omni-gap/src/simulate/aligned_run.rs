@@ -12,6 +12,7 @@ use model_core::plant::Input;
 
 use super::channels::{Channels, MAX_CHANNELS, Row, SignalGroup};
 use super::losses::Losses;
+use super::lost_rows::LostRows;
 use super::model::robot_of;
 use super::open_circuit::open_circuit_voltage;
 use super::row_passed::RowPassed;
@@ -45,6 +46,8 @@ pub struct AlignedRun<const N: usize> {
     pub input: Vec<[f64; N]>,
     /// Whether the row is one of the driving signal's clock; on others something was measured by another clock
     pub driven: Vec<bool>,
+    /// The rows at which the driving signal is known again after rows that were lost, in which it changed: free runs begin anew
+    pub resumes: Vec<usize>,
     /// Whether each wheel's bridge is open, row by row: then no current flows, whatever the driving signal says
     pub open: Vec<[bool; N]>,
     /// What was measured; only where [`AlignedRun::has`] says so
@@ -133,6 +136,17 @@ impl<const N: usize> AlignedRun<N> {
             }
         }
 
+        let open: Vec<[bool; N]> = run.open_bridges()[span.clone()].to_vec();
+        let told = |row: &usize| {
+            let mut wheels = driving.channels.iter().zip(open[*row]);
+            wheels.all(|(channel, open)| open || channel.get(row + span.start).is_ok())
+        };
+        let commanded: Vec<usize> = driving_rows.iter().copied().filter(told).collect();
+        let lost = match chain {
+            Chain::WheelSpeed => LostRows::default(),
+            Chain::Voltage | Chain::Current | Chain::SetSpeed => LostRows::of(&t, &commanded, &input),
+        };
+
         let channels = Self::channels();
         let mut measured = vec![[0.0; MAX_CHANNELS]; rows];
         let mut has = vec![0_u16; rows];
@@ -162,6 +176,7 @@ impl<const N: usize> AlignedRun<N> {
         }
         put(SignalGroup::Pose, signals_of(&run.pose), &here);
         put(SignalGroup::Gyro, run.gyro.as_slice(), &here);
+        lost.unknown.iter().for_each(|rows| has[rows.clone()].fill(0));
 
         // quantisation adds its own variance, q²/12
         let noisy = |sigma: f64, group: &Option<Group>| {
@@ -205,7 +220,8 @@ impl<const N: usize> AlignedRun<N> {
             dt,
             chain,
             input,
-            open: run.open_bridges()[span].to_vec(),
+            resumes: lost.resumes,
+            open,
             driven,
             measured,
             has,
@@ -229,6 +245,7 @@ impl<const N: usize> AlignedRun<N> {
             input: self.input[rows.clone()].to_vec(),
             open: self.open[rows.clone()].to_vec(),
             driven: self.driven[rows.clone()].to_vec(),
+            resumes: self.resumes.iter().filter(|row| rows.contains(row)).map(|row| row - rows.start).collect(),
             measured: self.measured[rows.clone()].to_vec(),
             has: self.has[rows.clone()].to_vec(),
             turned: self.turned.get(rows.clone()).unwrap_or_default().to_vec(),
@@ -246,6 +263,7 @@ impl<const N: usize> AlignedRun<N> {
             input: Vec::new(),
             open: Vec::new(),
             driven: Vec::new(),
+            resumes: Vec::new(),
             measured: Vec::new(),
             has: Vec::new(),
             turned: Vec::new(),
@@ -257,12 +275,6 @@ impl<const N: usize> AlignedRun<N> {
     /// The channels' order.
     pub const fn channels() -> Channels {
         Channels { wheels: N }
-    }
-
-    /// The rows at which windows of `horizon` [s] begin: the first of the driving signal at or after each t₀ + k·H.
-    pub fn restart_rows(&self, horizon: f64) -> Vec<usize> {
-        let driven = (0..self.rows()).filter(|row| self.driven[*row]);
-        starts_of_windows(driven.map(|row| (row, self.t[row])), horizon)
     }
 
     /// How many rows it has.
@@ -350,27 +362,4 @@ impl<const N: usize> AlignedRun<N> {
 #[inline]
 pub fn within_half_turn(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
-}
-
-fn starts_of_windows(rows: impl Iterator<Item = (usize, f64)>, horizon: f64) -> Vec<usize> {
-    let mut starts = Vec::new();
-    let mut next = 0.0;
-    for (row, time) in rows {
-        if time >= next - 1e-9 {
-            starts.push(row);
-            next = ((time + 1e-9) / horizon).floor() * horizon + horizon;
-        }
-    }
-    starts
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_restart_row_belongs_to_the_new_window_and_a_late_row_does_not_shift_the_grid() {
-        let t = [0.0, 0.2, 0.4, 0.5, 0.9, 1.1, 1.4, 1.5];
-        assert_eq!(starts_of_windows(t.into_iter().enumerate(), 0.5), [0, 3, 5, 7]);
-    }
 }

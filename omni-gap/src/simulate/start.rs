@@ -99,7 +99,10 @@ pub(super) fn begins_known<const N: usize>(run: &AlignedRun<N>, row: usize) -> b
 /// The smoothed measurement at a row.
 pub fn start_at<const N: usize>(run: &AlignedRun<N>, row: usize) -> Start<N> {
     let (t, channels) = (&run.t, AlignedRun::<N>::channels());
-    let channel = |c: usize, half: f64| smooth(t, row, half, move |k| run.saw(k, c).then(|| run.measured[k][c]));
+    // what moved the robot in between is not known: it may have been jerked
+    let stretch = &run.stretch(row);
+    let saw = move |k: usize, c: usize| stretch.contains(&k) && run.saw(k, c);
+    let channel = |c: usize, half: f64| smooth(t, row, half, move |k| saw(k, c).then(|| run.measured[k][c]));
     let mut wheel_speed = Some([0.0; N]);
     let mut prolonged = false;
     for j in 0..N {
