@@ -1,23 +1,21 @@
 //! Logs that lack rows: what drove the robot meanwhile is not known, and is neither taken for a gap nor hides one.
 
+use host_tests::laboratory::through_files::answered;
 use host_tests::withheld::label::Suite;
 use host_tests::withheld::suites::Case;
+use omni_gap::Verdict;
 use omni_gap::report::Report;
-use omni_gap::{Options, Verdict, diagnose, known_effects};
 
 /// What is answered to a session of the benchmark's tuning split, of which one row in sixty is lost, 50 rows a second.
-fn answered(suite: Suite, number: usize, seed: u64) -> Report {
+fn answer_to(suite: Suite, number: usize, seed: u64) -> Report {
     let (recorded, label) = Case { suite, number, seed, fresh: false }.made();
     assert!(label.about["lost_rows"].parse::<f64>().is_ok_and(|share| share > 0.01) && label.about["rate_hz"] == "50");
-    let folder = tempfile::tempdir().expect("a folder");
-    recorded.write(folder.path()).expect("room");
-    let session = omni_gap::Session::load(folder.path(), None, &known_effects()).expect("a session");
-    diagnose(&session, &Options::default())
+    answered(&recorded).expect("an answer")
 }
 
 #[test]
 fn a_robot_that_lacks_nothing_is_no_gap_though_its_log_lost_rows_in_which_it_was_told_otherwise() {
-    let report = answered(Suite::NoGap, 65, 3_873_906_953_345_276_017);
+    let report = answer_to(Suite::NoGap, 65, 3_873_906_953_345_276_017);
     assert_eq!(report.verdict, Verdict::NoGap);
     let told = report.notices.iter().find(|notice| notice.contains("rows were lost over which the command changed"));
     assert!(told.is_some_and(|notice| notice.starts_with("in 4 place(s)")), "{:?}", report.notices);
@@ -25,7 +23,7 @@ fn a_robot_that_lacks_nothing_is_no_gap_though_its_log_lost_rows_in_which_it_was
 
 #[test]
 fn an_effect_is_named_though_its_log_lost_rows() {
-    let report = answered(Suite::Life, 122, 12_528_583_974_135_252_217);
+    let report = answer_to(Suite::Life, 122, 12_528_583_974_135_252_217);
     assert_eq!(report.causes, ["asymmetric_friction"]);
     assert_eq!(report.which[0].wheel, Some(1));
 }

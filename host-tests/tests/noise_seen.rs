@@ -5,8 +5,9 @@ use ground_truth::logging::Logging;
 use ground_truth::recording::{Plan, Session};
 use ground_truth::robot_file::{Noise, RobotFile};
 use host_tests::laboratory::cases::PLAN;
+use host_tests::laboratory::through_files::answered;
+use omni_gap::Verdict;
 use omni_gap::report::Report;
-use omni_gap::{Options, Verdict, diagnose, known_effects};
 
 /// The paper's robot, its sensors so many times as noisy as its file says, with this memory [s].
 fn diagnosed(factor: Noise, memory: Noise, hidden: Option<&str>) -> Report {
@@ -17,10 +18,7 @@ fn diagnosed(factor: Noise, memory: Noise, hidden: Option<&str>) -> Report {
     }
     let plan = Plan { duration: 4.0, ..PLAN };
     let logging = Logging { noise_factor: factor, correlation: memory, ..Logging::clean() };
-    let folder = tempfile::tempdir().expect("a folder");
-    Session::logged((&file, &setup), &plan, &logging, 11).write(folder.path()).expect("room");
-    let session = omni_gap::Session::load(folder.path(), None, &known_effects()).expect("a session");
-    diagnose(&session, &Options::default())
+    answered(&Session::logged((&file, &setup), &plan, &logging, 11)).expect("an answer")
 }
 
 const LOUD: Noise = Noise { current: 2.0, wheel_speed: 2.4, position: 0.5, heading: 1.0, gyro: 1.0 };

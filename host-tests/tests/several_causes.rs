@@ -5,10 +5,11 @@ use ground_truth::logging::Logging;
 use ground_truth::recording::{Plan, Session};
 use ground_truth::robot_file::RobotFile;
 use host_tests::laboratory::cases::PLAN;
+use host_tests::laboratory::through_files::answered;
 use host_tests::withheld::label::Suite;
 use host_tests::withheld::suites::Case;
+use omni_gap::Verdict;
 use omni_gap::report::Report;
-use omni_gap::{Options, Verdict, diagnose, known_effects};
 
 /// What is hidden in the paper's robot: causes, and how many times what is typical of each.
 fn diagnosed(hidden: &[(&str, f64)]) -> Report {
@@ -18,17 +19,7 @@ fn diagnosed(hidden: &[(&str, f64)]) -> Report {
         (cause(id).expect("a cause").put)(&mut setup, None, *times);
     }
     let plan = Plan { duration: 4.0, ..PLAN };
-    answered(&Session::logged((&file, &setup), &plan, &Logging::clean(), 11))
-}
-
-/// What is answered to a recorded session, through its files.
-fn answered(recorded: &Session) -> Report {
-    let folder = tempfile::tempdir().expect("a folder");
-    recorded.write(folder.path()).expect("room");
-    let session = omni_gap::Session::load(folder.path(), None, &known_effects()).expect("a session");
-    let report = diagnose(&session, &Options::default());
-    assert_eq!(report.violations(), [""; 0]);
-    report
+    answered(&Session::logged((&file, &setup), &plan, &Logging::clean(), 11)).expect("an answer")
 }
 
 fn named(report: &Report) -> Vec<&str> {
@@ -58,7 +49,7 @@ fn a_mass_that_is_a_tenth_off_is_told_by_what_is_stated_of_all_that_goes_with_it
     let (session, label) =
         Case { suite: Suite::Laboratory, number: 240, seed: 15_888_145_756_125_126_740, fresh: false }.made();
     assert_eq!(label.hidden[0].cause, "mass");
-    let report = answered(&session);
+    let report = answered(&session).expect("an answer");
     assert_eq!(named(&report), ["mass"]);
     let mass = &report.which[0].parameters["mass_kg"];
     let (truth, std) = (7.791, mass.std.expect("fitted"));
@@ -88,7 +79,7 @@ fn a_scale_of_the_camera_is_named_though_numbers_far_from_what_is_stated_predict
     let (session, label) =
         Case { suite: Suite::Life, number: 185, seed: 7_517_567_691_400_772_304, fresh: false }.made();
     assert_eq!(label.hidden[0].cause, "camera_scale");
-    assert_eq!(named(&answered(&session)), ["camera_scale"]);
+    assert_eq!(named(&answered(&session).expect("an answer")), ["camera_scale"]);
 }
 
 /// A load that swings is in no catalogue. A friction predicts a few lucky windows better, which is no reason to name it.
@@ -97,5 +88,5 @@ fn a_number_that_predicts_better_by_chance_alone_is_not_named() {
     let (session, label) =
         Case { suite: Suite::Open, number: 16, seed: 4_590_677_401_489_147_919, fresh: false }.made();
     assert_eq!(label.foreign.as_deref(), Some("swinging_load"));
-    assert_eq!(answered(&session).verdict, Verdict::Unknown);
+    assert_eq!(answered(&session).expect("an answer").verdict, Verdict::Unknown);
 }

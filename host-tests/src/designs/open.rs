@@ -11,9 +11,10 @@ use ground_truth::recording::{Plan, Session as Recorded};
 use ground_truth::setup::Setup;
 use omni_gap::api::{DesignKnobs, Designed, next};
 use omni_gap::error::Result;
-use omni_gap::{Options, Report, Session, known_effects};
+use omni_gap::{Options, Report, Session};
 
-use crate::laboratory::cases::{self, not_written};
+use crate::laboratory::cases;
+use crate::laboratory::through_files::read;
 
 /// How it is recorded: short, everyday driving; the voltage is for a supply of 12 V.
 pub const PLAN: Plan = Plan { runs: 2, duration: 4.0, rate: 100.0, style: Style::Everyday, ..cases::PLAN };
@@ -116,10 +117,4 @@ pub fn in_question(report: &Report) -> Vec<String> {
         Some(entry) => std::iter::once(&entry.cause).chain(&entry.not_told_apart_from).cloned().collect(),
         None => named.map(|entry| entry.cause.clone()).collect(),
     }
-}
-
-fn read(recorded: &Recorded) -> Result<Session> {
-    let folder = tempfile::tempdir().map_err(|why| not_written(&std::env::temp_dir(), &why))?;
-    recorded.write(folder.path()).map_err(|why| not_written(folder.path(), &why))?;
-    Session::load(folder.path(), None, &known_effects())
 }

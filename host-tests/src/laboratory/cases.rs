@@ -7,11 +7,12 @@ use ground_truth::causes::{CAUSES, Cause};
 use ground_truth::driving::Style;
 use ground_truth::recording::{Plan, Session as Recorded};
 use ground_truth::robot_file::RobotFile;
-use omni_gap::error::{Error, Result};
+use omni_gap::error::Result;
 use omni_gap::log::Session;
 use omni_gap::report::Report;
 use omni_gap::{Options, diagnose, known_effects};
 
+use super::through_files::not_written;
 use crate::catalogue::outcome::{Judgement, judge_cause};
 
 /// Runs, length [s], rows a second, frames of the camera a second, largest voltage [V].
@@ -114,14 +115,6 @@ impl LaboratoryCase {
     pub fn diagnosed(self) -> Result<LaboratoryOutcome> {
         let folder = tempfile::tempdir().map_err(|why| not_written(&std::env::temp_dir(), &why))?;
         self.diagnosed_in(folder.path())
-    }
-}
-
-pub(crate) fn not_written(path: &Path, why: &std::io::Error) -> Error {
-    Error::Output {
-        path: path.to_owned(),
-        reason: why.to_string(),
-        fix: "Make room, or choose another folder".to_owned(),
     }
 }
 

@@ -6,3 +6,4 @@
 
 pub mod cases;
 pub mod page;
+pub mod through_files;

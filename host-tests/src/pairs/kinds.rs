@@ -5,10 +5,11 @@ use ground_truth::drawn::Drawn;
 use ground_truth::drawn_robot::DrawnRobot;
 use ground_truth::recording::{Plan, Session as Recorded};
 use ground_truth::setup::Setup;
+use omni_gap::Session;
 use omni_gap::error::Result;
-use omni_gap::{Session, known_effects};
 
-use crate::laboratory::cases::{self, not_written};
+use crate::laboratory::cases;
+use crate::laboratory::through_files::read;
 
 /// What differs between two sessions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,12 +97,7 @@ pub fn recorded(kind: PairKind, seed: u64, plan: &Plan) -> Result<RecordedPair> 
     let (changed, change) = put(kind, &plain, wheel, times);
     let in_a = !seed.is_multiple_of(2);
     let plan = Plan { voltage: plan.voltage * robot.truth.supply / SUPPLY_V, ..*plan };
-    let session = |setup: &Setup, seed: u64| -> Result<Session> {
-        let folder = tempfile::tempdir().map_err(|why| not_written(&std::env::temp_dir(), &why))?;
-        let recorded = Recorded::of(&robot.file, setup, &plan, seed);
-        recorded.write(folder.path()).map_err(|why| not_written(folder.path(), &why))?;
-        Session::load(folder.path(), None, &known_effects())
-    };
+    let session = |setup: &Setup, seed: u64| read(&Recorded::of(&robot.file, setup, &plan, seed));
     let (of_a, of_b) = if in_a { (&changed, &plain) } else { (&plain, &changed) };
     Ok(RecordedPair {
         a: session(of_a, seed)?,

@@ -1,11 +1,9 @@
 //! The reduced split in the test command: forty sessions, recorded and answered anew, and how many have to be right.
 
+use std::path::Path;
 use std::time::Instant;
 
 use omni_gap::error::{Error, Result};
-use omni_gap::known_effects;
-use omni_gap::log::Session;
-use omni_gap::{Options, diagnose};
 use rayon::prelude::*;
 
 use super::answer::Answer;
@@ -13,6 +11,7 @@ use super::contestant::Ended;
 use super::label::Suite;
 use super::scored::Scored;
 use super::suites::{Case, REDUCED, cases};
+use crate::laboratory::through_files;
 
 /// The seed of the reduced split.
 pub const REDUCED_SEED: u64 = 2009;
@@ -44,17 +43,10 @@ pub fn answered(told: &(dyn Fn(&Scored) + Sync)) -> Result<Vec<Scored>> {
 
 fn answer_of(case: &Case) -> Result<Scored> {
     let (session, label) = case.made();
-    let room = |why: std::io::Error| Error::output(std::path::Path::new("."), why.to_string(), "Make room");
-    let folder = tempfile::tempdir().map_err(room)?;
-    session.write(folder.path()).map_err(room)?;
     let start = Instant::now();
-    let report = diagnose(&Session::load(folder.path(), None, &known_effects())?, &Options::default());
+    let report = through_files::answered(&session)?;
     let ended = Ended { failed: None, seconds: start.elapsed().as_secs_f64(), megabytes: 0.0 };
-    let broken = |why: String| Error::input(folder.path(), why, "Mend the report");
-    let against = report.violations();
-    if !against.is_empty() {
-        return Err(broken(format!("{}: {}", case.name(), against.join("; "))));
-    }
+    let broken = |why: String| Error::input(Path::new(&case.name()), why, "Mend the report");
     let text = report.to_json().map_err(|why| broken(why.to_string()))?;
     Ok(Scored { label, ended, answer: Some(Answer::parse(&text).map_err(broken)?), closed: None })
 }

@@ -212,6 +212,7 @@ mod tests {
     use ground_truth::unrest::{Forces, Unrest};
 
     use super::*;
+    use crate::laboratory::through_files;
 
     #[test]
     fn no_two_sessions_share_a_seed_or_a_name_and_splits_share_none() {
@@ -323,10 +324,7 @@ mod tests {
         assert!(session.runs.iter().all(|(_, text)| text.contains("wset0_rad_s") && !text.contains("u0_V")));
         // one whose file is silent, and one whose file knows
         for number in [0, 3] {
-            let folder = tempfile::tempdir().expect("a folder");
-            of(number).made().0.write(folder.path()).expect("room");
-            let read =
-                omni_gap::log::Session::load(folder.path(), None, &omni_gap::known_effects()).expect("a session");
+            let read = through_files::read(&of(number).made().0).expect("a session");
             assert_eq!(read.robot.effects.iter().any(|effect| effect.id == "speed_loop"), number == 3);
             assert!(read.runs.len() == 6 && read.runs.iter().all(|run| run.wset.is_some() && run.u.is_none()));
         }
@@ -351,10 +349,7 @@ mod tests {
                 Session::logged((&robot.file, &robot.truth.setup()), &plan, &logging, case.seed)
             };
             let [known, session] = [CameraClock::Known, CameraClock::Unknown].map(made);
-            let folder = tempfile::tempdir().expect("a folder");
-            session.write(folder.path()).expect("room");
-            let read =
-                omni_gap::log::Session::load(folder.path(), None, &omni_gap::known_effects()).expect("a session");
+            let read = through_files::read(&session).expect("a session");
             let told = known.columns.as_ref().and_then(|text| text.split_once("offset_s = ")).expect("an offset").1;
             let known_offset: f64 = told.trim().parse().expect("a number");
             let truth = known_offset + first_stamp(&known) - first_stamp(&session);

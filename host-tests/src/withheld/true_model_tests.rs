@@ -11,6 +11,7 @@ use omni_gap::simulate::{AlignedRun, Model, supply_seen};
 use rayon::prelude::*;
 
 use super::*;
+use crate::laboratory::through_files;
 
 const PLAN: Plan = Plan {
     runs: 1,
@@ -46,9 +47,7 @@ fn missed(robot: &DrawnRobot, cause: Option<&Cause>, wheel: Option<usize>) -> [f
     let quiet = Noise { current: 1e-3, wheel_speed: 1e-3, position: 1e-3, heading: 1e-3, gyro: 1e-3 };
     let logging = Logging { noise_factor: quiet, ..Logging::clean() };
     let plan = Plan { voltage: robot.truth.supply * 2.0 / 3.0, ..PLAN };
-    let folder = tempfile::tempdir().expect("a folder");
-    Session::logged((&robot.truth, &setup), &plan, &logging, 7).write(folder.path()).expect("room");
-    let session = omni_gap::Session::load(folder.path(), None, &known_effects()).expect("a session");
+    let session = through_files::read(&Session::logged((&robot.truth, &setup), &plan, &logging, 7)).expect("a session");
     let run = AlignedRun::<4>::new(&session.runs[0], &session.robot).expect("a run with voltages");
     let supply = supply_seen([&run]);
     let truth = TrueModel::of(&robot.truth, &setup, &put).read().expect("a robot file");
