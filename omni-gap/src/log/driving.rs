@@ -1,6 +1,7 @@
 //! # The signal that drives: what a model of the robot is given, and whose clock windows follow
 
 use super::channel::Channel;
+use super::median_step::median_step;
 use super::run::{Group, Run, RunFile};
 use std::ops::Range;
 
@@ -86,10 +87,7 @@ impl Run {
 
     /// The middle one of the row lengths (s), on the clock of the signal that drives; zero for fewer than two rows.
     pub fn median_step_s(&self) -> f64 {
-        let rows = self.driving_rows();
-        let mut steps: Vec<f64> = rows.windows(2).map(|pair| self.t_s[pair[1]] - self.t_s[pair[0]]).collect();
-        let middle = steps.len() / 2;
-        if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 }
+        median_step(self.driving_rows().iter().map(|row| self.t_s[*row])).unwrap_or_default()
     }
 
     /// The rows from the first on which something drives to the last before its last hold ends.

@@ -4,6 +4,7 @@
 //! and in heading since the file began, ∫v dt, ∫vn dt and ∫ω dt.
 
 use super::body_from_wheels::{BodyFromWheels, row_of};
+use super::median_step::median_step;
 use super::robot_file::RobotFile;
 use super::run::{Group, Run};
 
@@ -70,9 +71,7 @@ impl Motion {
 
     /// The middle one of the steps between points (s).
     pub fn median_step_s(&self) -> f64 {
-        let mut steps: Vec<f64> = self.t_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let middle = steps.len() / 2;
-        *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+        median_step(self.t_s.iter().copied()).unwrap_or_default()
     }
 
     /// How far the body went along an axis between two times (s); none beyond the ends or across a gap.

@@ -13,6 +13,8 @@
 
 use std::ops::Range;
 
+use crate::log::median_step;
+
 /// A row is late by more than any jitter: this many rows after the one before [1].
 const LATE: f64 = 1.6;
 
@@ -81,12 +83,10 @@ fn tells_enough(t: &[f64], rows: &Range<usize>) -> bool {
 
 /// The step of the clock that rows come by [s]; none where they come as they like.
 fn clock(t: &[f64], driving: &[usize]) -> Option<f64> {
-    let steps: Vec<f64> = driving.windows(2).map(|pair| t[pair[1]] - t[pair[0]]).collect();
-    let mut sorted = steps.clone();
-    sorted.sort_by(f64::total_cmp);
-    let middle = *sorted.get(sorted.len() / 2)?;
-    let in_time = steps.iter().filter(|step| (**step - middle).abs() < (LATE - 1.0) * middle).count();
-    (in_time as f64 >= IN_TIME * steps.len() as f64).then_some(middle)
+    let middle = median_step(driving.iter().map(|row| t[*row]))?;
+    let steps = driving.windows(2).map(|pair| t[pair[1]] - t[pair[0]]);
+    let in_time = steps.filter(|step| (step - middle).abs() < (LATE - 1.0) * middle).count();
+    (in_time as f64 >= IN_TIME * (driving.len() - 1) as f64).then_some(middle)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use super::scored::Data;
 use crate::engine::evidence::Runs;
 use crate::engine::findings::ChannelNoise;
 use crate::identify::{Fit, LeftOver, Noise, SENSORS};
+use crate::log::median_step;
 use crate::simulate::{AlignedRun, SignalGroup};
 
 /// Noise that a model's left-overs show.
@@ -38,7 +39,7 @@ pub(super) fn noise_seen<const N: usize>(fit: &Fit<N>, data: &Data<'_, N>) -> Op
     for (sensor, (scale, memory)) in noise.scale.iter_mut().zip(&mut noise.correlation_time).enumerate() {
         *scale = scale.clamp(knobs.least, most[sensor]);
         *memory = memory.min(knobs.longest_s);
-        let step = median_step(&data.fit, sensor);
+        let step = first_median_step(&data.fit, sensor);
         if *memory < knobs.shortest_rows * step {
             *memory = 0.0;
         }
@@ -76,19 +77,12 @@ fn sensors<const N: usize>() -> [(&'static str, &'static str, usize); SENSORS] {
     ]
 }
 
-/// The middle time from one sample of a sensor to the next [s]; zero where there are none.
-fn median_step<const N: usize>(runs: &[&AlignedRun<N>], sensor: usize) -> f64 {
+/// The middle time from one sample of a sensor to the next, in the first recording [s]; zero where there are none.
+fn first_median_step<const N: usize>(runs: &[&AlignedRun<N>], sensor: usize) -> f64 {
     let channel = sensors::<N>()[sensor].2;
-    let mut steps: Vec<f64> = runs
-        .iter()
-        .take(1)
-        .flat_map(|run| {
-            let times: Vec<f64> = (0..run.rows()).filter(|row| run.saw(*row, channel)).map(|row| run.t[row]).collect();
-            times.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>()
-        })
-        .collect();
-    let middle = steps.len() / 2;
-    if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 }
+    let step =
+        |run: &&AlignedRun<N>| median_step((0..run.rows()).filter(|row| run.saw(*row, channel)).map(|row| run.t[row]));
+    runs.first().and_then(step).unwrap_or_default()
 }
 
 impl<const N: usize> Runs<N> {
