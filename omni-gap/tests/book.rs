@@ -1,5 +1,5 @@
 //! The book is true: its links lead somewhere, its commands and options are those of the program, and the commands that are
-//! marked `<!-- run -->` print what the book says they print.
+//! marked `<!-- run -->` print what the book says they print. So do those of the repository's README.
 //!
 //! A block of `sh` below that mark is run by a shell, in a folder that is the page's own; the block of `text` that follows
 //! is what it prints, where a line `...` stands for any lines. A page that begins with `<!-- continues PAGE -->` goes on in a
@@ -19,6 +19,10 @@ use page::Page;
 /// Set, it asks for the commands of all pages: `cargo xtask book`.
 #[cfg(target_os = "linux")]
 const ALL: &str = "OMNI_GAP_BOOK";
+
+/// What a visitor reads first, from the book's folder.
+#[cfg(target_os = "linux")]
+const FRONT_PAGE: &str = "../../README.md";
 
 /// Pages whose commands are run by the test command; those of the others take minutes.
 #[cfg(target_os = "linux")]
@@ -59,4 +63,5 @@ fn pages_print_what_they_say() {
     for page in Page::all().iter().filter(|page| page.is_run() && (all || QUICK.contains(&page.name.as_str()))) {
         told::as_it_says(&page.name);
     }
+    told::as_it_says(FRONT_PAGE);
 }

@@ -1,7 +1,8 @@
 //! # Browser: the pages that the program writes, opened in a real one
 //!
 //! Every kind of page is made from the demonstration's session, and looked at by `host-tests/browser/check.mjs`: at three
-//! widths, light and dark, on paper. The pictures that it leaves are for people.
+//! widths, light and dark, on paper. The pictures that it leaves are for people; `BLESS=1` keeps the first screen of the
+//! demonstration's report as the README's.
 
 use crate::install::Install;
 use crate::line::Line;
@@ -29,6 +30,10 @@ const SIMULATED: &str = "simulate DIR/demo/session/robot.toml --input DIR/demo/s
 /// Where all of it goes.
 const FOLDER: &str = "target/browser";
 
+/// The first screen of the demonstration's report, and where the README shows it.
+const FIRST_SCREEN: &str = "target/browser/pictures/report-report-light-800-first.png";
+const SHOWN: &str = "host-tests/golden/report.png";
+
 /// The commands, in order; further pages are looked at too.
 pub fn lines(further: &[std::ffi::OsString]) -> Vec<Line> {
     let program = |words: &str| Line::of(&format!("cargo omni-gap --quiet {}", words.replace("DIR", FOLDER)));
@@ -54,6 +59,9 @@ pub fn perform(further: &[std::ffi::OsString]) -> Result<(), String> {
     ensure(TOOLS)?;
     lines(further).iter().try_for_each(Line::announced)?;
     println!("pictures: {FOLDER}/pictures");
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::copy(FIRST_SCREEN, SHOWN).map_err(|why| format!("{FIRST_SCREEN} → {SHOWN}: {why}"))?;
+    }
     Ok(())
 }
 
