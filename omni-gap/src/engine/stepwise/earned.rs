@@ -7,14 +7,15 @@ use super::accept::{Beside, asked_of};
 use super::candidate::Cause;
 use super::found::Found;
 use super::scored::{Data, Scored};
+use super::selection::Selection;
 
 /// The causes that earn their place, the one that earns most first, and the model with them.
 pub(super) fn earning_their_place<const N: usize>(
     data: &Data<'_, N>,
-    mut found: Vec<Found>,
-    mut corrected: Scored<N>,
+    selected: Selection<N>,
     refitted: &Scored<N>,
-) -> (Vec<Found>, Scored<N>) {
+) -> Selection<N> {
+    let Selection { mut found, mut corrected, rounds } = selected;
     while found.len() > 1 {
         let without: Vec<Scored<N>> =
             (0..found.len()).into_par_iter().map(|left_out| without(data, &found, left_out, &corrected)).collect();
@@ -35,11 +36,16 @@ pub(super) fn earning_their_place<const N: usize>(
         found.remove(worst);
     }
     found.sort_by(|a, b| b.earns.total_cmp(&a.earns));
-    (found, corrected)
+    Selection { found, corrected, rounds }
 }
 
 /// The corrected model fitted again without one of its causes.
-fn without<const N: usize>(data: &Data<'_, N>, found: &[Found], left_out: usize, corrected: &Scored<N>) -> Scored<N> {
+fn without<const N: usize>(
+    data: &Data<'_, N>,
+    found: &[Found],
+    left_out: usize,
+    corrected: &Scored<N>,
+) -> Scored<N> {
     let mut model = corrected.fit.model.clone();
     if let Cause::Effect(card, wheel) = found[left_out].cause {
         model.effects.retain(|effect| !(effect.id == card.id && effect.wheel == wheel));

@@ -24,6 +24,7 @@ mod round;
 mod scored;
 mod screen;
 mod search;
+mod selection;
 mod settle;
 mod shown;
 mod traces;

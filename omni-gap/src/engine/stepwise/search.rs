@@ -1,14 +1,13 @@
 //! The search: causes are taken up one by one (forward stepwise selection), and what is left decides the outcome.
 
-use super::accept::{Beside, convincing, look_alikes};
 use super::earned::earning_their_place;
 use super::found::Found;
-use super::round::{Ranked, Ranking, Tried, explain};
+use super::round::{Ranking, Tried};
 use super::scored::{Data, Scored};
-use crate::engine::knobs::{OutcomeKnobs, SearchKnobs};
-use crate::identify::Prior;
+use super::selection::Selection;
+use crate::engine::knobs::OutcomeKnobs;
 use crate::localise::{Measured, floor, measure};
-use crate::simulate::{Model, ROOM_FOR_CAUSES, SignalGroup};
+use crate::simulate::{Model, SignalGroup};
 use crate::vocabulary::Progress;
 
 /// What the data say.
@@ -57,55 +56,14 @@ impl<const N: usize> Search<N> {
 /// Searches causes one by one, until a further one explains no more; then each has to earn its place beside the others.
 pub fn search<const N: usize>(data: &Data<'_, N>, nominal: &Model<N>, progress: Progress<'_>) -> Search<N> {
     progress("fitting the plain model within its stated uncertainty");
-    let knobs = &data.knobs.search;
-    let mut prior = data.prior.clone();
-    let refitted = data.judge(nominal.clone(), None, &prior, 0);
-    let mut current = refitted.clone();
-    let mut found: Vec<Found> = Vec::new();
-    let mut rounds: Vec<Ranking<N>> = Vec::new();
-    loop {
-        // what is left may be too little for any further effect to be relevant; a number may still be unbelievable
-        let nothing_left = !found.is_empty() && current.held() < knobs.enough * current.freedom;
-        let room = room_for(&found, nothing_left, knobs);
-        if !room.effects && !room.numbers {
-            break;
-        }
-        progress(match found.len() {
-            0 => "trying every cause",
-            _ => "trying what is left after the causes found",
-        });
-        rounds.push(explain(data, current.clone(), &prior, room));
-        let ranking = &rounds[rounds.len() - 1];
-        let Some(best) = first_convincing(ranking, &found, &prior, knobs) else { break };
-        let earns = ranking.base.score(ranking.scale) - best.scored.score(ranking.scale);
-        prior = best.cause.struck_out_of(&prior, data.knobs.fit.released_sigma);
-        current = best.scored.clone();
-        let not_told_apart_from = look_alikes(best, ranking, knobs);
-        found.push(Found { cause: best.cause, not_told_apart_from, round: rounds.len() - 1, earns });
-    }
-    let (found, current) = earning_their_place(data, found, current, &refitted);
+    let refitted = data.judge(nominal.clone(), None, data.prior, 0);
+    let all = Tried { effects: true, numbers: true };
+    let selected = Selection::of(&refitted).forward(data, all, progress);
+    let selected = earning_their_place(data, selected, &refitted);
     progress("measuring the gap");
-    let Judged { outcome, beside, closed, inadequate } = judged(data, nominal, &refitted, &current, &found);
-    Search { outcome, beside, found, corrected: current, refitted, rounds, closed, inadequate }
-}
-
-/// What a model with these causes has room for.
-fn room_for(found: &[Found], nothing_left: bool, knobs: &SearchKnobs) -> Tried {
-    let numbers = found.iter().filter(|found| found.is_parameter()).count();
-    let most_effects = knobs.most_causes.min(ROOM_FOR_CAUSES - 1);
-    Tried { effects: !nothing_left && found.len() - numbers < most_effects, numbers: numbers < knobs.most_numbers }
-}
-
-/// Of causes that score alike, the first that convinces: a friction wrong on one axis may stand behind all three.
-fn first_convincing<'a, const N: usize>(
-    ranking: &'a Ranking<N>,
-    found: &[Found],
-    prior: &Prior,
-    knobs: &SearchKnobs,
-) -> Option<&'a Ranked<N>> {
-    let least = ranking.ranked.first().map_or(0.0, |r| r.scored.score(ranking.scale));
-    let alike = ranking.ranked.iter().take_while(|r| r.scored.score(ranking.scale) - least < knobs.tie);
-    alike.into_iter().find(|r| convincing(r, ranking, Beside::these(found), prior, knobs))
+    let Selection { found, corrected, rounds } = selected;
+    let Judged { outcome, beside, closed, inadequate } = judged(data, nominal, &refitted, &corrected, &found);
+    Search { outcome, beside, found, corrected, refitted, rounds, closed, inadequate }
 }
 
 /// What the causes found come to.
