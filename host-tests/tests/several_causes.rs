@@ -42,6 +42,19 @@ fn a_file_that_is_wrong_in_four_numbers_is_told_so_and_nothing_else_is() {
     }
 }
 
+/// A radius and a distance that are both wrong look like a camera that measures too short, until the other numbers of the file
+/// are looked at: beside that camera they would be many stated sigmas off.
+#[test]
+fn a_file_that_is_wrong_in_five_numbers_is_not_taken_for_a_camera_that_measures_too_short() {
+    let (session, label) =
+        Case { suite: Suite::Several, number: 104, seed: 12_405_274_600_837_492_184, fresh: false }.made();
+    let report = answered(&session).expect("an answer");
+    let mut hidden: Vec<&str> = label.hidden.iter().map(|hidden| hidden.cause.as_str()).collect();
+    hidden.sort_unstable();
+    assert_eq!(named(&report), hidden);
+    assert_eq!((report.verdict, hidden.len()), (Verdict::Parameter, 5));
+}
+
 /// Mass, torque constant, inertia and frictions can all be larger alike without a log that shows it: only what is stated says
 /// which of them is wrong. Windows whose start is bent by friction once kept a fit from going along that line at all.
 #[test]

@@ -158,7 +158,8 @@ pub struct SearchKnobs {
     /// record shows event by event need not: it was counted.
     pub relevant: f64,
     /// Where no effect is known, one that takes so much off what the robot's numbers cost by what is stated of them is as
-    /// relevant [σ²]: without it they predict as well, but one would be 5 of its stated sigmas off.
+    /// relevant [σ²]: without it they predict as well, but one would be 5 of its stated sigmas off. An effect beside
+    /// which they still cost so much may stand for several of them that are wrong together.
     pub unbelievable: f64,
     /// A further effect has to take this share off what the first causes left of one channel [1]. By trial.
     pub relevant_further: f64,

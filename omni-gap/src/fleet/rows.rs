@@ -65,7 +65,7 @@ pub struct CauseRow {
     pub wheel: Option<u32>,
     /// Body axis, where it speaks of one.
     pub axis: Option<Axis>,
-    /// How many causes the model had taken up already.
+    /// The round of the search in which it was tried; zero: on top of the plain model, re-fitted.
     pub round: u32,
     /// Whether it was taken up.
     pub taken_up: bool,

@@ -16,7 +16,7 @@ pub struct ConsideredCause {
     pub wheel: Option<usize>,
     /// Body axis, where it speaks of one.
     pub axis: Option<Axis>,
-    /// How many causes that model had taken up already; zero: the plain model, re-fitted.
+    /// The round of the search in which it was tried; zero: on top of the plain model, re-fitted.
     pub round: usize,
     /// True if it was taken up in this round.
     pub taken_up: bool,

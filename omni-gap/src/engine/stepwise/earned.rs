@@ -40,7 +40,7 @@ pub(super) fn earning_their_place<const N: usize>(
 }
 
 /// The corrected model fitted again without one of its causes.
-fn without<const N: usize>(
+pub(super) fn without<const N: usize>(
     data: &Data<'_, N>,
     found: &[Found],
     left_out: usize,

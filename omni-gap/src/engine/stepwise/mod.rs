@@ -6,7 +6,8 @@
 //! seen, plus what they cost by the robot file's own uncertainty and by their freedom ([`scored`]); that is one
 //! [`round`]. The best that convinces ([`accept`]) is taken up, and the next round goes on from there ([`search`]): effects
 //! until nothing relevant is left, numbers of the robot file as long as another one is not to be believed. Then each cause has to
-//! earn its place beside the others ([`earned`]).
+//! earn its place beside the others ([`earned`]), and an effect beside which the file's numbers are not to be believed may stand
+//! for several of them that are wrong together ([`exchanged`]).
 
 mod accept;
 mod candidate;
@@ -14,6 +15,7 @@ mod considered;
 mod distances;
 mod earned;
 mod equations;
+mod exchanged;
 mod found;
 mod noise;
 mod not_seen;

@@ -1,6 +1,7 @@
 //! The search: causes are taken up one by one (forward stepwise selection), and what is left decides the outcome.
 
 use super::earned::earning_their_place;
+use super::exchanged::exchanged_for_numbers;
 use super::found::Found;
 use super::round::{Ranking, Tried};
 use super::scored::{Data, Scored};
@@ -34,7 +35,8 @@ pub struct Search<const N: usize> {
     pub corrected: Scored<N>,
     /// The plain model re-fitted within what was stated.
     pub refitted: Scored<N>,
-    /// All that was tried: first on top of the re-fitted plain model, then on top of the causes found so far.
+    /// All that was tried: first on top of the re-fitted plain model, then on top of the causes found so far; at the end what was
+    /// tried in the place of an effect.
     pub rounds: Vec<Ranking<N>>,
     /// Share of the gap that the causes close: over the re-fitted plain model for effects, over the nominal one for
     /// parameters alone.
@@ -53,13 +55,14 @@ impl<const N: usize> Search<N> {
     }
 }
 
-/// Searches causes one by one, until a further one explains no more; then each has to earn its place beside the others.
+/// Searches causes one by one, until a further one explains no more; then each has to earn its place beside the others, and an
+/// effect that leaves the file unbelievable numbers may stand for numbers alone.
 pub fn search<const N: usize>(data: &Data<'_, N>, nominal: &Model<N>, progress: Progress<'_>) -> Search<N> {
     progress("fitting the plain model within its stated uncertainty");
     let refitted = data.judge(nominal.clone(), None, data.prior, 0);
     let all = Tried { effects: true, numbers: true };
     let selected = Selection::of(&refitted).forward(data, all, progress);
-    let selected = earning_their_place(data, selected, &refitted);
+    let selected = exchanged_for_numbers(data, earning_their_place(data, selected, &refitted), &refitted, progress);
     progress("measuring the gap");
     let Selection { found, corrected, rounds } = selected;
     let Judged { outcome, beside, closed, inadequate } = judged(data, nominal, &refitted, &corrected, &found);
