@@ -21,7 +21,7 @@ pub const FLOORS: [(Suite, usize); 6] = [
     (Suite::Laboratory, 10),
     (Suite::NoGap, 6),
     (Suite::Several, 1),
-    (Suite::Life, 7),
+    (Suite::Life, 8),
     (Suite::Open, 5),
     (Suite::SetSpeed, 4),
 ];
