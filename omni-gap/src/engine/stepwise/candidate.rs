@@ -67,6 +67,11 @@ impl Cause {
         }
     }
 
+    /// What was stated, without what all of these say is wrong of it.
+    pub fn all_struck_out_of<'a>(causes: impl Iterator<Item = &'a Cause>, prior: &Prior, released_sigma: f64) -> Prior {
+        causes.fold(prior.clone(), |prior, cause| cause.struck_out_of(&prior, released_sigma))
+    }
+
     /// True if both are the same cause at the same place.
     pub fn is(&self, other: &Cause) -> bool {
         self.same_id(other) && self.wheel() == other.wheel() && self.axis() == other.axis()

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::accept::{Beside, asked_of};
 use super::candidate::Cause;
 use super::found::Found;
-use super::scored::{Data, Scored};
+use super::scored::{Data, Scored, error_scale};
 use super::selection::Selection;
 
 /// The causes that earn their place, the one that earns most first, and the model with them.
@@ -19,8 +19,7 @@ pub(super) fn earning_their_place<const N: usize>(
     while found.len() > 1 {
         let without: Vec<Scored<N>> =
             (0..found.len()).into_par_iter().map(|left_out| without(data, &found, left_out, &corrected)).collect();
-        let per_number = |scored: &Scored<N>| scored.held() / scored.freedom;
-        let scale = without.iter().chain([&corrected, refitted]).map(per_number).fold(f64::INFINITY, f64::min).max(1.0);
+        let scale = error_scale(without.iter().chain([&corrected, refitted]));
         for (found, without) in found.iter_mut().zip(&without) {
             found.earns = without.score(scale) - corrected.score(scale);
         }
@@ -51,8 +50,7 @@ pub(super) fn without<const N: usize>(
         model.effects.retain(|effect| !(effect.id == card.id && effect.wheel == wheel));
     }
     let others = found.iter().enumerate().filter(|(k, _)| *k != left_out).map(|(_, found)| &found.cause);
-    let released_sigma = data.knobs.fit.released_sigma;
-    let prior = others.fold(data.prior.clone(), |prior, cause| cause.struck_out_of(&prior, released_sigma));
+    let prior = Cause::all_struck_out_of(others, data.prior, data.knobs.fit.released_sigma);
     let extra = corrected.extra - found[left_out].cause.freedom(data.prior);
     data.judge(model, Some(corrected), &prior, extra)
 }

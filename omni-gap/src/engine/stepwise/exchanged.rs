@@ -6,7 +6,7 @@
 
 use super::earned::{earning_their_place, without};
 use super::round::Tried;
-use super::scored::{Data, Scored};
+use super::scored::{Data, Scored, error_scale};
 use super::selection::Selection;
 use crate::engine::knobs::SearchKnobs;
 use crate::vocabulary::Progress;
@@ -52,6 +52,6 @@ fn exchanged<const N: usize>(
 
 /// By how much a model is better than another.
 fn gain<const N: usize>(model: &Scored<N>, than: &Scored<N>) -> f64 {
-    let scale = (model.held() / model.freedom).min(than.held() / than.freedom).max(1.0);
+    let scale = error_scale([model, than]);
     than.score(scale) - model.score(scale)
 }

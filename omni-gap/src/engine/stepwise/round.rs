@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::candidate::{Cause, candidates, freed_priors};
 use super::released::{ScreenedRelease, screen_releases};
-use super::scored::{Data, Scored};
+use super::scored::{Data, Scored, error_scale};
 use super::screen::{Screened, screen};
 use crate::engine::knobs::ScreenKnobs;
 use crate::identify::{Prior, Reduced};
@@ -117,13 +117,7 @@ pub fn explain<const N: usize>(data: &Data<'_, N>, base: Scored<N>, prior: &Prio
     let others: Vec<_> = jobs.filter(|job| job.3 >= least).collect();
     let mut ranked: Vec<Ranked<N>> = first.into_iter().map(|(_, best)| best).collect();
     ranked.extend(others.into_par_iter().map(fitted).collect::<Vec<_>>());
-    let scale = ranked
-        .iter()
-        .map(|r| &r.scored)
-        .chain([&base])
-        .map(|s| s.held() / s.freedom)
-        .fold(f64::INFINITY, f64::min)
-        .max(1.0);
+    let scale = error_scale(ranked.iter().map(|r| &r.scored).chain([&base]));
     ranked.sort_by(|a, b| a.scored.score(scale).total_cmp(&b.scored.score(scale)));
     Ranking { base, ranked, screened, screened_on, released, scale }
 }

@@ -80,6 +80,11 @@ impl<const N: usize> Scored<N> {
     }
 }
 
+/// The error scale to compare models by: the least held-out Σ error² per number among them, at least one.
+pub(super) fn error_scale<'a, const N: usize>(models: impl IntoIterator<Item = &'a Scored<N>>) -> f64 {
+    models.into_iter().map(|scored| scored.held() / scored.freedom).fold(f64::INFINITY, f64::min).max(1.0)
+}
+
 /// What each window gains from one model to another.
 fn gains(before: &[Misfit], after: &[Misfit], scale: f64) -> impl Iterator<Item = f64> {
     before.iter().zip(after).map(move |(before, after)| (before.cost() - after.cost()) / scale)

@@ -1,6 +1,7 @@
 //! Forward selection: causes are taken up one by one, the best that convinces first.
 
 use super::accept::{Beside, convincing, look_alikes};
+use super::candidate::Cause;
 use super::found::Found;
 use super::round::{Ranked, Ranking, Tried, explain};
 use super::scored::{Data, Scored};
@@ -29,7 +30,6 @@ impl<const N: usize> Selection<N> {
     /// Takes up further causes among what is tried, until none convinces.
     pub fn forward(mut self, data: &Data<'_, N>, tried: Tried, progress: Progress<'_>) -> Self {
         let knobs = &data.knobs.search;
-        let mut prior = self.statements(data);
         loop {
             let room = self.room(tried, knobs);
             if !room.effects && !room.numbers {
@@ -39,26 +39,17 @@ impl<const N: usize> Selection<N> {
                 0 => "trying every cause",
                 _ => "trying what is left after the causes found",
             });
-            let ranking = explain(data, self.corrected.clone(), &prior, room);
-            let round = self.rounds.len();
-            if let Some(best) = first_convincing(&ranking, &self.found, &prior, knobs) {
-                let earns = ranking.base.score(ranking.scale) - best.scored.score(ranking.scale);
-                let not_told_apart_from = look_alikes(best, &ranking, knobs);
-                self.found.push(Found { cause: best.cause, not_told_apart_from, round, earns });
-                prior = best.cause.struck_out_of(&prior, data.knobs.fit.released_sigma);
-                self.corrected = best.scored.clone();
-            }
-            self.rounds.push(ranking);
-            if self.found.last().is_none_or(|found| found.round != round) {
-                return self;
-            }
+            let causes = self.found.iter().map(|found| &found.cause);
+            let prior = Cause::all_struck_out_of(causes, data.prior, data.knobs.fit.released_sigma);
+            self.rounds.push(explain(data, self.corrected.clone(), &prior, room));
+            let round = self.rounds.len() - 1;
+            let ranking = &self.rounds[round];
+            let Some(best) = first_convincing(ranking, &self.found, &prior, knobs) else { return self };
+            let earns = ranking.base.score(ranking.scale) - best.scored.score(ranking.scale);
+            let not_told_apart_from = look_alikes(best, ranking, knobs);
+            self.found.push(Found { cause: best.cause, not_told_apart_from, round, earns });
+            self.corrected = best.scored.clone();
         }
-    }
-
-    /// What is stated, without what these causes say is wrong of it.
-    fn statements(&self, data: &Data<'_, N>) -> Prior {
-        let released_sigma = data.knobs.fit.released_sigma;
-        self.found.iter().fold(data.prior.clone(), |prior, found| found.cause.struck_out_of(&prior, released_sigma))
     }
 
     /// What a model with these causes has room for: what is left may be too little for any further effect to be relevant; a
