@@ -10,9 +10,9 @@ use ground_truth::robot_file::RobotFile;
 use omni_gap::error::Result;
 use omni_gap::log::Session;
 use omni_gap::report::Report;
-use omni_gap::{Options, diagnose, known_effects};
+use omni_gap::{Options, diagnose};
 
-use super::through_files::not_written;
+use super::through_files::{read, read_in};
 use crate::catalogue::outcome::{Judgement, judge_cause};
 
 /// Runs, length [s], rows a second, frames of the camera a second, largest voltage [V].
@@ -101,11 +101,8 @@ impl LaboratoryCase {
     /// # Errors
     /// Where the folder cannot be written or read.
     pub fn diagnosed_in(self, folder: &Path) -> Result<LaboratoryOutcome> {
-        self.recorded().write(folder).map_err(|why| not_written(folder, &why))?;
-        let session = Session::load(folder, None, &known_effects())?;
-        let start = Instant::now();
-        let report = diagnose(&session, &Options::default());
-        Ok(LaboratoryOutcome { case: self, report, seconds: start.elapsed().as_secs_f64() })
+        let session = read_in(&self.recorded(), folder)?;
+        Ok(self.outcome(&session))
     }
 
     /// The same, with a folder that nobody keeps.
@@ -113,8 +110,14 @@ impl LaboratoryCase {
     /// # Errors
     /// Where no folder can be written or read.
     pub fn diagnosed(self) -> Result<LaboratoryOutcome> {
-        let folder = tempfile::tempdir().map_err(|why| not_written(&std::env::temp_dir(), &why))?;
-        self.diagnosed_in(folder.path())
+        let session = read(&self.recorded())?;
+        Ok(self.outcome(&session))
+    }
+
+    fn outcome(self, session: &Session) -> LaboratoryOutcome {
+        let start = Instant::now();
+        let report = diagnose(session, &Options::default());
+        LaboratoryOutcome { case: self, report, seconds: start.elapsed().as_secs_f64() }
     }
 }
 

@@ -14,8 +14,16 @@ use omni_gap::{Options, diagnose, known_effects};
 /// Where no folder can be written, or what was recorded cannot be read.
 pub fn read(recorded: &Recorded) -> Result<Session> {
     let folder = tempfile::tempdir().map_err(|why| not_written(&std::env::temp_dir(), &why))?;
-    recorded.write(folder.path()).map_err(|why| not_written(folder.path(), &why))?;
-    Session::load(folder.path(), None, &known_effects())
+    read_in(recorded, folder.path())
+}
+
+/// The same of a folder that is kept.
+///
+/// # Errors
+/// As of [`read`].
+pub fn read_in(recorded: &Recorded, folder: &Path) -> Result<Session> {
+    recorded.write(folder).map_err(|why| not_written(folder, &why))?;
+    Session::load(folder, None, &known_effects())
 }
 
 /// What is answered to it; an answer that contradicts itself is an error.
@@ -30,7 +38,7 @@ pub fn answered(recorded: &Recorded) -> Result<Report> {
     }
 }
 
-pub(crate) fn not_written(path: &Path, why: &std::io::Error) -> Error {
+fn not_written(path: &Path, why: &std::io::Error) -> Error {
     Error::Output {
         path: path.to_owned(),
         reason: why.to_string(),

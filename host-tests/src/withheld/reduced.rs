@@ -43,10 +43,10 @@ pub fn answered(told: &(dyn Fn(&Scored) + Sync)) -> Result<Vec<Scored>> {
 
 fn answer_of(case: &Case) -> Result<Scored> {
     let (session, label) = case.made();
-    let start = Instant::now();
-    let report = through_files::answered(&session)?;
-    let ended = Ended { failed: None, seconds: start.elapsed().as_secs_f64(), megabytes: 0.0 };
     let broken = |why: String| Error::input(Path::new(&case.name()), why, "Mend the report");
+    let start = Instant::now();
+    let report = through_files::answered(&session).map_err(|why| broken(why.to_string()))?;
+    let ended = Ended { failed: None, seconds: start.elapsed().as_secs_f64(), megabytes: 0.0 };
     let text = report.to_json().map_err(|why| broken(why.to_string()))?;
     Ok(Scored { label, ended, answer: Some(Answer::parse(&text).map_err(broken)?), closed: None })
 }
