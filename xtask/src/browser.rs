@@ -30,8 +30,8 @@ const SIMULATED: &str = "simulate DIR/demo/session/robot.toml --input DIR/demo/s
 /// Where all of it goes.
 const FOLDER: &str = "target/browser";
 
-/// The first screen of the demonstration's report, and where the README shows it.
-const FIRST_SCREEN: &str = "target/browser/pictures/report-report-light-800-first.png";
+/// The picture of the demonstration's first screen, and where the README shows it.
+const FIRST_SCREEN: &str = "report-report-light-800-first.png";
 const SHOWN: &str = "host-tests/golden/report.png";
 
 /// The commands, in order; further pages are looked at too.
@@ -58,9 +58,11 @@ pub fn lines(further: &[std::ffi::OsString]) -> Vec<Line> {
 pub fn perform(further: &[std::ffi::OsString]) -> Result<(), String> {
     ensure(TOOLS)?;
     lines(further).iter().try_for_each(Line::announced)?;
-    println!("pictures: {FOLDER}/pictures");
+    let pictures = format!("{FOLDER}/pictures");
+    println!("pictures: {pictures}");
     if std::env::var_os("BLESS").is_some() {
-        std::fs::copy(FIRST_SCREEN, SHOWN).map_err(|why| format!("{FIRST_SCREEN} → {SHOWN}: {why}"))?;
+        let first = format!("{pictures}/{FIRST_SCREEN}");
+        std::fs::copy(&first, SHOWN).map_err(|why| format!("{first} → {SHOWN}: {why}"))?;
     }
     Ok(())
 }
