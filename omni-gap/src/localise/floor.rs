@@ -13,7 +13,7 @@ use crate::simulate::{AlignedRun, FreeRun, MAX_CHANNELS, Row, RowPassed};
 pub const FLOOR_SEED: u64 = 20_080_511;
 
 /// How often the runs are simulated for a floor: where poses are coarse, one recording of a few runs is a tenth off by its noise.
-const FLOOR_DRAWS: u64 = 8;
+pub(super) const FLOOR_DRAWS: u64 = 8;
 
 /// What the protocol would measure if the model were the truth: the same runs, simulated from it with the sensors' noise, each
 /// as often as it takes for a mean; window by window.
@@ -57,7 +57,7 @@ pub fn replay<const N: usize>(on_the_way: FreeRun<'_, N, f64>, seed: u64) -> Ali
 /// ```text
 /// n_k = ρ·n_{k−1} + σ·√(1 − ρ²)·e_k,  ρ = e^(−Δt/τ)
 /// ```
-fn noisy<const N: usize>(mut run: AlignedRun<N>, seed: u64) -> AlignedRun<N> {
+pub(super) fn noisy<const N: usize>(mut run: AlignedRun<N>, seed: u64) -> AlignedRun<N> {
     // a stream for each channel: one more of them changes nothing of the others
     let stream = |channel: usize| {
         let mut random = ChaCha8Rng::seed_from_u64(seed);

@@ -61,27 +61,36 @@ impl Measured {
 
 /// Measures a model on runs: free runs restarted every `horizon` [s].
 pub fn measure<const N: usize>(plant: &Plant<N, f64>, runs: &[&AlignedRun<N>], horizon: f64) -> Measured {
-    let channels = AlignedRun::<N>::channels();
     let per_run: Vec<Vec<PerGroup<(f64, f64)>>> = runs
         .par_iter()
         .map(|run| {
             let prediction = predict(plant, run, horizon);
-            let mut windows = vec![[(0.0, 0.0); SignalGroup::COUNT]; prediction.restarts.len()];
-            let mut window = 0;
-            for (row, predicted) in prediction.rows.iter().enumerate() {
-                while prediction.restarts.get(window + 1).is_some_and(|next| *next <= row) {
-                    window += 1;
-                }
-                for c in (0..channels.count()).filter(|c| run.saw(row, *c)) {
-                    let group = &mut windows[window][channels.group(c) as usize];
-                    let error = run.error(row, c, predicted[c]) * (run.sigma[c] / run.stated[c]);
-                    *group = (group.0 + error.powi(2), group.1 + 1.0);
-                }
-            }
-            windows
+            measured(run, &prediction.restarts, |row, c| run.error(row, c, prediction.rows[row][c]))
         })
         .collect();
     Measured { windows: per_run.into_iter().flatten().collect() }
+}
+
+/// Sums of the squares of a run's errors [σ as models are weighed by], in stated units, window by window.
+pub(super) fn measured<const N: usize>(
+    run: &AlignedRun<N>,
+    restarts: &[usize],
+    error: impl Fn(usize, usize) -> f64,
+) -> Vec<PerGroup<(f64, f64)>> {
+    let channels = AlignedRun::<N>::channels();
+    let mut windows = vec![[(0.0, 0.0); SignalGroup::COUNT]; restarts.len()];
+    let mut window = 0;
+    for row in 0..run.rows() {
+        while restarts.get(window + 1).is_some_and(|next| *next <= row) {
+            window += 1;
+        }
+        for c in (0..channels.count()).filter(|c| run.saw(row, *c)) {
+            let group = &mut windows[window][channels.group(c) as usize];
+            let error = error(row, c) * (run.sigma[c] / run.stated[c]);
+            *group = (group.0 + error.powi(2), group.1 + 1.0);
+        }
+    }
+    windows
 }
 
 #[cfg(test)]
