@@ -6,6 +6,7 @@
 
 mod design;
 mod excerpt;
+mod outcome;
 mod probability;
 mod selftest;
 
@@ -14,10 +15,12 @@ use serde::{Deserialize, Serialize};
 
 pub use design::DesignKnobs;
 pub use excerpt::ExcerptKnobs;
+pub use outcome::OutcomeKnobs;
 pub use probability::{CalibrationKnobs, LogitLine, ProbabilityKnobs, logit};
 pub use selftest::SelftestKnobs;
 
 use crate::identify::{FitSettings, WINDOW_S};
+use crate::localise::flexible::FlexibleSettings;
 use crate::localise::shape::ShapeSettings;
 use crate::localise::{HORIZONS_S, RegimeSettings};
 use crate::simulate::HORIZON_S;
@@ -55,6 +58,8 @@ pub struct Knobs {
     pub places: PlacesKnobs,
     /// Which shapes of the residual are shown as evidence.
     pub evidence: ShapeSettings,
+    /// How flexible the model is that tells how much could be explained at all.
+    pub flexible: FlexibleSettings,
 }
 
 /// How recordings are laid out.
@@ -193,18 +198,6 @@ pub struct NoiseKnobs {
     pub shortest_rows: f64,
 }
 
-/// When causes explain a gap.
-#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
-#[serde(default)]
-pub struct OutcomeKnobs {
-    /// Least share of the gap that known causes have to close; with less the answer is `unknown` [1]: more than half.
-    pub least_closed: f64,
-    /// Free-run error over its floor above which a re-fitted plain model leaves a gap [1]. By trial.
-    pub inadequate: f64,
-    /// The same for a model with wrong parameters corrected [1]: twice as far, a parameter need not explain all.
-    pub inadequate_parameters: f64,
-}
-
 /// How the gap is measured.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
@@ -258,6 +251,7 @@ impl Default for Knobs {
             measure: MeasureKnobs::default(),
             places: PlacesKnobs::default(),
             evidence: ShapeSettings::default(),
+            flexible: FlexibleSettings::default(),
         }
     }
 }
@@ -330,12 +324,6 @@ impl Default for NoiseKnobs {
             longest_s: 0.06,
             shortest_rows: 0.5,
         }
-    }
-}
-
-impl Default for OutcomeKnobs {
-    fn default() -> Self {
-        Self { least_closed: 0.6, inadequate: 1.15, inadequate_parameters: 2.3 }
     }
 }
 

@@ -121,16 +121,16 @@ fn how_far(page: &mut Page, report: &Report) {
     for sentence in phrases::left_beside(report) {
         page.line("", &sentence);
     }
-    let rivals: Vec<_> = [
-        ("refit of parameters alone", s.closed_by_refit_alone),
-        ("runner-up", s.closed_by_runner_up),
-        ("flexible model", s.closed_by_flexible_model),
-    ]
-    .iter()
-    .filter_map(|(name, closed)| closed.map(|c| format!("{name} {}", percent(c))))
-    .collect();
+    let rivals: Vec<_> = [("refit of parameters alone", s.closed_by_refit_alone), ("runner-up", s.closed_by_runner_up)]
+        .iter()
+        .filter_map(|(name, closed)| closed.map(|c| format!("{name} {}", percent(c))))
+        .collect();
     if !rivals.is_empty() {
         page.line("", &format!("closed by others: {}", rivals.join(", ")));
+    }
+    // of a gap too small to divide by it says nothing to a person
+    if let Some(closed) = s.closed.and(s.closed_by_flexible_model) {
+        page.line("", &format!("with a flexible model on top: {}", percent(closed)));
     }
 }
 

@@ -60,6 +60,7 @@ pub struct Shrink {
     pub closed_by_refit_alone: Option<f64>,
     /// What the second-best cause closes.
     pub closed_by_runner_up: Option<f64>,
-    /// What a flexible model closes: about the most that could be had.
+    /// What the best model that was found closes with a flexible one on top, which is told nothing of physics: about the most that
+    /// could be had. A gap of less than 0.1 σ counts as one of 0.1 σ here.
     pub closed_by_flexible_model: Option<f64>,
 }

@@ -4,8 +4,10 @@ use model_core::plant::Plant;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use super::scored::Data;
 use crate::engine::findings::{Gap, HorizonError, Shrink, SignalGap};
 use crate::engine::knobs::MeasureKnobs;
+use crate::localise::flexible::flexible;
 use crate::localise::{Measured, floor, measure};
 use crate::simulate::{AlignedRun, SignalGroup};
 
@@ -18,18 +20,17 @@ pub(super) struct Plants<const N: usize> {
     pub corrected: Plant<N, f64>,
     /// The nominal one, re-fitted within what was stated.
     pub refitted: Plant<N, f64>,
+    /// The best that was found, stood by or not.
+    pub best: Plant<N, f64>,
     /// The best fitted cause that is neither found nor a look-alike of one that was.
     pub runner_up: Option<Plant<N, f64>>,
 }
 
 /// The gap of each signal group, and how far it closes.
-pub(super) fn shrink<const N: usize>(
-    plants: &Plants<N>,
-    held: &[&AlignedRun<N>],
-    knobs: &MeasureKnobs,
-) -> (Gap, Shrink) {
+pub(super) fn shrink<const N: usize>(plants: &Plants<N>, data: &Data<'_, N>) -> (Gap, Shrink) {
+    let (held, knobs) = (&data.held[..], &data.knobs.measure);
     let MeasureKnobs { horizon_s: horizon, smallest_room_sigma: too_small, .. } = *knobs;
-    let Plants { nominal, corrected, refitted, runner_up } = plants;
+    let Plants { nominal, corrected, refitted, best, runner_up } = plants;
     let before = measure(nominal, held, horizon);
     let after = measure(corrected, held, horizon);
     let least = floor(corrected, held, horizon);
@@ -42,6 +43,7 @@ pub(super) fn shrink<const N: usize>(
     }
     let room = before.total() - least.total();
     let closed_by = |total: f64| (room >= too_small).then(|| (before.total() - total) / room);
+    let flexible = flexible(best, (&data.fit, held), horizon, &data.knobs.flexible).total();
     let shrink = Shrink {
         before: Some(before.total()),
         after: Some(after.total()),
@@ -52,7 +54,7 @@ pub(super) fn shrink<const N: usize>(
         closed_ci95: (room >= too_small).then(|| interval(&before, &after, &least, knobs)),
         closed_by_refit_alone: closed_by(measure(refitted, held, horizon).total()),
         closed_by_runner_up: runner_up.as_ref().and_then(|plant| closed_by(measure(plant, held, horizon).total())),
-        closed_by_flexible_model: None,
+        closed_by_flexible_model: Some((before.total() - flexible) / room.max(too_small)),
     };
     (gap, shrink)
 }

@@ -17,6 +17,7 @@ mod earned;
 mod equations;
 mod exchanged;
 mod found;
+mod judged;
 mod noise;
 mod not_seen;
 mod numbers;
@@ -40,8 +41,9 @@ use crate::simulate::{Model, supply_seen};
 use crate::vocabulary::{Progress, Verdict};
 pub(super) use candidate::{Cause, freed_priors, has_a_say};
 use distances::Plants;
+use judged::Outcome;
 pub(super) use scored::{Data, Scored};
-use search::{Outcome, Search};
+use search::Search;
 
 /// Forward stepwise selection of causes, scored on held-out runs.
 #[derive(Clone, Copy, Debug, Default)]
@@ -90,9 +92,10 @@ fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, 
         nominal: nominal.plant(),
         corrected: search.reported().fit.model.plant(),
         refitted: search.refitted.fit.model.plant(),
+        best: search.corrected.fit.model.plant(),
         runner_up: which::runner_up(&search).map(|r| r.scored.fit.model.plant()),
     };
-    let (gap, shrink) = distances::shrink(&plants, &data.held, &knobs.measure);
+    let (gap, shrink) = distances::shrink(&plants, &data);
     let which = which::which(&search, robot, knobs);
     let named = search.outcome == Outcome::Explained;
     let causes: Vec<String> = search.found.iter().filter(|_| named).map(|f| f.cause.id().to_owned()).collect();

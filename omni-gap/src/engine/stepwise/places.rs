@@ -3,8 +3,9 @@
 use model_core::geometry::frames::BodyTwist;
 
 use super::candidate::Cause;
+use super::judged::Outcome;
 use super::scored::Data;
-use super::search::{Outcome, Search};
+use super::search::Search;
 use super::settle::stage_of;
 use crate::engine::findings::{Regime, Where};
 use crate::engine::knobs::PlacesKnobs;

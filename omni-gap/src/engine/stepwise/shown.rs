@@ -4,8 +4,9 @@ use model_core::effects::shows::Order;
 
 use super::candidate::Cause;
 use super::distances::Plants;
+use super::judged::Outcome;
 use super::scored::Data;
-use super::search::{Outcome, Search};
+use super::search::Search;
 use crate::engine::findings::Shape;
 use crate::localise::shape::{Models, shapes};
 use crate::simulate::{AlignedRun, EffectInstance, Model};

@@ -6,9 +6,10 @@ use model_core::effects;
 
 use super::candidate::Cause;
 use super::found::Found;
+use super::judged::Outcome;
 use super::numbers::of_cause;
 use super::round::{Ranked, Ranking};
-use super::search::{Outcome, Search};
+use super::search::Search;
 use super::settle::settle_by;
 use crate::engine::findings::Which;
 use crate::engine::knobs::{Knobs, LogitLine, ProbabilityKnobs};

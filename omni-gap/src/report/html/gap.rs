@@ -81,7 +81,7 @@ fn rivals(m: &mut Markup, report: &Report) {
         ("the corrected model", s.closed, "corrected"),
         ("refit of nominal parameters alone", s.closed_by_refit_alone, "rival"),
         ("the second-best cause", s.closed_by_runner_up, "rival"),
-        ("a flexible model", s.closed_by_flexible_model, "rival"),
+        ("a flexible model on top", s.closed.and(s.closed_by_flexible_model), "rival"),
     ];
     if all.iter().filter(|(_, closed, _)| closed.is_some()).count() < 2 {
         return;
