@@ -2,6 +2,8 @@
 //!
 //! Every horizon H the run restarts from the smoothed measurement; in between it is driven by the recorded input alone.
 
+use std::ops::Range;
+
 use model_core::plant::Plant;
 
 use super::aligned_run::AlignedRun;
@@ -41,6 +43,12 @@ pub fn predict<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, horiz
 }
 
 impl Prediction {
+    /// The rows of each free run, from its restart to the next.
+    pub(crate) fn windows(&self) -> impl Iterator<Item = Range<usize>> {
+        let ends = self.restarts.iter().copied().skip(1).chain(std::iter::once(self.rows.len()));
+        self.restarts.iter().copied().zip(ends).map(|(first, end)| first..end)
+    }
+
     /// Sum of squared errors [σ²] and their number, of each group.
     pub fn squares<const N: usize>(&self, run: &AlignedRun<N>) -> PerGroup<(f64, f64)> {
         let channels = AlignedRun::<N>::channels();

@@ -112,7 +112,7 @@ impl<'a> Responses<'a> {
         self.columns.fill(0.0);
     }
 
-    /// The columns where features have these values, which they then keep for `dt` [s].
+    /// The columns where features have these values, `before_s` after those before, which they kept meanwhile [s].
     pub fn at(&mut self, features: &Features, before_s: f64) -> &[f64] {
         let n = self.basis.count();
         let (now, made) = self.columns.split_at_mut(n);

@@ -6,7 +6,7 @@ use model_core::plant::Plant;
 use nalgebra::DVector;
 
 use super::basis::Responses;
-use super::features::{At, Features, Part, windows};
+use super::features::{At, Features, Part};
 use super::moments::Moments;
 use super::settings::FlexibleSettings;
 use super::teacher::Teacher;
@@ -30,7 +30,7 @@ impl Quantity {
 
 /// A recording and what a model says of it.
 pub(super) struct OneRun<'a, const N: usize> {
-    pub plant: &'a Plant<N, f64>,
+    plant: &'a Plant<N, f64>,
     pub run: &'a AlignedRun<N>,
     pub told: Prediction,
     /// The run as the model makes it, without noise, and what the model says of that: what starts and rows alone leave over.
@@ -45,18 +45,14 @@ impl<'a, const N: usize> OneRun<'a, N> {
         Self { plant, run, told: predict(plant, run, horizon_s), quiet, quiet_told }
     }
 
-    pub fn windows(&self) -> impl Iterator<Item = Range<usize>> {
-        windows(&self.told.restarts, self.run.rows())
-    }
-
-    pub fn at(&self, window: &Range<usize>, row: usize) -> At<'_, N> {
+    fn at(&self, window: &Range<usize>, row: usize) -> At<'_, N> {
         At { plant: self.plant, run: self.run, told: &self.told, window: (window.start, window.end), row }
     }
 
     /// What a part does on each row, and what a robot has made of it since its window began.
     pub fn each_row(&self, part: Part, teacher: &Teacher<'_>, mut each: impl FnMut(usize, &[f64])) {
         let mut responses = Responses::new(teacher.basis(part), teacher.settings.lag_s);
-        for window in self.windows() {
+        for window in self.told.windows() {
             responses.restart();
             for row in window.clone() {
                 let before_s = if row > window.start { self.run.t[row] - self.run.t[row - 1] } else { 0.0 };
@@ -94,7 +90,7 @@ impl<'a, const N: usize> OneRun<'a, N> {
     /// What parts do on the rows that are learned from.
     pub fn features(&self, parts: &[Part], settings: &FlexibleSettings) -> Vec<Features> {
         let mut features = Vec::new();
-        for window in self.windows() {
+        for window in self.told.windows() {
             for row in window.clone().filter(|row| self.is_taken(*row, settings)) {
                 features.extend(parts.iter().map(|part| self.at(&window, row).features(*part)));
             }

@@ -3,8 +3,6 @@
 //! All of it is the model's own word, driven by the command, so that none of it shares a measurement's noise with the error but
 //! through the start of its window.
 
-use std::ops::Range;
-
 use model_core::plant::Plant;
 
 use crate::simulate::{AlignedRun, Prediction};
@@ -87,10 +85,4 @@ impl<const N: usize> At<'_, N> {
 /// One row of both.
 fn with(own: [f64; 8], common: [f64; 5]) -> [f64; STRAIGHT] {
     std::array::from_fn(|k| if k < own.len() { own[k] } else { common[k - own.len()] })
-}
-
-/// The windows of a run, from each restart to the next.
-pub(super) fn windows(restarts: &[usize], rows: usize) -> impl Iterator<Item = Range<usize>> {
-    let ends = restarts.iter().copied().skip(1).chain(std::iter::once(rows));
-    restarts.iter().copied().zip(ends).map(|(first, end)| first..end)
 }

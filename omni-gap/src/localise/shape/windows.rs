@@ -116,7 +116,7 @@ impl<'a, const N: usize> OneRun<'a, N> {
             .collect();
         let mut windows = Vec::new();
         let mut restart = 0;
-        for rows in rows_of_windows(&said[0].restarts, run.rows()) {
+        for rows in said[0].windows() {
             while told.restarts.get(restart + 1).is_some_and(|next| *next <= rows.start) {
                 restart += 1;
             }
@@ -145,7 +145,7 @@ impl<'a, const N: usize> OneRun<'a, N> {
         }
         let said = models.all().map(|plant| by_speeds(plant, run, self.horizon_s));
         let method = by_speeds(models.corrected, quiet, self.horizon_s);
-        rows_of_windows(&told.restarts, run.rows())
+        told.windows()
             .map(|rows| {
                 let own = Residuals::of_pose(quiet, &method, rows.clone());
                 let of = |said: &[Row]| Residuals::of_pose(run, said, rows.clone()).less(&own);
@@ -157,12 +157,6 @@ impl<'a, const N: usize> OneRun<'a, N> {
             })
             .collect()
     }
-}
-
-/// The rows from each restart to the next.
-fn rows_of_windows(restarts: &[usize], rows: usize) -> impl Iterator<Item = std::ops::Range<usize>> {
-    let ends = restarts.iter().copied().skip(1).chain(std::iter::once(rows));
-    restarts.iter().copied().zip(ends).map(|(first, end)| first..end)
 }
 
 fn median(values: &[f64]) -> f64 {
