@@ -15,9 +15,10 @@
 use model_core::plant::Plant;
 use rayon::prelude::*;
 
-use super::floor::{FLOOR_DRAWS, FLOOR_SEED, noisy, quiet};
+use super::floor::{FLOOR_DRAWS, FLOOR_SEED, noisy};
 use super::gap::{Measured, measured};
-use crate::simulate::{AlignedRun, FreeRun, PerGroup, Prediction, SignalGroup, predict};
+use super::own::OwnRun;
+use crate::simulate::{AlignedRun, PerGroup, SignalGroup};
 
 /// The part of a start's error by which that of the model's own recording may differ [1]: its motion is another's.
 const START_UNKNOWN: f64 = 0.1;
@@ -29,43 +30,24 @@ pub fn excess<const N: usize>(plant: &Plant<N, f64>, runs: &[&AlignedRun<N>], ho
         let own = OwnRun::of(plant, run, horizon);
         let drawn = |draw: u64| {
             let seed = FLOOR_SEED.wrapping_add(draw * runs.len() as u64 + at as u64);
-            Measured { windows: own.less(&noisy(own.quiet.clone(), seed)) }
+            Measured { windows: less(&own, &noisy(own.run.clone(), seed)) }
         };
         let noise = (0..FLOOR_DRAWS).map(drawn).reduce(Measured::and).unwrap_or_default();
-        let [left, starts] = [own.less(run), own.starts()];
-        left.into_iter().zip(noise.windows).zip(starts).map(|((left, noise), starts)| Window { left, noise, starts })
+        let starts = measured(&own.run, &own.told.restarts, |row, c| own.error(row, c));
+        less(&own, run).into_iter().zip(noise.windows).zip(starts).map(|((left, noise), starts)| Window {
+            left,
+            noise,
+            starts,
+        })
     };
     let windows: Vec<Window> = runs.par_iter().enumerate().flat_map_iter(of_run).collect();
     SignalGroup::ALL.map(|group| over(&windows, group))
 }
 
-/// A run as a model makes it without noise, and what the model says of that.
-struct OwnRun<'a, const N: usize> {
-    plant: &'a Plant<N, f64>,
-    horizon: f64,
-    quiet: AlignedRun<N>,
-    told: Prediction,
-}
-
-impl<'a, const N: usize> OwnRun<'a, N> {
-    fn of(plant: &'a Plant<N, f64>, run: &AlignedRun<N>, horizon: f64) -> Self {
-        let quiet = quiet(FreeRun::new(plant, run));
-        let told = predict(plant, &quiet, horizon);
-        Self { plant, horizon, quiet, told }
-    }
-
-    /// Sums of squares of what the starts alone leave.
-    fn starts(&self) -> Vec<PerGroup<(f64, f64)>> {
-        measured(&self.quiet, &self.told.restarts, |row, c| self.quiet.error(row, c, self.told.rows[row][c]))
-    }
-
-    /// Sums of squares of the model's errors on a run of the same rows, less those on its own.
-    fn less(&self, run: &AlignedRun<N>) -> Vec<PerGroup<(f64, f64)>> {
-        let told = predict(self.plant, run, self.horizon);
-        measured(run, &told.restarts, |row, c| {
-            run.error(row, c, told.rows[row][c]) - self.quiet.error(row, c, self.told.rows[row][c])
-        })
-    }
+/// Sums of squares of a model's errors on a run, less those on its own.
+fn less<const N: usize>(own: &OwnRun<'_, N>, run: &AlignedRun<N>) -> Vec<PerGroup<(f64, f64)>> {
+    let told = own.predict(run);
+    measured(run, &told.restarts, |row, c| own.less(run, &told, (row, c)))
 }
 
 /// Sums of squares of a window, and their counts.

@@ -10,6 +10,7 @@ pub mod flexible;
 mod floor;
 mod gap;
 mod links;
+mod own;
 mod regime;
 pub mod shape;
 pub mod validation;

@@ -10,8 +10,8 @@ use super::features::{At, Features, Part};
 use super::moments::Moments;
 use super::settings::FlexibleSettings;
 use super::teacher::Teacher;
-use crate::localise::floor::quiet;
-use crate::simulate::{AlignedRun, FreeRun, Prediction, predict};
+use crate::localise::own::OwnRun;
+use crate::simulate::{AlignedRun, Prediction};
 
 /// An error that is learned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,23 +30,19 @@ impl Quantity {
 
 /// A recording and what a model says of it.
 pub(super) struct OneRun<'a, const N: usize> {
-    plant: &'a Plant<N, f64>,
     pub run: &'a AlignedRun<N>,
     pub told: Prediction,
-    /// The run as the model makes it, without noise, and what the model says of that: what starts and rows alone leave over.
-    quiet: AlignedRun<N>,
-    quiet_told: Prediction,
+    own: OwnRun<'a, N>,
 }
 
 impl<'a, const N: usize> OneRun<'a, N> {
     pub fn of(plant: &'a Plant<N, f64>, run: &'a AlignedRun<N>, horizon_s: f64) -> Self {
-        let quiet = quiet(FreeRun::new(plant, run));
-        let quiet_told = predict(plant, &quiet, horizon_s);
-        Self { plant, run, told: predict(plant, run, horizon_s), quiet, quiet_told }
+        let own = OwnRun::of(plant, run, horizon_s);
+        Self { run, told: own.predict(run), own }
     }
 
     fn at(&self, window: &Range<usize>, row: usize) -> At<'_, N> {
-        At { plant: self.plant, run: self.run, told: &self.told, window: (window.start, window.end), row }
+        At { plant: self.own.plant, run: self.run, told: &self.told, window: (window.start, window.end), row }
     }
 
     /// What a part does on each row, and what a robot has made of it since its window began.
@@ -65,11 +61,8 @@ impl<'a, const N: usize> OneRun<'a, N> {
     fn error(&self, quantity: Quantity, part: Part, row: usize) -> Option<f64> {
         let channels = AlignedRun::<N>::channels();
         let [x, y, heading] = channels.pose();
-        let of = |channel: usize| {
-            let error = self.run.error(row, channel, self.told.rows[row][channel]);
-            let own = self.quiet.error(row, channel, self.quiet_told.rows[row][channel]);
-            self.run.saw(row, channel).then_some(error - own)
-        };
+        let of =
+            |channel: usize| self.run.saw(row, channel).then(|| self.own.less(self.run, &self.told, (row, channel)));
         let (sin, cos) = self.told.rows[row][heading].sin_cos();
         match (quantity, part) {
             (Quantity::Current, Part::Wheel(j)) => of(channels.current(j)),
