@@ -5,7 +5,7 @@ use std::path::Path;
 use host_tests::paper_source::tree;
 use omni_gap::api::{Driven, PlannedRuns, SelfTest, SelftestKnobs, selftest, verify};
 use omni_gap::engine::findings::SeenCause;
-use omni_gap::identify::{FreedPrior, Prior};
+use omni_gap::identify::{Extent, FreedPrior, Prior};
 use omni_gap::log::{Channel, Group, RobotFile, Run};
 use omni_gap::simulate::{EffectInstance, SignalGroup};
 use omni_gap::synthesize::{Scenario, synthesize};
@@ -199,7 +199,7 @@ fn simulated_recordings_show_an_offset_from_the_size_on_that_its_closed_form_say
     let SelftestKnobs { engine, .. } = SelftestKnobs::default();
     let gain = engine.search.convincing + engine.search.convincing_each + engine.search.price_of_freedom;
     let stated = Prior::stated(&file);
-    let release = FreedPrior { cause: "wheel_radius", axis: None };
+    let release = FreedPrior { cause: "wheel_radius", extent: Extent::Each };
     let sigma = stated.rows[stated.rows_of(release)[0]].sigma;
     let weight = sigma.powi(-2) - engine.fit.released_sigma.powi(-2);
     let wrong = (gain / weight).sqrt().exp_m1();

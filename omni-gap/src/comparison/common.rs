@@ -11,7 +11,9 @@ use crate::engine::Findings;
 use crate::engine::evidence::Runs;
 use crate::engine::findings::{EffectChange, FileChanges};
 use crate::engine::knobs::Knobs;
-use crate::identify::{Fit, Free, FreedPrior, Prior, Shots, Windows, effect_free, fit_with_dispersion, nominal_free};
+use crate::identify::{
+    Extent, Fit, Free, FreedPrior, Prior, Shots, Windows, effect_free, fit_with_dispersion, nominal_free,
+};
 use crate::log::RobotFile;
 use crate::simulate::{AlignedRun, EffectInstance, Model, NOMINAL_KEYS, Slot, supply_seen};
 use crate::vocabulary::{Axis, Kind};
@@ -110,7 +112,8 @@ fn struck_out(file: &RobotFile, found: &Findings, knobs: &Knobs) -> Prior {
         let which = found.which.iter().find(|w| w.cause == *id && w.kind == Some(Kind::Parameter));
         let (Some(which), Some(nominal)) = (which, Nominal::ALL.iter().find(|p| p.cause() == id)) else { continue };
         let axis = which.axis.and_then(|axis| Axis::ALL.iter().position(|a| *a == axis));
-        prior = prior.without(FreedPrior { cause: nominal.cause(), axis }, knobs.fit.released_sigma);
+        let extent = axis.map_or(Extent::Each, Extent::Axis);
+        prior = prior.without(FreedPrior { cause: nominal.cause(), extent }, knobs.fit.released_sigma);
     }
     prior
 }

@@ -277,7 +277,7 @@ impl Default for ScreenKnobs {
             always_fitted: 2,
             fitted_effects: 6,
             fitted_wheels: 2,
-            fitted_parameters: 3,
+            fitted_parameters: 4,
             single_wheel_share: 0.6,
             alike_share: 0.5,
             size_multiples: vec![0.03, 0.5, 2.0],

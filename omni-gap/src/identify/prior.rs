@@ -8,28 +8,10 @@
 use model_core::effects::nominal::{self, Number};
 use model_core::plant::robot::Nominal;
 
+use super::common_factor::turned_to_common_factor;
+use super::prior_row::PriorRow;
 use crate::log::RobotFile;
-use crate::simulate::{Model, Slot};
-
-/// One statement: Σ coefficient·ln(factor) = middle within sigma.
-#[derive(Clone, Debug)]
-pub struct PriorRow {
-    /// The factors and their coefficients.
-    pub terms: Vec<(Nominal, f64)>,
-    /// What they come to [1]; zero of a robot file's own numbers
-    pub middle: f64,
-    /// One-sigma relative uncertainty
-    pub sigma: f64,
-    /// True if the robot file states it of one of its numbers, the last factor's own; false for what a diagnosis adds.
-    stated: bool,
-}
-
-impl PriorRow {
-    /// Σ coefficient·ln(factor) of a model.
-    fn sum<const N: usize>(&self, model: &Model<N>) -> f64 {
-        self.terms.iter().map(|(p, c)| c * model.get(Slot::Nominal(*p)).ln()).sum()
-    }
-}
+use crate::simulate::Model;
 
 /// Everything stated.
 #[derive(Clone, Debug)]
@@ -43,14 +25,33 @@ pub struct Prior {
 pub struct FreedPrior {
     /// The parameter cause.
     pub cause: &'static str,
-    /// Of friction: the body axis (v, vn, ω: 0, 1, 2) that it is wrong on; `None`: on all.
-    pub axis: Option<usize>,
+    /// Which of the cause's numbers are wrong, and how they are.
+    pub extent: Extent,
+}
+
+/// Which numbers of a parameter cause are wrong. Friction alone has one for each axis, and knows more than `Each`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// All of them, each by itself.
+    Each,
+    /// All of them by one factor, beside which each is as well known as stated: friction of another floor, or of other rollers.
+    CommonFactor,
+    /// That of a body axis (v, vn, ω: 0, 1, 2) alone.
+    Axis(usize),
 }
 
 impl FreedPrior {
     /// True if it speaks of a factor.
     pub fn speaks_of(&self, factor: Nominal) -> bool {
-        factor.cause() == self.cause && (self.axis.is_none() || self.axis == factor.axis())
+        factor.cause() == self.cause && self.axis().is_none_or(|axis| factor.axis() == Some(axis))
+    }
+
+    /// The body axis (v, vn, ω: 0, 1, 2) that it speaks of alone.
+    pub fn axis(&self) -> Option<usize> {
+        match self.extent {
+            Extent::Axis(axis) => Some(axis),
+            Extent::Each | Extent::CommonFactor => None,
+        }
     }
 }
 
@@ -72,11 +73,28 @@ impl Prior {
         (0..self.rows.len()).filter(|k| speaks(&self.rows[*k])).collect()
     }
 
+    /// What a parameter cause says is wrong: the statements that speak of it, or the one that they come to of a common factor.
+    pub fn struck_out_by(&self, release: FreedPrior) -> Vec<PriorRow> {
+        let rows: Vec<PriorRow> = self.rows_of(release).into_iter().map(|k| self.rows[k].clone()).collect();
+        match release.extent {
+            Extent::CommonFactor => turned_to_common_factor(&rows, 0.0).into_iter().take(1).collect(),
+            Extent::Each | Extent::Axis(_) => rows,
+        }
+    }
+
     /// The same without what it says of a parameter cause, which stays loosely held (at a relative sigma of `loose`) so
     /// that a fit cannot run away. K_t and K_v stay as equal to each other as they were when only their common factor is wrong.
     pub fn without(&self, release: FreedPrior, loose: f64) -> Self {
         let mut prior = self.clone();
-        for k in self.rows_of(release) {
+        let freed = self.rows_of(release);
+        if release.extent == Extent::CommonFactor {
+            let rows: Vec<PriorRow> = freed.iter().map(|k| self.rows[*k].clone()).collect();
+            for (k, row) in freed.into_iter().zip(turned_to_common_factor(&rows, loose)) {
+                prior.rows[k] = row;
+            }
+            return prior;
+        }
+        for k in freed {
             prior.rows[k].sigma = loose;
         }
         if release.cause == "torque_constant" {

@@ -38,7 +38,7 @@ pub(super) fn explained_but_for(file: &RobotFile, found: &Findings, open: &[&Whi
 pub(super) fn cause_of(entry: &Which) -> Option<Cause> {
     let number = || {
         let axis = entry.axis.map(|axis| Axis::ALL.iter().position(|other| *other == axis));
-        freed_priors().into_iter().find(|release| release.cause == entry.cause && release.axis == axis.flatten())
+        freed_priors().into_iter().find(|release| release.cause == entry.cause && release.axis() == axis.flatten())
     };
     match EffectKind::find(&entry.cause) {
         Some(kind) => Some(Cause::Effect(kind.card(), entry.wheel)),

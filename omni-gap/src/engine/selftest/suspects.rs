@@ -7,7 +7,7 @@ use model_core::effects::card::{Card, Role, Scope};
 use model_core::plant::robot::Nominal;
 
 use crate::engine::stepwise::{Cause, freed_priors, has_a_say};
-use crate::identify::FreedPrior;
+use crate::identify::{Extent, FreedPrior};
 use crate::simulate::{Chain, EffectInstance};
 
 /// A cause, and where its signatures stand.
@@ -46,7 +46,8 @@ pub(super) fn suspects<const N: usize>(
             put(Cause::Effect(card, wheel), of_effect(&typical, shape_moved), &mut suspects, &mut columns);
         }
     }
-    for release in freed_priors() {
+    // what each of its numbers can be it speaks of already, together and alone
+    for release in freed_priors().into_iter().filter(|release| release.extent != Extent::CommonFactor) {
         put(Cause::Parameter(release), of_number(release), &mut suspects, &mut columns);
     }
     (suspects, columns)

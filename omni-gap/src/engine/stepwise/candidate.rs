@@ -5,7 +5,7 @@ use model_core::effects::card::{Card, Param, Role, Scope};
 use model_core::plant::robot::Nominal;
 
 use crate::engine::knobs::ScreenKnobs;
-use crate::identify::{FreedPrior, Prior};
+use crate::identify::{Extent, FreedPrior, Prior};
 use crate::simulate::{Chain, EffectInstance};
 use crate::vocabulary::{Axis, Kind};
 
@@ -47,7 +47,7 @@ impl Cause {
     pub fn axis(&self) -> Option<Axis> {
         match self {
             Cause::Effect(..) => None,
-            Cause::Parameter(release) => release.axis.map(|axis| Axis::ALL[axis]),
+            Cause::Parameter(release) => release.axis().map(|axis| Axis::ALL[axis]),
         }
     }
 
@@ -55,7 +55,7 @@ impl Cause {
     pub fn freedom(&self, prior: &Prior) -> usize {
         match self {
             Cause::Effect(card, _) => card.params.iter().filter(|p| p.role != Role::Fixed).count(),
-            Cause::Parameter(release) => prior.rows_of(*release).len(),
+            Cause::Parameter(release) => prior.struck_out_by(*release).len(),
         }
     }
 
@@ -72,9 +72,12 @@ impl Cause {
         causes.fold(prior.clone(), |prior, cause| cause.struck_out_of(&prior, released_sigma))
     }
 
-    /// True if both are the same cause at the same place.
+    /// True if both are the same cause at the same place, and of a number's wrong in the same way.
     pub fn is(&self, other: &Cause) -> bool {
-        self.same_id(other) && self.wheel() == other.wheel() && self.axis() == other.axis()
+        match (self, other) {
+            (Cause::Parameter(release), Cause::Parameter(other)) => release == other,
+            _ => self.same_id(other) && self.wheel() == other.wheel(),
+        }
     }
 
     /// True if both name the same cause, wherever it sits.
@@ -96,16 +99,19 @@ pub struct Candidate {
     pub closer: Vec<EffectInstance>,
 }
 
-/// Every nominal value that can be plainly wrong; friction on all axes together and on each alone.
+/// Every nominal value that can be plainly wrong; friction on all axes by one factor or by one each, and on each axis alone.
 pub fn freed_priors() -> Vec<FreedPrior> {
     let mut all: Vec<FreedPrior> = Vec::new();
     for p in Nominal::ALL {
-        let whole = FreedPrior { cause: p.cause(), axis: None };
-        if !all.contains(&whole) {
-            all.push(whole);
-        }
-        if let Some(axis) = p.axis() {
-            all.push(FreedPrior { cause: p.cause(), axis: Some(axis) });
+        let extents = match p.axis() {
+            None => vec![Extent::Each],
+            Some(axis) => vec![Extent::Each, Extent::CommonFactor, Extent::Axis(axis)],
+        };
+        for extent in extents {
+            let release = FreedPrior { cause: p.cause(), extent };
+            if !all.contains(&release) {
+                all.push(release);
+            }
         }
     }
     all

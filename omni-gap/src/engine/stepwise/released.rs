@@ -68,22 +68,24 @@ fn one_step<const N: usize>(fit: &Fit<N>, prior: &Prior) -> Option<OneStep> {
 fn gains<const N: usize>(fit: &Fit<N>, prior: &Prior, causes: &[FreedPrior]) -> Vec<(FreedPrior, f64)> {
     let reduced = fit.stated(fit.equations.clone(), prior);
     let Some(hess) = reduced.hess.cholesky() else { return Vec::new() };
-    let violations = prior.violations(&fit.model);
     let n = fit.free.len();
     causes
         .iter()
         .map(|cause| {
-            let rows = prior.rows_of(*cause);
+            let struck_out = Prior { rows: prior.struck_out_by(*cause) };
+            let rows = &struck_out.rows;
+            if rows.is_empty() {
+                return (*cause, 0.0);
+            }
             let mut c = DMatrix::zeros(rows.len(), n);
             for (k, row) in rows.iter().enumerate() {
-                let row = &prior.rows[*row];
                 for (p, weight) in &row.terms {
                     if let Some(at) = fit.free.iter().position(|f| f.slot == Slot::Nominal(*p)) {
                         c[(k, at)] = weight / (row.sigma * fit.model.get(Slot::Nominal(*p)));
                     }
                 }
             }
-            let v = DVector::from_iterator(rows.len(), rows.iter().map(|k| violations[*k]));
+            let v = DVector::from_vec(struck_out.violations(&fit.model));
             let leverage = &c * hess.solve(&c.transpose());
             let kept = DMatrix::identity(rows.len(), rows.len()) - leverage;
             let gain = kept.lu().solve(&v).map_or(0.0, |x| v.dot(&x));
