@@ -100,7 +100,7 @@ fn unveiled(report: &Report) -> String {
     };
     let sizes = card.params.iter().zip(&hidden.params).filter(|(p, x)| **x != p.absent);
     let sizes = sizes.map(|(p, x)| format!("{} {}", p.key, estimate(*x, None, p.unit))).collect();
-    let found = report.causes.iter().filter_map(|id| report.cause(id)).map(|w| {
+    let found = report.named().into_iter().map(|w| {
         let fitted = w.parameters.iter().filter(|(_, p)| p.std.is_some());
         let numbers = fitted.map(|(key, p)| format!("{key} {}", estimate(p.value, p.std, &p.unit))).collect();
         named(&w.cause, w.wheel, numbers)

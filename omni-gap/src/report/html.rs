@@ -40,7 +40,7 @@ pub fn html(report: &Report, pictures: &Pictures) -> String {
 
 /// What is marked on the drawing of the robot: where the named causes sit, and the largest share of the gap.
 fn marked(report: &Report) -> Marked {
-    let causes = report.causes.iter().filter_map(|id| report.cause(id)).map(|w| (w.wheel, w.axis));
+    let causes = report.named().into_iter().map(|w| (w.wheel, w.axis));
     let places = phrases::main_place(report).map(|w| (w.wheel, w.axis));
     let mut marked = Marked::default();
     for (wheel, axis) in causes.chain(places) {
@@ -66,7 +66,7 @@ fn head(m: &mut Markup, report: &Report) {
             m.text(&subject(report));
         });
         m.leaf("h1", &[], &phrases::headline(report));
-        let found: Vec<_> = report.causes.iter().filter_map(|id| report.cause(id)).collect();
+        let found = report.named();
         let sure: Vec<_> =
             found.iter().map(|w| format!("{} {}", phrases::title(report, &w.cause), percent(w.probability))).collect();
         let sure = (!sure.is_empty()).then(|| format!("Probability: {}.", phrases::list(&sure)));

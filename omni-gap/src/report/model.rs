@@ -106,7 +106,17 @@ impl Report {
         serde_json::to_string_pretty(self).map(|text| text + "\n")
     }
 
-    /// The entry of a cause in [`Report::which`].
+    /// The entries of [`Report::causes`] in [`Report::which`], in their order: of a cause at two places, each its own.
+    pub fn named(&self) -> Vec<&Which> {
+        let entry = |at: usize| {
+            let id = &self.causes[at];
+            let before = self.causes[..at].iter().filter(|other| *other == id).count();
+            self.which.iter().filter(|entry| entry.cause == *id).nth(before)
+        };
+        (0..self.causes.len()).filter_map(entry).collect()
+    }
+
+    /// The first entry of a cause in [`Report::which`].
     pub fn cause(&self, id: &str) -> Option<&Which> {
         self.which.iter().find(|w| w.cause == id)
     }

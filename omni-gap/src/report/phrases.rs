@@ -12,13 +12,13 @@ use crate::vocabulary::{Axis, Kind, Stage, Verdict};
 pub fn headline(report: &Report) -> String {
     match report.verdict {
         Verdict::Effect => {
-            let (wrong, missing): (Vec<_>, Vec<_>) =
-                report.causes.iter().partition(|id| report.cause(id).is_some_and(|w| w.kind == Some(Kind::Parameter)));
+            let (wrong, missing): (Vec<&Which>, Vec<&Which>) =
+                report.named().into_iter().partition(|w| w.kind == Some(Kind::Parameter));
             let missing = format!("Missing from the simulator: {}.", named(report, &missing));
             if wrong.is_empty() { missing } else { format!("{missing} Also wrong: {}.", named(report, &wrong)) }
         }
         Verdict::Parameter => {
-            format!("Wrong in the robot file: {}.", named(report, &report.causes.iter().collect::<Vec<_>>()))
+            format!("Wrong in the robot file: {}.", named(report, &report.named()))
         }
         Verdict::Unknown => {
             let lies = main_place(report).map(|w| format!(" It lies mostly in {}.", place(w))).unwrap_or_default();
@@ -261,12 +261,9 @@ pub fn list(items: &[String]) -> String {
     }
 }
 
-fn named(report: &Report, ids: &[&String]) -> String {
-    let name = |id: &&String| {
-        let at = report.cause(id).map(|w| spot(w.wheel, w.axis).replacen(", ", " at ", 1)).unwrap_or_default();
-        format!("{}{at}", title(report, id))
-    };
-    list(&ids.iter().map(name).collect::<Vec<_>>())
+fn named(report: &Report, causes: &[&Which]) -> String {
+    let name = |w: &&Which| format!("{}{}", title(report, &w.cause), spot(w.wheel, w.axis).replacen(", ", " at ", 1));
+    list(&causes.iter().map(name).collect::<Vec<_>>())
 }
 
 #[cfg(test)]
@@ -278,6 +275,11 @@ mod tests {
     fn a_headline_names_the_cause_and_its_place() {
         assert_eq!(headline(&sample::effect()), "Missing from the simulator: Wheel slip at wheel\u{a0}2.");
         assert_eq!(headline(&sample::parameter()), "Wrong in the robot file: Mass and Winding resistance.");
+        let mut twice = sample::effect();
+        twice.causes.push(twice.causes[0].clone());
+        twice.which.insert(1, Which { wheel: Some(0), ..twice.which[0].clone() });
+        let said = "Missing from the simulator: Wheel slip at wheel\u{a0}2 and Wheel slip at wheel\u{a0}0.";
+        assert_eq!(headline(&twice), said);
     }
 
     #[test]

@@ -27,14 +27,8 @@ use crate::log::RobotFile;
 /// What the answer says first is then as probable as answers of its kind turned out to be, and all else shares the rest.
 pub(super) fn which<const N: usize>(search: &Search<N>, robot: &RobotFile, knobs: &Knobs) -> Vec<Which> {
     let known = 1.0 - unknown(search, knobs);
-    let mut all: Vec<Which> = Vec::new();
-    let mut add = |entry: Which, probability: f64| match all.iter_mut().find(|other| other.cause == entry.cause) {
-        Some(other) => other.probability += probability,
-        None => all.push(Which { probability, ..entry }),
-    };
-    for found in &search.found {
-        add(of_found(found, search, robot), 0.0);
-    }
+    // one each: an effect may be found on two wheels
+    let mut all: Vec<Which> = search.found.iter().map(|found| of_found(found, search, robot)).collect();
     let size = |found: &Found| found.earns.max(0.0).sqrt();
     let all_sizes: f64 = search.found.iter().map(size).sum();
     let places: Vec<(usize, f64)> = match &search.found[..] {
@@ -44,36 +38,45 @@ pub(super) fn which<const N: usize>(search: &Search<N>, robot: &RobotFile, knobs
     for (round, share) in places {
         let found = search.found.iter().find(|found| found.round == round);
         for (entry, probability) in entries(&search.rounds[round], found, robot, knobs) {
-            add(entry, known * share * probability);
+            add(&mut all, entry, known * share * probability);
         }
     }
-    add(pseudo("unknown"), 1.0 - known);
+    add(&mut all, pseudo("unknown"), 1.0 - known);
     let calibration = &knobs.probability.calibration;
     let (said, line) = match (search.outcome, search.found.first()) {
         (Outcome::NoGap, _) => ("no_gap", &calibration.no_gap),
         (Outcome::Explained, Some(first)) => (first.cause.id(), &calibration.named),
         (Outcome::Unknown, _) | (Outcome::Explained, None) => ("unknown", &calibration.unknown),
     };
-    calibrate(&mut all, said, line);
     // of equals, what is said stands first
     all.sort_by_key(|entry| entry.cause != said);
+    calibrate(&mut all, line);
     all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
     all
 }
 
-/// Makes what is said as probable as a line says, but no less so than anything else, and gives all others the rest.
-fn calibrate(all: &mut [Which], said: &str, line: &LogitLine) {
-    let before = all.iter().find(|entry| entry.cause == said).map_or(0.0, |entry| entry.probability);
-    let others: f64 = all.iter().filter(|entry| entry.cause != said).map(|entry| entry.probability).sum();
-    if others <= 0.0 {
+/// Adds to the probability of a cause: of that at the same place, else of whichever there is.
+fn add(all: &mut Vec<Which>, entry: Which, probability: f64) {
+    let here = |other: &Which| other.cause == entry.cause && (other.wheel, other.axis) == (entry.wheel, entry.axis);
+    let at = all.iter().position(here).or_else(|| all.iter().position(|other| other.cause == entry.cause));
+    match at {
+        Some(at) => all[at].probability += probability,
+        None => all.push(Which { probability, ..entry }),
+    }
+}
+
+/// Makes what is said, the first, as probable as a line says, but no less so than anything else, and gives all others the rest.
+fn calibrate(all: &mut [Which], line: &LogitLine) {
+    let Some((said, others)) = all.split_first_mut() else { return };
+    let sum: f64 = others.iter().map(|entry| entry.probability).sum();
+    if sum <= 0.0 {
         return;
     }
-    let largest = all.iter().filter(|entry| entry.cause != said).map(|entry| entry.probability).fold(0.0, f64::max);
+    let largest = others.iter().map(|entry| entry.probability).fold(0.0, f64::max);
     // at the least what the largest of the others has once these have the rest, p = l·(1 − p)/Σ
-    let after = line.of(before).max(largest / (others + largest) + f64::EPSILON);
-    for entry in all.iter_mut() {
-        entry.probability = if entry.cause == said { after } else { entry.probability * (1.0 - after) / others };
-    }
+    said.probability = line.of(said.probability).max(largest / (sum + largest) + f64::EPSILON);
+    let rest = 1.0 - said.probability;
+    others.iter_mut().for_each(|entry| entry.probability *= rest / sum);
 }
 
 /// A cause that was found, with its numbers by the model with all of them.
@@ -182,16 +185,31 @@ mod tests {
     #[test]
     fn what_is_said_is_as_probable_as_answers_like_it_were_right() {
         let mut all = list(&[("creep", 0.9), ("wheel_slip", 0.06), ("unknown", 0.04)]);
-        calibrate(&mut all, "creep", &LogitLine { slope: 0.5, offset: 0.0 });
+        calibrate(&mut all, &LogitLine { slope: 0.5, offset: 0.0 });
         assert!((of(&all, "creep") - 0.75).abs() < 1e-12);
         assert!((all.iter().map(|entry| entry.probability).sum::<f64>() - 1.0).abs() < 1e-12);
         assert!((of(&all, "wheel_slip") / of(&all, "unknown") - 1.5).abs() < 1e-12, "the others keep their order");
     }
 
     #[test]
+    fn an_effect_found_on_two_wheels_stands_there_twice() {
+        let on = |wheel| Which { wheel: Some(wheel), ..pseudo("uneven_load") };
+        let mut all = vec![on(1), on(3)];
+        [(on(3), 0.2), (on(0), 0.1), (pseudo("unknown"), 0.7)]
+            .into_iter()
+            .for_each(|(entry, p)| add(&mut all, entry, p));
+        let told: Vec<_> = all.iter().map(|entry| (entry.wheel, entry.probability)).collect();
+        assert_eq!(
+            told,
+            [(Some(1), 0.1), (Some(3), 0.2), (None, 0.7)],
+            "a wheel where it was not found counts for the first"
+        );
+    }
+
+    #[test]
     fn nothing_is_more_probable_than_what_is_said() {
         let mut all = list(&[("no_gap", 0.1), ("creep", 0.8), ("unknown", 0.1)]);
-        calibrate(&mut all, "no_gap", &LogitLine::AS_IT_IS);
+        calibrate(&mut all, &LogitLine::AS_IT_IS);
         assert!(of(&all, "no_gap") >= of(&all, "creep") - 1e-12);
         assert!((all.iter().map(|entry| entry.probability).sum::<f64>() - 1.0).abs() < 1e-12);
     }

@@ -31,7 +31,7 @@ pub(super) fn now(m: &mut Markup, report: &Report) {
 /// True for the numbers of the causes that were named.
 fn belongs_to_a_cause(report: &Report, p: &Corrected) -> bool {
     let last = p.key.rsplit('.').next().unwrap_or(&p.key);
-    report.causes.iter().filter_map(|id| report.cause(id)).any(|w| {
+    report.named().into_iter().any(|w| {
         let table = p.key.strip_prefix("effects.").and_then(|key| key.split(['.', '[']).next());
         let own = if w.kind == Some(Kind::Effect) { table == Some(w.cause.as_str()) } else { table.is_none() };
         own && w.parameters.contains_key(last)
