@@ -61,6 +61,7 @@ pub fn effect() -> Report {
             closed_by_refit_alone: Some(0.21),
             closed_by_runner_up: Some(0.55),
             closed_by_flexible_model: Some(0.98),
+            excess: Some(1.02),
         },
         parameters: vec![
             corrected("body.mass_kg", "kg", Some(2.34), 0.0234, 2.351, 0.012),
@@ -138,6 +139,7 @@ pub fn unknown() -> Report {
             noise_floor: Some(1.0),
             closed: Some(0.19),
             closed_by_flexible_model: Some(0.91),
+            excess: Some(2.7),
             ..Shrink::default()
         },
         not_seen: vec!["current_sensor_gain: no independent torque was applied".into()],

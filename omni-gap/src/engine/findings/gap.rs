@@ -63,4 +63,8 @@ pub struct Shrink {
     /// What the best model that was found closes with a flexible one on top, which is told nothing of physics: about the most that
     /// could be had. A gap of less than 0.1 σ counts as one of 0.1 σ here.
     pub closed_by_flexible_model: Option<f64>,
+    /// Excess: what the best model that was found leaves beyond the error of its starts, as a multiple of what noise alone would
+    /// leave, of the signal group where it is largest. One where the model is the truth; null in reports made before.
+    #[serde(default)]
+    pub excess: Option<f64>,
 }

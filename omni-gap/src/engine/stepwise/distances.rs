@@ -55,6 +55,7 @@ pub(super) fn shrink<const N: usize>(plants: &Plants<N>, data: &Data<'_, N>) -> 
         closed_by_refit_alone: closed_by(measure(refitted, held, horizon).total()),
         closed_by_runner_up: runner_up.as_ref().and_then(|plant| closed_by(measure(plant, held, horizon).total())),
         closed_by_flexible_model: Some((before.total() - flexible) / room.max(too_small)),
+        ..Shrink::default()
     };
     (gap, shrink)
 }

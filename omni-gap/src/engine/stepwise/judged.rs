@@ -27,6 +27,8 @@ pub(super) struct Judged {
     pub closed: f64,
     /// How far what is left is on its way from noise (zero) to where the model is no longer adequate (one).
     pub inadequate: f64,
+    /// The excess of the model with the causes found, of the group in the totals where it is largest [1].
+    pub excess: Option<f64>,
 }
 
 /// Whether the causes found explain the gap, and which share of it they close.
@@ -54,8 +56,13 @@ pub(super) fn judged<const N: usize>(
     let closed = if worth_dividing_by { ((from - after) / (from - least)).clamp(0.0, 1.0) } else { 1.0 };
     let most = if parameters_only { inadequate_parameters } else { inadequate };
     let by_error = (after / least - 1.0) / (most - 1.0);
+    let excess = Excess::of(data, corrected);
     // a group beside the totals is judged by its error alone
-    let left = if beside.is_some() { Left::Unclear } else { Left::by(data, refitted, corrected, found) };
+    let left = if beside.is_some() {
+        Left::Unclear
+    } else {
+        excess.left(found, || Excess::of(data, refitted), &data.knobs.outcome)
+    };
     let inadequate = match left {
         Left::Noise => by_error.min(0.0),
         Left::Unclear => by_error,
@@ -68,7 +75,7 @@ pub(super) fn judged<const N: usize>(
         (false, false) if left == Left::Unclear && !parameters_only && closed >= least_closed => Outcome::Explained,
         (_, false) => Outcome::Unknown,
     };
-    Judged { outcome, beside, closed, inadequate }
+    Judged { outcome, beside, closed, inadequate, excess: excess.largest() }
 }
 
 /// What a model leaves, by its excess.
@@ -82,40 +89,49 @@ enum Left {
     MoreThanNoise,
 }
 
-impl Left {
-    /// What a model with the causes found leaves, of the groups in the totals.
-    fn by<const N: usize>(data: &Data<'_, N>, refitted: &Scored<N>, corrected: &Scored<N>, found: &[Found]) -> Self {
-        let OutcomeKnobs { like_noise, unlike_noise, unlike_noise_parameters, still_there, .. } = data.knobs.outcome;
+/// What a model leaves of all runs, as multiples of what noise alone would.
+struct Excess(PerGroup<Option<f64>>);
+
+impl Excess {
+    fn of<const N: usize>(data: &Data<'_, N>, model: &Scored<N>) -> Self {
         let runs: Vec<&AlignedRun<N>> = data.fit.iter().chain(&data.held).copied().collect();
-        let of = |model: &Model<N>| excess(&model.plant(), &runs, data.knobs.measure.horizon_s);
-        let after = of(&corrected.fit.model);
-        let over = |most: f64| {
-            let here = |group: &SignalGroup| after[*group as usize].is_some_and(|excess| excess > most);
-            SignalGroup::ALL.into_iter().filter(|group| group.in_totals()).filter(here).collect::<Vec<_>>()
-        };
-        if over(like_noise).is_empty() {
-            return Self::Noise;
+        Self(excess(&model.fit.model.plant(), &runs, data.knobs.measure.horizon_s))
+    }
+
+    /// What is left, of the groups in the totals.
+    fn in_totals(&self) -> impl Iterator<Item = (SignalGroup, f64)> + '_ {
+        let groups = SignalGroup::ALL.into_iter().filter(|group| group.in_totals());
+        groups.filter_map(|group| Some((group, self.0[group as usize]?)))
+    }
+
+    fn largest(&self) -> Option<f64> {
+        self.in_totals().map(|(_, excess)| excess).reduce(f64::max)
+    }
+
+    /// What is left by a model with the causes found, with that of the plain one where there are any.
+    fn left(&self, found: &[Found], plain: impl FnOnce() -> Self, knobs: &OutcomeKnobs) -> Left {
+        let over = |most: f64| self.in_totals().filter(move |(_, excess)| *excess > most).map(|(group, _)| group);
+        if over(knobs.like_noise).next().is_none() {
+            return Left::Noise;
         }
         let no_noise = match found {
-            [] => !over(unlike_noise).is_empty(),
-            found if found.iter().all(Found::is_parameter) => !over(unlike_noise_parameters).is_empty(),
-            _ => match &over(unlike_noise)[..] {
-                [] => false,
-                groups => {
-                    let before = of(&refitted.fit.model);
-                    groups.iter().any(|group| share_left(&before, &after, *group) > still_there)
-                }
-            },
+            [] => over(knobs.unlike_noise).next().is_some(),
+            found if found.iter().all(Found::is_parameter) => over(knobs.unlike_noise_parameters).next().is_some(),
+            _ if over(knobs.unlike_noise).next().is_none() => false,
+            _ => {
+                let plain = plain();
+                over(knobs.unlike_noise).any(|group| self.share_of(&plain, group) > knobs.still_there)
+            }
         };
-        if no_noise { Self::MoreThanNoise } else { Self::Unclear }
+        if no_noise { Left::MoreThanNoise } else { Left::Unclear }
     }
-}
 
-/// The share of what a group shows beyond noise that is still there [1]: one where there was none.
-fn share_left(before: &PerGroup<Option<f64>>, after: &PerGroup<Option<f64>>, group: SignalGroup) -> f64 {
-    let beyond = |excess: &PerGroup<Option<f64>>| excess[group as usize].map_or(0.0, |r| (r * r - 1.0).max(0.0));
-    let before = beyond(before);
-    if before > 0.0 { (beyond(after) / before).min(1.0) } else { 1.0 }
+    /// The share that this is of what a group shows beyond noise by another model [1]: one where that shows nothing.
+    fn share_of(&self, other: &Self, group: SignalGroup) -> f64 {
+        let beyond = |of: &Self| of.0[group as usize].map_or(0.0, |r| (r * r - 1.0).max(0.0));
+        let all = beyond(other);
+        if all > 0.0 { (beyond(self) / all).min(1.0) } else { 1.0 }
+    }
 }
 
 /// Where the plain model leaves no gap in the totals, the group beside them in which it leaves the largest, if any.

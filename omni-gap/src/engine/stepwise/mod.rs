@@ -34,7 +34,7 @@ mod traces;
 mod which;
 
 use super::evidence::{Evidence, LaidOut, Runs};
-use super::findings::{EngineRecord, FileChanges, Findings};
+use super::findings::{EngineRecord, FileChanges, Findings, Shrink};
 use super::knobs::Knobs;
 use super::seam::Engine;
 use crate::simulate::{Model, supply_seen};
@@ -96,6 +96,7 @@ fn findings<const N: usize>(evidence: &Evidence, runs: &Runs<N>, knobs: &Knobs, 
         runner_up: which::runner_up(&search).map(|r| r.scored.fit.model.plant()),
     };
     let (gap, shrink) = distances::shrink(&plants, &data);
+    let shrink = Shrink { excess: search.excess, ..shrink };
     let which = which::which(&search, robot, knobs);
     let named = search.outcome == Outcome::Explained;
     let causes: Vec<String> = search.found.iter().filter(|_| named).map(|f| f.cause.id().to_owned()).collect();

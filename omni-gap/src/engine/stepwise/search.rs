@@ -31,6 +31,8 @@ pub struct Search<const N: usize> {
     pub closed: f64,
     /// How far what the corrected model misses is on its way from noise (zero) to where it is no longer adequate (one).
     pub inadequate: f64,
+    /// What the corrected model leaves, as a multiple of what noise alone would: of the group where it is largest [1].
+    pub excess: Option<f64>,
 }
 
 impl<const N: usize> Search<N> {
@@ -53,6 +55,6 @@ pub fn search<const N: usize>(data: &Data<'_, N>, nominal: &Model<N>, progress: 
     let selected = exchanged_for_numbers(data, earning_their_place(data, selected, &refitted), &refitted, progress);
     progress("measuring the gap");
     let Selection { found, corrected, rounds } = selected;
-    let Judged { outcome, beside, closed, inadequate } = judged(data, nominal, &refitted, &corrected, &found);
-    Search { outcome, beside, found, corrected, refitted, rounds, closed, inadequate }
+    let Judged { outcome, beside, closed, inadequate, excess } = judged(data, nominal, &refitted, &corrected, &found);
+    Search { outcome, beside, found, corrected, refitted, rounds, closed, inadequate, excess }
 }
