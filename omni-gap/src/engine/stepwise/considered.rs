@@ -9,7 +9,7 @@ use super::round::{Ranked, Ranking};
 use super::screen::Screened;
 use super::search::Search;
 use crate::engine::findings::{ConsideredCause, EstimatedBy, EstimatedNumber};
-use crate::identify::relative_std;
+use crate::identify::{Extent, FreedPrior, relative_std};
 use crate::log::RobotFile;
 use crate::simulate::Slot;
 
@@ -18,11 +18,17 @@ pub(super) fn considered<const N: usize>(search: &Search<N>, robot: &RobotFile) 
     let mut all = Vec::new();
     for (round, ranking) in search.rounds.iter().enumerate() {
         let effects = ranking.screened.iter().map(|s| effect(s, ranking));
-        let parameters = ranking.released.iter().map(|r| parameter(r, ranking, robot));
-        for (cause, mut considered) in effects.chain(parameters) {
-            considered.round = round;
-            considered.taken_up = search.found.iter().any(|f| f.round == round && f.cause.is(&cause));
-            all.push(considered);
+        let taken_up = |cause: &Cause| search.found.iter().any(|f| f.round == round && f.cause.is(cause));
+        // numbers that are wrong by one factor and those that are wrong each by itself are one line: what was taken up, else the latter
+        let common = |cause: &'static str| FreedPrior { cause, extent: Extent::CommonFactor };
+        let told = |release: &FreedPrior| match release.extent {
+            Extent::CommonFactor => taken_up(&Cause::Parameter(*release)),
+            Extent::Each => !taken_up(&Cause::Parameter(common(release.cause))),
+            Extent::Axis(_) => true,
+        };
+        let parameters = ranking.released.iter().filter(|r| told(&r.release)).map(|r| parameter(r, ranking, robot));
+        for (cause, considered) in effects.chain(parameters) {
+            all.push(ConsideredCause { round, taken_up: taken_up(&cause), ..considered });
         }
     }
     all
