@@ -75,11 +75,16 @@ impl Prior {
 
     /// What a parameter cause says is wrong: the statements that speak of it, or the one that they come to of a common factor.
     pub fn struck_out_by(&self, release: FreedPrior) -> Vec<PriorRow> {
-        let rows: Vec<PriorRow> = self.rows_of(release).into_iter().map(|k| self.rows[k].clone()).collect();
-        match release.extent {
-            Extent::CommonFactor => turned_to_common_factor(&rows, 0.0).into_iter().take(1).collect(),
-            Extent::Each | Extent::Axis(_) => rows,
+        let mut rows = self.statements_of(release);
+        if release.extent == Extent::CommonFactor {
+            rows = turned_to_common_factor(&rows, 0.0);
+            rows.truncate(1);
         }
+        rows
+    }
+
+    fn statements_of(&self, release: FreedPrior) -> Vec<PriorRow> {
+        self.rows_of(release).into_iter().map(|k| self.rows[k].clone()).collect()
     }
 
     /// The same without what it says of a parameter cause, which stays loosely held (at a relative sigma of `loose`) so
@@ -88,8 +93,7 @@ impl Prior {
         let mut prior = self.clone();
         let freed = self.rows_of(release);
         if release.extent == Extent::CommonFactor {
-            let rows: Vec<PriorRow> = freed.iter().map(|k| self.rows[*k].clone()).collect();
-            for (k, row) in freed.into_iter().zip(turned_to_common_factor(&rows, loose)) {
+            for (k, row) in freed.into_iter().zip(turned_to_common_factor(&self.statements_of(release), loose)) {
                 prior.rows[k] = row;
             }
             return prior;
