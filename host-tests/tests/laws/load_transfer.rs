@@ -3,31 +3,53 @@
 
 use model_core::effects::active::Effects;
 use model_core::effects::seams::STANDARD_GRAVITY;
+use model_core::geometry::kinematics::{Wheel, Wheels};
 use model_core::plant::robot::Robot;
 use model_core::plant::{Input, Plant};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, SVector, Vector3};
 
-use crate::fixture::{Run, effect, three};
+use crate::fixture::{Run, effect, four, three};
 use crate::newton::frictionless;
 
 const MU: f64 = 0.4;
 
-/// What three wheels at 60°, 180° and −60° carry under a body that accelerates: forces and moments in balance [N].
-fn loads(mass: f64, height: f64, distance: f64, acceleration: [f64; 2]) -> Vector3<f64> {
-    let place = [60.0, 180.0, -60.0_f64].map(|a| {
-        let (y, x) = a.to_radians().sin_cos();
-        [distance * x, distance * y]
-    });
-    // ΣN = M·g,  ΣN·x = −M·h·a_x,  ΣN·y = −M·h·a_y
-    let balance = Matrix3::from_fn(|row, j| if row == 0 { 1.0 } else { place[j][row - 1] });
-    let [x, y] = acceleration;
-    let wanted = Vector3::new(mass * STANDARD_GRAVITY, -mass * height * x, -mass * height * y);
-    balance.lu().solve(&wanted).expect("three wheels in a triangle")
+/// A robot whose wheels stand at these angles [°] and distances [m].
+fn standing<const N: usize>(robot: Robot<N, f64>, feet: [(f64, f64); N]) -> Robot<N, f64> {
+    let radius = robot.wheels.wheels()[0].radius;
+    let wheels = feet.map(|(angle, distance)| Wheel { drive_angle: f64::to_radians(angle), distance, radius });
+    Robot { wheels: Wheels::new(wheels), ..frictionless(robot) }
 }
 
-/// The acceleration (v, vn) and the angular one of three wheels that spin in these senses, on a floor that holds only so
-/// much, with one more effect.
-fn accelerates(robot: Robot<3, f64>, (id, wheel, size): (&str, Option<usize>, f64), senses: [f64; 3]) -> [f64; 3] {
+/// The robots: of three wheels, whose loads the balance alone says, one that is regular and one that is not; of four likewise.
+const THREE: [[(f64, f64); 3]; 2] =
+    [[(150.0, 0.09), (270.0, 0.09), (30.0, 0.09)], [(140.0, 0.1), (280.0, 0.07), (25.0, 0.09)]];
+const FOUR: [[(f64, f64); 4]; 2] =
+    [[(90.0, 0.09), (180.0, 0.09), (270.0, 0.09), (0.0, 0.09)], [(74.0, 0.1), (186.0, 0.1), (272.0, 0.12), (2.0, 0.1)]];
+
+/// What wheels carry under a body that accelerates: among all forces whose sum and moments balance, those of least squares
+/// [N].
+fn loads<const N: usize>(robot: &Robot<N, f64>, height: f64, acceleration: [f64; 2]) -> SVector<f64, N> {
+    // a wheel that drives along α stands at α − 90°
+    let place = robot.wheels.wheels().map(|wheel| {
+        let (y, x) = (wheel.drive_angle - std::f64::consts::FRAC_PI_2).sin_cos();
+        [wheel.distance * x, wheel.distance * y]
+    });
+    // ΣN = M·g,  ΣN·x = −M·h·a_x,  ΣN·y = −M·h·a_y
+    let balance = DMatrix::from_fn(3, N, |row, j| if row == 0 { 1.0 } else { place[j][row - 1] });
+    let [x, y] = acceleration;
+    let mass = robot.mass;
+    let wanted = Vector3::new(mass * STANDARD_GRAVITY, -mass * height * x, -mass * height * y);
+    let least = balance.pseudo_inverse(1e-12).expect("singular values") * wanted;
+    SVector::from_fn(|j, _| least[j])
+}
+
+/// The acceleration (v, vn) and the angular one of wheels that spin in these senses, on a floor that holds only so much, with
+/// one more effect.
+fn accelerates<const N: usize>(
+    robot: Robot<N, f64>,
+    (id, wheel, size): (&str, Option<usize>, f64),
+    senses: [f64; N],
+) -> [f64; 3] {
     let mut effects = Effects::default();
     effects.add(effect("wheel_slip"), None, &[MU, 30.0, 1.0]).expect("room");
     effects.add(effect(id), wheel, &[size]).expect("room");
@@ -43,16 +65,16 @@ fn accelerates(robot: Robot<3, f64>, (id, wheel, size): (&str, Option<usize>, f6
     std::array::from_fn(|axis| (run.twist()[axis] - last[axis]) / dt)
 }
 
-/// What wheels at 150°, 270° and 30° that spin in these senses do to a body under these loads:
-/// M·a = Σ μ·N_j·s_j·(cos α_j, sin α_j), and the moment d·Σ μ·N_j·s_j.
-fn pushed(robot: &Robot<3, f64>, load: Vector3<f64>, senses: [f64; 3]) -> [f64; 3] {
+/// What wheels that spin in these senses do to a body under these loads: M·a = Σ μ·N_j·s_j·(cos α_j, sin α_j), and the moment
+/// Σ d_j·μ·N_j·s_j.
+fn pushed<const N: usize>(robot: &Robot<N, f64>, load: SVector<f64, N>, senses: [f64; N]) -> [f64; 3] {
     let mut force = [0.0; 3];
-    for (j, angle) in [150.0, 270.0, 30.0_f64].into_iter().enumerate() {
+    for (j, wheel) in robot.wheels.wheels().iter().enumerate() {
         let push = MU * load[j] * senses[j];
-        let (sin, cos) = angle.to_radians().sin_cos();
+        let (sin, cos) = wheel.drive_angle.sin_cos();
         force[0] += push * cos;
         force[1] += push * sin;
-        force[2] += push * robot.wheels.wheels()[0].distance;
+        force[2] += push * wheel.distance;
     }
     [force[0] / robot.mass, force[1] / robot.mass, force[2] / robot.inertia]
 }
@@ -64,31 +86,43 @@ fn agree(found: [f64; 3], wanted: [f64; 3]) {
 }
 
 const SENSES: [[f64; 3]; 3] = [[1.0, -1.0, 1.0], [1.0, 1.0, -1.0], [-1.0, 1.0, 1.0]];
+const FOUR_SENSES: [[f64; 4]; 3] = [[1.0, -1.0, 1.0, 1.0], [1.0, 1.0, -1.0, -1.0], [-1.0, 1.0, 1.0, 1.0]];
+
+/// Lets the wheels of a robot spin in these senses; by how much its loads differ from equal ones, at most, over those [1].
+fn uneven<const N: usize>(robot: &Robot<N, f64>, height: f64, senses: [f64; N]) -> f64 {
+    let found = accelerates(*robot, ("load_transfer", None, height), senses);
+    let load = loads(robot, height, [found[0], found[1]]);
+    agree(found, pushed(robot, load, senses));
+    let level = robot.mass * STANDARD_GRAVITY / N as f64;
+    load.iter().map(|n| (n / level - 1.0).abs()).fold(0.0, f64::max)
+}
+
+/// A robot whose wheels stand evenly carries evenly until it accelerates; one whose wheels do not never does.
+fn statics_hold<const N: usize>(robot: &Robot<N, f64>, evenly: bool, senses: [f64; N]) {
+    let at_rest = uneven(robot, 0.0, senses);
+    assert!(if evenly { at_rest < 1e-12 } else { at_rest > 0.05 }, "{at_rest}");
+    for height in [0.02, 0.05] {
+        assert!(uneven(robot, height, senses) > 0.02, "a load shifts");
+    }
+}
 
 #[test]
 fn spinning_wheels_push_with_what_statics_leaves_them() {
-    let robot = frictionless(three());
-    for senses in SENSES {
-        for height in [0.0, 0.02, 0.05] {
-            let found = accelerates(robot, ("load_transfer", None, height), senses);
-            let load = loads(robot.mass, height, robot.wheels.wheels()[0].distance, [found[0], found[1]]);
-            agree(found, pushed(&robot, load, senses));
-            if height > 0.0 {
-                let level = robot.mass * STANDARD_GRAVITY / 3.0;
-                assert!(load.iter().any(|n| (n - level).abs() > 0.02 * level), "a load shifts: {load}");
-            }
-        }
+    for (feet, evenly) in THREE.into_iter().zip([true, false]) {
+        SENSES.into_iter().for_each(|senses| statics_hold(&standing(three(), feet), evenly, senses));
+    }
+    for (feet, evenly) in FOUR.into_iter().zip([true, false]) {
+        FOUR_SENSES.into_iter().for_each(|senses| statics_hold(&standing(four(), feet), evenly, senses));
     }
 }
 
 #[test]
 fn a_wheel_that_carries_less_pushes_less() {
-    let robot = frictionless(three());
-    let level = robot.mass * STANDARD_GRAVITY / 3.0;
+    let robot = standing(three(), THREE[1]);
     for senses in SENSES {
         for wheel in 0..3 {
             for share in [-0.4, 0.0, 0.5] {
-                let mut load = Vector3::from_element(level);
+                let mut load = loads(&robot, 0.0, [0.0; 2]);
                 load[wheel] *= 1.0 + share;
                 agree(accelerates(robot, ("uneven_load", Some(wheel), share), senses), pushed(&robot, load, senses));
             }

@@ -158,6 +158,7 @@ impl Described for Contact<f64> {
             radius,
             per_radius: 1.0 / radius,
             load: rng.between(3.0, 9.0),
+            load_shift: [rng.between(-2.0, 2.0), rng.between(-2.0, 2.0)],
             creep: rng.between(0.0, 0.02),
             shape: 1.0,
             position: [0.089 * sin, -0.089 * cos],
@@ -169,7 +170,7 @@ impl Described for Contact<f64> {
     fn numbers(&self) -> Vec<f64> {
         let [a, b, c] = self.row;
         let mut all = vec![a, b, c, self.radius, self.load, self.creep, self.grip, self.stiffness, self.shape];
-        all.extend([self.position[0], self.position[1], self.roller_friction, self.roller_damping]);
+        all.extend(self.position.into_iter().chain(self.load_shift).chain([self.roller_friction, self.roller_damping]));
         all
     }
 }

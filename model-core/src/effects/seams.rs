@@ -209,6 +209,9 @@ pub struct Contact<T> {
     pub per_radius: T,
     /// Normal force [N]
     pub load: T,
+    /// By how much that grows, over itself, with the robot's acceleration along its axes (v, vn) and the height of its centre
+    /// of mass [1/(m·m/s²)]
+    pub load_shift: [T; 2],
     /// Slip speed per traction, of a contact that creeps [(m/s)/N]; zero: it rolls rigidly
     pub creep: T,
     /// Friction coefficient of a contact that can slip; zero: it holds any force

@@ -13,7 +13,7 @@
 //! lets the effects that act there change the description ([`seams`](crate::effects::seams)), and then solves what is
 //! described:
 //!
-//! 1. contact: rows, radii and loads, and whether a wheel rolls rigidly;
+//! 1. contact: rows, radii, loads (`support.rs`), and whether a wheel rolls rigidly;
 //! 2. battery and bridge: voltages, solved together with the currents that they depend on (`electric.rs`);
 //! 3. winding, shaft and gear: current, torque, and the dry friction that each shaft can hold; a rotor whose shaft yields
 //!    moves on its own (`shaft.rs`);
@@ -40,6 +40,8 @@ pub use state::{Input, Reading, State};
 
 mod model;
 pub use model::Plant;
+
+mod support;
 
 mod command;
 

@@ -3,6 +3,7 @@
 use super::body::couples;
 use super::robot::Robot;
 use super::state::State;
+use super::support::Support;
 use super::traction::Floor;
 use crate::effects::active::Effects;
 use crate::effects::card::Seam;
@@ -107,8 +108,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
     /// A model of this robot with these effects.
     pub fn new(robot: Robot<N, T>, effects: Effects<N, T, E>) -> Self {
         let rows = robot.wheels.rows();
-        let load = robot.mass * T::lit(STANDARD_GRAVITY) / T::lit(N as f64);
-        let mut contact = [Contact { load, shape: T::one(), ..Contact::default() }; N];
+        let weight = robot.mass * T::lit(STANDARD_GRAVITY);
+        let support = Support::of(&robot.wheels.contact_points().map(<[T; 2]>::from));
+        let mut contact = [Contact { shape: T::one(), ..Contact::default() }; N];
         let coulomb_share = robot.coulomb_shares();
         let zero = T::zero();
         let mut motor_rate = [[zero; 3]; 3];
@@ -119,6 +121,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             contact[j].row = rows[j];
             let wheel = robot.wheels.wheels()[j];
             contact[j].position = wheel.contact_point().into();
+            let share = support.share(contact[j].position);
+            (contact[j].load, contact[j].load_shift) = (weight * share.at_rest, share.shift);
             let radius = wheel.radius;
             contact[j].radius = radius;
             contact[j].complete();

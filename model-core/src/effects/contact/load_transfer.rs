@@ -1,34 +1,34 @@
 //! # Load transfer: who accelerates presses on some wheels more
 //!
 //! ```text
-//! N_j → N_j − 2·(N_j/g)·h·(a·p_j)/d²
+//! N_j → N_j·(1 + h·a·q_j)        q_j = −S⁻¹·(p_j − p̄)/(g·s_j),  S = Σ (p_j − p̄)·(p_j − p̄)ᵀ
 //! ```
 //!
 //! The floor pushes at the wheels' feet and the mass sits above them. A robot that gains speed leans back: the wheels behind
 //! carry more, those in front less, and what a wheel carries is what it can push with. The law follows from the balance of
 //! moments, Σ ΔN_j·p_j = −M·h·a with Σ ΔN_j = 0; among all loads that balance it is the one of least squares, which is that
-//! of wheels on equal springs.
+//! of wheels on equal springs. Of n wheels at equal angles and distances d, q_j = −2·p_j/(g·d²).
 //!
-//! symbol  code            unit  meaning
-//! ------  --------------  ----  ------------------------------------------------------------------
-//! h       `height`        m     height of the centre of mass over the floor
-//! N_j     `load`          N     what wheel j carries at rest, M·g/n
-//! a       `acceleration`  m/s²  acceleration of the robot's centre, along its axes
-//! p_j     `position`      m     where wheel j touches the floor
-//! d       `reach`         m     mean distance of the contacts from the centre
+//! symbol  code            unit          meaning
+//! ------  --------------  ------------  ------------------------------------------------------------------
+//! h       `height`        m             height of the centre of mass over the floor
+//! N_j     `load`          N             what wheel j carries at rest, M·g·s_j
+//! s_j     –               1             its share of the weight
+//! a       `acceleration`  m/s²          acceleration of the robot's centre, along its axes
+//! p_j     `position`      m             where wheel j touches the floor; p̄ is the mean of all
+//! q_j     `load_shift`    1/(m·m/s²)    by how much its load grows, over itself
 //!
 //! It needs a floor that holds only so much: beside [`wheel_slip`](super::wheel_slip) alone does a load matter. The
 //! acceleration is that of the last step. A wheel never pulls at the floor: one that is lifted carries nothing, and the one
 //! behind no more than twice its share.
 //!
-//! Fails when: the wheels stand at unequal distances or angles: then the shares differ; when one lifts off, the others carry
-//! it.
+//! Fails when: a wheel lifts off, as the others then carry it; when the chassis bends.
 //! How to measure it: hang the robot at two points and mark the plumb lines: where they cross is the centre of mass.
 //! Source: Balance of moments: Gillespie, Fundamentals of Vehicle Dynamics, 1992, ch. 1; sizes: estimated, a third of the
 //! height of robots of 10 to 25 cm.
 
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
-use crate::effects::seams::{Contact, EffectContext, STANDARD_GRAVITY};
+use crate::effects::seams::{Contact, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
 use crate::effects::{Catalogued, Hooks, Needs};
 use crate::number::scalar::Real;
@@ -38,7 +38,7 @@ pub const CARD: Card = Card {
     id: "load_transfer",
     title: "Load transfer",
     summary: "A robot that accelerates presses more on the wheels behind, so that those in front slip first.",
-    equation: "N_j → N_j − 2·(N_j/g)·h·(a·p_j)/d²",
+    equation: "N_j → N_j·(1 + h·a·q_j),  q_j = −S⁻¹·(p_j − p̄)/(g·s_j),  S = Σ (p_j − p̄)·(p_j − p̄)ᵀ",
     source: "balance of moments: Gillespie, Fundamentals of Vehicle Dynamics, 1992, ch. 1; sizes: estimated, a third of the height of robots of 10 to 25 cm",
     seams: &[Seam::Contact],
     scope: Scope::Robot,
@@ -63,12 +63,12 @@ pub const CARD: Card = Card {
     physics: Physics { shows_beside: Some("wheel_slip"), ..Physics::PASSIVE },
 };
 
-/// What a wheel at `place` (v, vn) [m] carries more at an acceleration (v, vn) [m/s²], over what it carries at rest [1].
+/// What a wheel whose load shifts by so much [1/(m·m/s²)] carries more at an acceleration (v, vn) [m/s²], over what it carries
+/// at rest [1].
 #[inline]
-pub fn shifted<T: Real>(height: T, reach: T, acceleration: [T; 2], place: [T; 2]) -> T {
-    // −2·h·(a·p)/(g·d²), and no more than all: there the robot begins to tip over
-    let along = acceleration[0] * place[0] + acceleration[1] * place[1];
-    let more = -T::lit(2.0 / STANDARD_GRAVITY) * height * along / (reach * reach);
+pub fn shifted<T: Real>(height: T, acceleration: [T; 2], load_shift: [T; 2]) -> T {
+    // h·a·q_j, and no more than all: there the robot begins to tip over
+    let more = height * (acceleration[0] * load_shift[0] + acceleration[1] * load_shift[1]);
     more.clamp(-T::one(), T::one())
 }
 
@@ -92,7 +92,7 @@ impl<T: Real> Hooks<T> for LoadTransfer<T> {
 
     fn contact(&self, _: &(), at: &EffectContext<T>, x: &mut Contact<T>) {
         let [along, across, _] = at.acceleration;
-        let more = shifted(self.height, at.reach, [along, across], x.position);
+        let more = shifted(self.height, [along, across], x.load_shift);
         x.load += x.load * more;
     }
 }
@@ -100,13 +100,16 @@ impl<T: Real> Hooks<T> for LoadTransfer<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effects::seams::STANDARD_GRAVITY;
 
     const REACH: f64 = 0.09;
 
     fn load(height: f64, acceleration: [f64; 3], angle: f64) -> f64 {
-        let at = EffectContext { acceleration, reach: REACH, ..EffectContext::default() };
+        let at = EffectContext { acceleration, ..EffectContext::default() };
         let (sin, cos) = angle.sin_cos();
-        let mut x = Contact { load: 5.7, position: [REACH * cos, REACH * sin], ..Contact::default() };
+        // −2·p_j/(g·d²)
+        let load_shift = [cos, sin].map(|x| -2.0 * x / (STANDARD_GRAVITY * REACH));
+        let mut x = Contact { load: 5.7, load_shift, ..Contact::default() };
         LoadTransfer { height }.contact(&(), &at, &mut x);
         x.load
     }
