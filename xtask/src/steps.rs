@@ -3,6 +3,7 @@
 //! A check is one entry of [`STEPS`]. They run one after the other, each announced with its exact command, and the first
 //! failure ends the run: what takes seconds stands before what takes minutes.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::line::Line;
@@ -37,6 +38,9 @@ pub const BOARD_TESTS: &str = "cargo test --no-run --profile firmware -p firmwar
 /// The image of the board, executed on a model of its chip.
 pub const CHIP: &str = "cargo run -p chip --bin chip -- target/f405/thumbv7em-none-eabihf/firmware/firmware \
                         target/f405/thumbv7em-none-eabihf/firmware/deps";
+
+/// All programs, with the features that the tests are built with: after them, little is left to build.
+const PROGRAMS: &str = "cargo build --workspace --bins --test walls";
 
 /// Bits and instructions, told by two images.
 pub const EMULATE: &str = "cargo run -p host-tests --bin emulated -- target/thumbv7em-none-eabihf/firmware";
@@ -94,20 +98,29 @@ pub const STEPS: &[Step] = &[
     Step { name: "emulated images", command: EMULATED_IMAGES, env: &[] },
     Step { name: "board image", command: BOARD_IMAGE, env: &[] },
     Step { name: "board tests", command: BOARD_TESTS, env: &[] },
+    Step { name: "programs", command: PROGRAMS, env: &[] },
     Step { name: "image", command: CHECK_IMAGE, env: &[] },
     Step { name: "chip", command: CHIP, env: &[] },
     Step { name: "emulator", command: EMULATE, env: &[] },
     Step { name: "in the loop", command: IN_LOOP[0], env: &[] },
     Step { name: "faults", command: IN_LOOP[1], env: &[] },
     Step { name: "gap", command: GAP, env: &[] },
-    Step { name: "robot and tool", command: MORNING[0], env: &[] },
     Step { name: "morning", command: MORNING[1], env: &[] },
 ];
 
 impl Step {
     fn line(&self) -> Line {
-        self.env.iter().fold(Line::of(self.command), |line, (name, value)| line.env(name, value))
+        let line = built(self.command).unwrap_or_else(|| Line::of(self.command));
+        self.env.iter().fold(line, |line, (name, value)| line.env(name, value))
     }
+}
+
+/// The same program as [`PROGRAMS`] has built it. `cargo run -p` selects one package, whose dependencies have fewer
+/// features than those of the whole workspace, and would compile all of them a second time.
+fn built(command: &str) -> Option<Line> {
+    let (_, program) = command.strip_prefix("cargo run -p ")?.split_once(" --bin ")?;
+    let (name, arguments) = program.split_once(" -- ")?;
+    Some(arguments.split(' ').fold(Line::of("").word(Path::new("target/debug").join(name)), Line::word))
 }
 
 /// What a run came to.
@@ -174,6 +187,18 @@ mod tests {
         let told = run(TWO_OF_THREE, |_| true).summary();
         assert_eq!(told.lines().last(), Some("3 passed, 0 failed"));
         assert_eq!(told.lines().count(), 4, "{told}");
+    }
+
+    #[test]
+    fn no_program_is_compiled_a_second_time() {
+        let shown: Vec<String> = STEPS.iter().map(|step| step.line().shown()).collect();
+        assert!(!shown.iter().any(|line| line.starts_with("cargo run -p")), "{shown:?}");
+        let place = |of: &str| shown.iter().position(|line| line.starts_with(of)).expect(of);
+        assert!(place(PROGRAMS) < place("target/debug/"), "{shown:?}");
+        assert_eq!(
+            shown.last().map(String::as_str),
+            Some("target/debug/morning target/thumbv7em-none-eabihf/firmware/firmware")
+        );
     }
 
     #[test]
