@@ -17,7 +17,8 @@
 //! 2. battery and bridge: voltages, solved together with the currents that they depend on (`electric.rs`);
 //! 3. winding, shaft and gear: current, torque, and the dry friction that each shaft can hold; a rotor whose shaft yields
 //!    moves on its own (`shaft.rs`);
-//! 4. traction: a wheel that creeps or slips turns faster than the floor passes by (`traction.rs`);
+//! 4. traction: a wheel that creeps or slips turns faster than the floor passes by (`traction.rs`), one with inertia in two
+//!    stages (`spin.rs`);
 //! 5. body: all forces, one linearly implicit step, dry friction spent once (`body.rs`), at a reversal within the step for
 //!    each part of it (`reversal.rs`);
 //! 6. pose (eq. 1), reading, and the memory of effects.
@@ -68,6 +69,8 @@ mod shaft;
 mod wheel;
 
 mod traction;
+
+mod spin;
 
 mod forces;
 

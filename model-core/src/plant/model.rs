@@ -212,6 +212,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             pose,
             twist,
             wheel_speed,
+            slip: [T::zero(); N],
             acceleration: [kept(self.needs.acceleration); 3],
             wheel_angle: [kept(self.needs.angle); N],
             rotor_speed: wheel_speed,
@@ -222,19 +223,20 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         }
     }
 
-    /// The same, where what cannot be seen goes on from another state: angles, twists, heat, currents, the bus; a rotor
-    /// stays as much faster than its wheel as it was.
+    /// The same, where what cannot be seen goes on from another state: slip, angles, twists, heat, currents, the bus; a
+    /// rotor stays as much faster than its wheel as it was.
     pub fn start_from(&self, hidden: &State<N, T>, time: T, pose: Pose<T>, twist: BodyTwist<T>) -> State<N, T> {
         let start = self.start(time, pose, twist);
         let ahead = |j: usize| {
             if self.yields_at(j) { hidden.rotor_speed[j] - hidden.wheel_speed[j] } else { T::zero() }
         };
+        let wheel_speed = core::array::from_fn(|j| start.wheel_speed[j] + hidden.slip[j]);
         State {
-            rotor_speed: core::array::from_fn(|j| start.wheel_speed[j] + ahead(j)),
+            rotor_speed: core::array::from_fn(|j| wheel_speed[j] + ahead(j)),
             time,
             pose,
             twist,
-            wheel_speed: start.wheel_speed,
+            wheel_speed,
             ..*hidden
         }
     }

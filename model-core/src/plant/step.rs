@@ -4,6 +4,7 @@ use super::dry_friction::Hold;
 use super::model::Plant;
 use super::shaft::Rotor;
 use super::source::{Drive, Source};
+use super::spin::follow;
 use super::state::{Input, Reading, State};
 use super::wheel::Wheel;
 use crate::effects::EffectSet;
@@ -107,6 +108,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 turned.heat.get_or_insert([zero; N])[j] =
                     wheel.motor.resistance * wheel.motor.mean * wheel.motor.mean * dt;
             }
+            if !wheel.follows.is_nothing() {
+                turned.follows.get_or_insert([zero; N])[j] = wheel.follows;
+            }
             if self.yields {
                 turned.rotors.get_or_insert([Rotor::default(); N])[j] = wheel.rotor;
             }
@@ -130,6 +134,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             }
         }
         let next = BodyTwist::from_array(self.move_body(&mut at, state, memory, &mut push, dt));
+        if let Some(follows) = &turned.follows {
+            follow(state, contact, follows, next);
+        }
         let done = Done { next, contact, source: &source, bus, turned: &turned };
         self.finish(&mut at, state, memory, &done, &mut truth);
         truth
@@ -269,6 +276,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
 pub(super) struct Turned<const N: usize, T> {
     /// Heat in each winding [J], where an effect looks at it
     pub heat: Option<[T; N]>,
+    /// By how much the speed of a wheel that slips follows that of its rim [rad/m], where it has inertia
+    pub follows: Option<[T; N]>,
     /// The rotors, where a shaft yields
     pub rotors: Option<[Rotor<T>; N]>,
     /// −∂(current at the step's end)/∂(speed that the rotor gains in the step) [A·s], where a winding has inductance
@@ -277,7 +286,7 @@ pub(super) struct Turned<const N: usize, T> {
 
 impl<const N: usize, T: Real> Default for Turned<N, T> {
     fn default() -> Self {
-        Self { heat: None, rotors: None, late: None }
+        Self { heat: None, follows: None, rotors: None, late: None }
     }
 }
 

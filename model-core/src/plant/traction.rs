@@ -6,7 +6,8 @@
 //!
 //! On the left the torque that the motor can give at the wheel speed ω, which falls with ω; on the right what the floor
 //! takes at the slip speed s = r·ω − v_j, which rises. They cross once. Without inertia on the shaft (J = 0, the plain
-//! model) the wheel is always at that crossing; with it, the crossing is the end of an implicit step.
+//! model) the wheel is always at that crossing; with it, the crossing is the end of an implicit step of Δt, of which two
+//! make one of the model (`spin.rs`).
 //! The shaft's own dry friction is spent with the body's, as if it passed through a rigid contact.
 
 use crate::effects::contact::wheel_slip::{curve, traction};

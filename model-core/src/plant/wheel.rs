@@ -4,6 +4,7 @@ use super::electric::Electric;
 use super::model::Plant;
 use super::shaft::{Before, Rotor};
 use super::source::Drive;
+use super::spin::{Spun, spin};
 use super::traction::{Crossing, Floor, Line, cross};
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
@@ -14,6 +15,8 @@ use crate::number::scalar::Real;
 pub(super) struct Wheel<T: Real> {
     /// Where motor and floor meet; the speed of a wheel that rolls is that at the step's beginning
     pub met: Crossing<T>,
+    /// By how much the speed of one that slips follows that of its rim in the step, where it has inertia [rad/m]
+    pub follows: T,
     /// Speed when the reading is taken [rad/s]
     pub starts: T,
     /// Inertia that the body has to accelerate with the wheel [kg·m²]
@@ -36,6 +39,7 @@ impl<T: Real> Wheel<T> {
         let zero = T::zero();
         Self {
             met: Crossing { force: zero, rate: zero, speed: zero },
+            follows: zero,
             starts: zero,
             inertia: zero,
             budget: zero,
@@ -72,6 +76,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             wheel.met.force = force;
             wheel.met.rate = rate;
             wheel.met.speed = at.wheel_speed;
+            wheel.follows = T::zero();
             wheel.starts = at.wheel_speed;
         } else {
             self.slip(at, drive, wheel);
@@ -108,7 +113,9 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 radius: &c.radius,
                 rim_speed: &at.rim_speed,
             };
-            wheel.met = cross(&line, floor);
+            let at_once = |met| Spun { met, follows: T::zero() };
+            let spun = if moves { spin(&line, floor) } else { at_once(cross(&line, floor)) };
+            (wheel.met, wheel.follows) = (spun.met, spun.follows);
             let gained = wheel.met.speed - at.wheel_speed;
             at.wheel_speed = wheel.met.speed;
             if !self.yields && wheel.motor.go_along(gained) {

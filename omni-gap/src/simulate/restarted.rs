@@ -84,6 +84,7 @@ impl<const N: usize> TurnedRound<'_, N> {
             pose: if self.same_places { of.pose } else { on.pose },
             twist: BodyTwist { v: -v, vn: -vn, w: -w },
             wheel_speed: of.wheel_speed.map(|x| -x),
+            slip: of.slip.map(|x| -x),
             rotor_speed: of.rotor_speed.map(|x| -x),
             shaft_twist: of.shaft_twist.map(|x| -x),
             current: of.current.map(|x| -x),

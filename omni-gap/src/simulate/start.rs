@@ -132,8 +132,8 @@ impl<const N: usize> Start<N> {
 
     /// The plant's own true state behind this measurement: through the inverse of its sensing effects.
     ///
-    /// The twist comes from the wheel speeds, where there are none from the pose's rate, and where there is neither the
-    /// run goes on with `before`.
+    /// The twist comes from the wheel speeds, less what the wheels slip by in `before`; where there are none from the pose's
+    /// rate, and where there is neither the run goes on with `before`.
     pub fn state(&self, plant: &Plant<N, f64>, before: &State<N, f64>) -> State<N, f64> {
         let measured = self.pose.map_or(before.pose, |(p, _)| Pose { x: p[0], y: p[1], theta: p[2] });
         let reading = Reading {
@@ -144,7 +144,7 @@ impl<const N: usize> Start<N> {
         };
         let truth = plant.invert_sensing(self.time, BodyTwist::default(), reading);
         let mut twist = if self.wheel_speed.is_some() {
-            plant.twist_of_wheel_speeds(truth.wheel_speed)
+            plant.twist_of_wheel_speeds(std::array::from_fn(|j| truth.wheel_speed[j] - before.slip[j]))
         } else if let Some((_, [x, y, theta])) = self.pose {
             // the rate of the pose behind the one that is read
             let behind = |after_s: f64| {
@@ -214,6 +214,31 @@ mod tests {
         let begun = |prolonged| start(prolonged).seen_on_both_sides().state(&plant, &before).twist;
         assert_eq!(begun(true), before.twist);
         assert!((begun(false).w - before.twist.w).abs() > 1.0, "{:?}", begun(false));
+    }
+
+    #[test]
+    fn wheels_that_spin_go_on_spinning_and_the_robot_is_as_slow_as_it_was() {
+        let mut effects = Effects::default();
+        effects.add(EffectKind::WheelSlip, None, &[0.2, 30.0, 1.0]).expect("parameters of its card");
+        effects.add(EffectKind::RotorInertia, None, &[7e-5]).expect("parameters of its card");
+        let plant = Plant::new(paper::four_wheels::<f64>(), effects);
+        let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
+        for _ in 0..60 {
+            plant.step(&mut state, &mut [], &Input::Voltage([9.0, -9.0, -9.0, 9.0]), 1e-3);
+        }
+        assert!(state.slip.iter().all(|slip| slip.abs() > 10.0), "every wheel spins: {state:?}");
+        let start = Start {
+            time: state.time,
+            wheel_speed: Some(state.wheel_speed),
+            pose: None,
+            pose_spread: None,
+            gyro: None,
+            prolonged: false,
+        };
+        let begun = start.state(&plant, &state);
+        let of = |twist: BodyTwist<f64>| twist.to_array();
+        assert!(of(begun.twist).iter().zip(of(state.twist)).all(|(a, b)| (a - b).abs() < 1e-12), "{begun:?}");
+        assert!(begun.wheel_speed.iter().zip(state.wheel_speed).all(|(a, b)| (a - b).abs() < 1e-10), "{begun:?}");
     }
 
     #[test]
