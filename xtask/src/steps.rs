@@ -3,10 +3,10 @@
 //! A check is one entry of [`STEPS`]. They run one after the other, each announced with its exact command, and the first
 //! failure ends the run: what takes seconds stands before what takes minutes.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::line::Line;
+use crate::wheel;
 
 /// One check.
 #[derive(Clone, Copy, Debug)]
@@ -110,17 +110,17 @@ pub const STEPS: &[Step] = &[
 
 impl Step {
     fn line(&self) -> Line {
-        let line = built(self.command).unwrap_or_else(|| Line::of(self.command));
+        let line = as_built(self.command).unwrap_or_else(|| Line::of(self.command));
         self.env.iter().fold(line, |line, (name, value)| line.env(name, value))
     }
 }
 
 /// The same program as [`PROGRAMS`] has built it. `cargo run -p` selects one package, whose dependencies have fewer
 /// features than those of the whole workspace, and would compile all of them a second time.
-fn built(command: &str) -> Option<Line> {
+fn as_built(command: &str) -> Option<Line> {
     let (_, program) = command.strip_prefix("cargo run -p ")?.split_once(" --bin ")?;
     let (name, arguments) = program.split_once(" -- ")?;
-    Some(arguments.split(' ').fold(Line::of("").word(Path::new("target/debug").join(name)), Line::word))
+    Some(arguments.split(' ').fold(Line::of("").word(wheel::built().join("debug").join(name)), Line::word))
 }
 
 /// What a run came to.
