@@ -86,8 +86,12 @@ pub(super) fn follow<const N: usize, T: Real>(
 mod tests {
     use super::*;
 
-    /// A wheel of 30 mm, J = 7·10⁻⁵ kg·m², whose motor drives with 0.2 N·m at rest.
+    /// A wheel of 30 mm whose motor drives with 0.2 N·m at rest, in a step.
+    #[derive(Clone, Copy)]
     struct Case {
+        /// By how much the torque falls with the speed [N·m·s]
+        fall: f64,
+        /// J/Δt [N·m·s]
         inertia: f64,
         before: f64,
         rim_speed: f64,
@@ -96,37 +100,30 @@ mod tests {
     const RADIUS: f64 = 0.03;
     const TORQUE: f64 = 0.2;
     const FALL: f64 = 0.002;
+    /// J [kg·m²]
+    const INERTIA: f64 = 7e-5;
 
     impl Case {
-        fn spun(&self, floor: &Floor<f64>, dt: f64) -> Spun<f64> {
-            let Self { inertia, before, rim_speed } = self;
-            let (torque, speed, per_step) = (TORQUE, 0.0, inertia / dt);
-            spin(
-                &Line {
-                    torque: &torque,
-                    speed: &speed,
-                    fall: &FALL,
-                    inertia: &per_step,
-                    before,
-                    radius: &RADIUS,
-                    rim_speed,
-                },
-                floor,
-            )
+        fn over(dt: f64) -> Self {
+            Self { fall: FALL, inertia: INERTIA / dt, before: 40.0, rim_speed: 0.7 }
         }
 
-        /// The speed after so many steps, and the mean force.
-        fn after(&self, floor: &Floor<f64>, time: f64, steps: u32) -> (f64, f64) {
-            let dt = time / f64::from(steps);
-            let mut now = Case { ..*self };
-            let mut force = 0.0;
-            for _ in 0..steps {
-                let Spun { met, .. } = now.spun(floor, dt);
-                now.before = met.speed;
-                force += met.force / f64::from(steps);
-            }
-            (now.before, force)
+        fn line(&self) -> Line<&f64> {
+            let Self { fall, inertia, before, rim_speed } = self;
+            Line { torque: &TORQUE, speed: &0.0, fall, inertia, before, radius: &RADIUS, rim_speed }
         }
+    }
+
+    /// The speed after so many steps, and the mean force.
+    fn after(floor: &Floor<f64>, time: f64, steps: u32) -> (f64, f64) {
+        let mut now = Case::over(time / f64::from(steps));
+        let mut force = 0.0;
+        for _ in 0..steps {
+            let Spun { met, .. } = spin(&now.line(), floor);
+            now.before = met.speed;
+            force += met.force / f64::from(steps);
+        }
+        (now.before, force)
     }
 
     fn creep() -> Floor<f64> {
@@ -139,11 +136,10 @@ mod tests {
 
     #[test]
     fn the_error_falls_with_the_square_of_the_step() {
-        let case = Case { inertia: 7e-5, before: 40.0, rim_speed: 0.7 };
         for floor in [creep(), slip(1.0), slip(1.3)] {
-            let (speed, force) = case.after(&floor, 4e-3, 4096);
+            let (speed, force) = after(&floor, 4e-3, 4096);
             let errors = [8, 16, 32].map(|steps| {
-                let (found, mean) = case.after(&floor, 4e-3, steps);
+                let (found, mean) = after(&floor, 4e-3, steps);
                 [(found - speed).abs(), (mean - force).abs()]
             });
             for pair in errors.windows(2) {
@@ -158,51 +154,31 @@ mod tests {
     #[test]
     fn a_wheel_that_creeps_goes_to_its_speed_as_an_exponential() {
         // J·dω/dt = τ₀ − a·ω − r·(r·ω − v)/c
-        let case = Case { inertia: 7e-5, before: 40.0, rim_speed: 0.7 };
+        let time = 2e-3;
+        let case = Case::over(time);
         let fall = FALL + RADIUS * RADIUS / 0.02;
         let settles = (TORQUE + RADIUS * case.rim_speed / 0.02) / fall;
-        let time = 2e-3;
-        let exact = settles + (case.before - settles) * libm::exp(-time * fall / case.inertia);
-        let (found, _) = case.after(&creep(), time, 1000);
+        let exact = settles + (case.before - settles) * libm::exp(-time * fall / INERTIA);
+        let (found, _) = after(&creep(), time, 1000);
         assert!((found - exact).abs() < 1e-4, "{found} {exact}");
     }
 
     #[test]
     fn what_the_wheel_gains_is_what_motor_and_floor_leave_it() {
         // J·(ω₂ − ω₀) = Δt·(τ̄ − r·f̄); the motor here gives the same at any speed
-        let (torque, zero, dt, inertia, before, rim_speed) = (TORQUE, 0.0, 1e-3, 7e-5, 40.0, 0.7);
-        let per_step = inertia / dt;
-        let line = Line {
-            torque: &torque,
-            speed: &zero,
-            fall: &zero,
-            inertia: &per_step,
-            before: &before,
-            radius: &RADIUS,
-            rim_speed: &rim_speed,
-        };
-        let Spun { met, .. } = spin(&line, &slip(1.0));
-        let (gained, left) = (inertia * (met.speed - before), dt * (torque - RADIUS * met.force));
+        let dt = 1e-3;
+        let case = Case { fall: 0.0, ..Case::over(dt) };
+        let Spun { met, .. } = spin(&case.line(), &slip(1.0));
+        let (gained, left) = (INERTIA * (met.speed - case.before), dt * (TORQUE - RADIUS * met.force));
         assert!((gained - left).abs() < 1e-9 * left.abs(), "{gained} {left}");
     }
 
     #[test]
     fn a_wheel_that_hardly_weighs_anything_ends_where_one_without_inertia_does() {
         let floor = slip(1.0);
-        let Spun { met, .. } = Case { inertia: 1e-12, before: 40.0, rim_speed: 0.7 }.spun(&floor, 1e-3);
-        let (torque, zero, before, rim_speed) = (TORQUE, 0.0, 40.0, 0.7);
-        let at_once = cross(
-            &Line {
-                torque: &torque,
-                speed: &zero,
-                fall: &FALL,
-                inertia: &zero,
-                before: &before,
-                radius: &RADIUS,
-                rim_speed: &rim_speed,
-            },
-            &floor,
-        );
+        let weighs = |inertia: f64| Case { inertia, ..Case::over(1e-3) };
+        let Spun { met, .. } = spin(&weighs(1e-9).line(), &floor);
+        let at_once = cross(&weighs(0.0).line(), &floor);
         for (a, b) in [(met.force, at_once.force), (met.rate, at_once.rate), (met.speed, at_once.speed)] {
             assert!((a - b).abs() < 1e-5 * b.abs(), "{a} {b}");
         }
@@ -212,7 +188,7 @@ mod tests {
     fn rate_and_following_are_the_differences_over_the_speed_of_the_rim() {
         for floor in [creep(), slip(1.0), slip(1.3)] {
             for before in [20.0, 24.0, 40.0] {
-                let at = |rim_speed: f64| Case { inertia: 7e-5, before, rim_speed }.spun(&floor, 1e-3);
+                let at = |rim_speed: f64| spin(&Case { before, rim_speed, ..Case::over(1e-3) }.line(), &floor);
                 let (low, here, high) = (at(0.7 - 1e-5), at(0.7), at(0.7 + 1e-5));
                 let rate = (low.met.force - high.met.force) / 2e-5;
                 let follows = (high.met.speed - low.met.speed) / 2e-5;

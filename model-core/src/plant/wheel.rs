@@ -113,9 +113,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 radius: &c.radius,
                 rim_speed: &at.rim_speed,
             };
-            let at_once = |met| Spun { met, follows: T::zero() };
-            let spun = if moves { spin(&line, floor) } else { at_once(cross(&line, floor)) };
-            (wheel.met, wheel.follows) = (spun.met, spun.follows);
+            Spun { met: wheel.met, follows: wheel.follows } =
+                if moves { spin(&line, floor) } else { Spun { met: cross(&line, floor), follows: T::zero() } };
             let gained = wheel.met.speed - at.wheel_speed;
             at.wheel_speed = wheel.met.speed;
             if !self.yields && wheel.motor.go_along(gained) {
