@@ -1,16 +1,19 @@
 //! # Notebooks: run, and what they print compared with what is kept in them
 //!
-//! They use the extension of a dev build, and the benchmark of a release build.
+//! They use the extension and the benchmark of a dev build.
 
 use std::ffi::OsString;
 
 use crate::line::{Line, top};
 use crate::python::Environment;
-use crate::wheel::{PACKAGE, dev_package};
+use crate::wheel::{PACKAGE, built, dev_package};
 
 /// What runs them, and what they use.
 pub const ENVIRONMENT: Environment =
     Environment { folder: "target/python/notebooks", requirements: "python/requirements/notebooks.txt" };
+
+/// Names the benchmark's program to `cargo xtask bench` where it is built already.
+pub const BENCH: &str = "OMNI_GAP_BENCH";
 
 /// All of them.
 const NOTEBOOKS: [&str; 3] = ["csv_to_answer", "design_an_experiment", "enter_the_benchmark"];
@@ -23,10 +26,13 @@ pub fn perform(words: &[OsString]) -> Result<(), String> {
     let asked = asked(words)?;
     let python = ENVIRONMENT.ensure()?;
     dev_package()?;
+    Line::of("cargo build --workspace --bin bench --test walls").announced()?;
     let script = Line::of("").word(python).word("python/tests/notebooks.py");
     let script = asked.iter().fold(script, |line, name| line.word(format!("python/notebooks/{name}.ipynb")));
     let package = top().join(PACKAGE).to_string_lossy().into_owned();
-    script.env("PYTHONPATH", &package).env("OMNI_GAP_REPOSITORY", &top().to_string_lossy()).announced()
+    let bench = top().join(built()).join("debug/bench").to_string_lossy().into_owned();
+    let script = script.env("OMNI_GAP_REPOSITORY", &top().to_string_lossy()).env(BENCH, &bench);
+    script.env("PYTHONPATH", &package).announced()
 }
 
 fn asked(words: &[OsString]) -> Result<Vec<&'static str>, String> {

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 
 use crate::line::Line;
 use crate::python::Environment;
-use crate::{mjcf, real, steps, tool, wheel};
+use crate::{mjcf, notebooks, real, steps, tool, wheel};
 
 /// What the comparison with MuJoCo runs on.
 pub const MUJOCO: Environment =
@@ -35,7 +35,10 @@ pub fn bench(words: &[OsString]) -> Result<(), String> {
     if words.is_empty() {
         return Line::of("cargo bench -p host-tests").announced();
     }
-    let line = Line::of("cargo run --release -p host-tests --bin bench --");
+    let line = match std::env::var_os(notebooks::BENCH) {
+        Some(built) => Line::of("").word(built),
+        None => Line::of("cargo run --release -p host-tests --bin bench --"),
+    };
     words.iter().fold(line, Line::word).announced()
 }
 
