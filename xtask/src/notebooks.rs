@@ -6,7 +6,7 @@ use std::ffi::OsString;
 
 use crate::line::{Line, top};
 use crate::python::Environment;
-use crate::wheel::{PACKAGE, built, dev_package};
+use crate::wheel::{PACKAGE, dev_package, dev_program};
 
 /// What runs them, and what they use.
 pub const ENVIRONMENT: Environment =
@@ -26,13 +26,12 @@ pub fn perform(words: &[OsString]) -> Result<(), String> {
     let asked = asked(words)?;
     let python = ENVIRONMENT.ensure()?;
     dev_package()?;
-    Line::of("cargo build --workspace --bin bench --test walls").announced()?;
+    let bench = top().join(dev_program("bench")?).to_string_lossy().into_owned();
     let script = Line::of("").word(python).word("python/tests/notebooks.py");
     let script = asked.iter().fold(script, |line, name| line.word(format!("python/notebooks/{name}.ipynb")));
     let package = top().join(PACKAGE).to_string_lossy().into_owned();
-    let bench = top().join(built()).join("debug/bench").to_string_lossy().into_owned();
-    let script = script.env("OMNI_GAP_REPOSITORY", &top().to_string_lossy()).env(BENCH, &bench);
-    script.env("PYTHONPATH", &package).announced()
+    let script = script.env("PYTHONPATH", &package).env("OMNI_GAP_REPOSITORY", &top().to_string_lossy());
+    script.env(BENCH, &bench).announced()
 }
 
 fn asked(words: &[OsString]) -> Result<Vec<&'static str>, String> {

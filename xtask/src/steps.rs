@@ -193,6 +193,7 @@ mod tests {
     fn no_program_is_compiled_a_second_time() {
         let shown: Vec<String> = STEPS.iter().map(|step| step.line().shown()).collect();
         assert!(!shown.iter().any(|line| line.starts_with("cargo run -p")), "{shown:?}");
+        assert!(!shown.iter().any(|line| line.contains("--release")), "{shown:?}");
         let place = |of: &str| shown.iter().position(|line| line.starts_with(of)).expect(of);
         assert!(place(PROGRAMS) < place("target/debug/"), "{shown:?}");
         assert_eq!(

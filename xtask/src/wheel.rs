@@ -67,6 +67,15 @@ pub fn built() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| PathBuf::from("target"), PathBuf::from)
 }
 
+/// Builds a program with the features that the tests are built with, and says where it is.
+///
+/// # Errors
+/// What to tell the person.
+pub fn dev_program(name: &str) -> Result<PathBuf, String> {
+    Line::of("cargo build --workspace --test walls --bin").word(name).announced()?;
+    Ok(built().join("debug").join(name))
+}
+
 /// The extension as cargo names it, and as Python finds it.
 const BUILT: &str = if cfg!(windows) {
     "_omni_gap.dll"

@@ -53,8 +53,8 @@ pub fn fleet(asked: &[OsString]) -> Result<(), String> {
 
 /// In the build of the tests: what overflows ends a program there.
 pub fn fault_injection(_: &[OsString]) -> Result<(), String> {
-    Line::of("cargo build --workspace --bin omni-gap --bin fault_injection --test walls").announced()?;
-    Line::of("").word(wheel::built().join("debug/fault_injection")).announced()
+    wheel::dev_program("omni-gap")?;
+    Line::of("").word(wheel::dev_program("fault_injection")?).announced()
 }
 
 pub fn mujoco(_: &[OsString]) -> Result<(), String> {
