@@ -199,6 +199,8 @@ pub struct Physics {
     /// True if the model has a corner where the effect is absent, so that a fit has to start elsewhere: a coefficient of
     /// friction of zero stands for an infinite one, and the plant leaves out a contact's creep while there is none.
     pub corner_at_absent: bool,
+    /// True if its size is a limit, of which zero stands for none: the smaller it is, the more of the effect there is.
+    pub is_limit: bool,
     /// True if it goes by how long the robot has run: one that has run for longer then moves otherwise.
     pub ages: bool,
     /// The effect without which nothing of a run depends on this one.
@@ -217,6 +219,7 @@ impl Physics {
         place: None,
         world_place: None,
         corner_at_absent: false,
+        is_limit: false,
         ages: false,
         shows_beside: None,
         apart: 1e-9,

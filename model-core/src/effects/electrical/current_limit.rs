@@ -55,7 +55,7 @@ pub const CARD: Card = Card {
     }],
     code: 34,
     undone: Undone::No("the drive protects itself; ask for less acceleration"),
-    physics: Physics { corner_at_absent: true, ..Physics::PASSIVE },
+    physics: Physics { corner_at_absent: true, is_limit: true, ..Physics::PASSIVE },
 };
 
 /// The smaller of two limits, of which zero stands for none [A].
