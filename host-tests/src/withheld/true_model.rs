@@ -239,7 +239,9 @@ fn wheel_and_floor(id: &str, truth: &RobotFile, setup: &Setup, on: usize) -> Opt
         },
         "wheel_slip" => match wheel.grip {
             // one of the catalogue's curve has the slope B·μ·N where this one has 1/c
-            Grip::Slips(slip) => vec![("friction_coefficient", slip.static_friction)],
+            Grip::Slips(slip) => {
+                vec![("friction_coefficient", slip.static_friction), ("inertia_at_wheel_kg_m2", rotor)]
+            }
             _ => Vec::new(),
         },
         "roller_friction" => vec![("friction_N", wheel.roller_friction), ("damping_N_s_per_m", wheel.roller_damping)],

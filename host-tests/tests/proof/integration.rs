@@ -35,6 +35,9 @@ fn smooth_at_1_ms(id: &str) -> [f64; 5] {
         "regeneration_asymmetry" => [2.1e-5, 4.1e-4, 8e-6, 4e-5, 2.2e-5],
         // a body on springs of 57 rad/s swings by up to 28 mm/s and 0.26 rad/s: (ω₀·Δt)²/12 of that for each radian
         "presliding" => [4e-5, 3e-4, 1.2e-5, 1e-4, 4e-5],
+        // a wheel that slips settles in J/(r²·μ·N·B) = 1 ms. Of a jump by 10 rad/s the two stages keep 35 % for e⁻¹ over 1 ms
+        // and 7 % for e⁻² over 2 ms: 0.17 and 0.67 rad/s off, 5 and 20 mA, and J/r times that, 0.4 and 1.4 mN·s, on the body
+        "wheel_slip" | "uneven_load" => [4e-4, 4e-3, 1e-4, 1e-3, 7e-3],
         _ => SMOOTH_AT_1_MS,
     }
 }
@@ -78,11 +81,12 @@ fn late_at_1_ms(id: &str) -> Option<[f64; 5]> {
         // lag of 2 ms smooths, 0.09 ms/(2·T)
         "current_lag" => [8e-6, 1.2e-4, 4e-6, 2e-5, 0.1],
         // the acceleration is that of the last step: for one step after a jump of the voltages a wheel may push with 0.4 N too
-        // much, 0.2 mm/s and 2 mrad/s at a time; its rim, which has no inertia, is off by up to 6 rad/s there, 0.2 A
-        "load_transfer" => [8e-4, 1.2e-2, 1.2e-4, 8e-4, 0.22],
-        // friction that depends on the speed is late, and a wheel that slips settles in J/(r²·μ·N·B) = 1 ms: of a jump by
-        // 10 rad/s the two stages keep 35 % for e⁻¹ over 1 ms and 7 % for e⁻² over 2 ms, 0.17 and 0.67 rad/s off, 5 and
-        // 20 mA, and J/r times that, 0.4 and 1.4 mN·s, on the body
+        // much, 0.2 mm/s and 2 mrad/s at a time, and spins up by 0.2 rad/s more, 6 mA
+        "load_transfer" => [8e-4, 8e-3, 1.2e-4, 2e-3, 2e-2],
+        // where a current passes zero the torque of a motor with dead time bends: over a step in which its wheel slips it is
+        // that along the line at its end
+        "dead_time, wheel_slip" => [4e-4, 5e-3, 1.2e-4, 2e-3, 2.5e-2],
+        // friction that depends on the speed is late, and a wheel that slips is off
         "stribeck, wheel_slip, rotor_inertia" => [1e-3, 1.2e-2, 3e-4, 3e-3, 1e-2],
         _ => return None,
     })
@@ -183,7 +187,7 @@ fn the_steps_error_is_what_the_page_says() {
     page += "Every effect has its typical size. Halving the step quarters the error, but where friction depends on the speed\n";
     page +=
         "or on its direction (gear_efficiency, stribeck, friction_ellipse), where the bus depends on the currents\n";
-    page += "(supply_sag), where the radius\n";
+    page += "(supply_sag) or a torque bends while its wheel slips (dead_time, wheel_slip), where the radius\n";
     page += "is that at a step's beginning (wheel_eccentricity, roller_ripple), where a load goes by the acceleration of the step\n";
     page +=
         "before (load_transfer, beside wheel_slip as uneven_load), and where a motor is as warm as before the step\n";

@@ -262,7 +262,7 @@ fn a_reading_knows_its_wheel_and_its_time() {
 #[test]
 fn a_wheel_with_inertia_that_slips_is_read_before_it_moves() {
     let mut effects = Effects::default();
-    for (id, params) in [("rotor_inertia", &[7.5e-5][..]), ("wheel_slip", &[0.35, 30.0, 1.0])] {
+    for (id, params) in [("rotor_inertia", &[7.5e-5][..]), ("wheel_slip", &[0.35, 30.0, 1.0, 0.0])] {
         effects.add(effect(id), None, params).expect("room");
     }
     let mut run = Run::new(Plant::new(four::<f64>(), effects));
@@ -276,6 +276,24 @@ fn a_wheel_with_inertia_that_slips_is_read_before_it_moves() {
             assert!(gap(read.current, current) < 1e-9, "{:?} against {current:?}", read.current);
         }
     }
+}
+
+#[test]
+fn an_inertia_of_its_own_counts_where_no_rotor_has_any() {
+    let driven = |effects: &[(&str, &[f64])]| {
+        let mut set = Effects::default();
+        effects.iter().for_each(|(id, params)| set.add(effect(id), None, params).expect("room"));
+        let mut run = Run::new(Plant::new(four::<f64>(), set));
+        let holds = host_tests::excitation::voltages::<4>(12, 5, 9.0);
+        run.play(&holds, 1, |_, _| {});
+        (run.state.wheel_speed, run.twist())
+    };
+    let slip = |own: f64| [0.35, 30.0, 1.0, own];
+    let (rotor, light) =
+        (driven(&[("rotor_inertia", &[7.5e-5]), ("wheel_slip", &slip(0.0))]), driven(&[("wheel_slip", &slip(0.0))]));
+    assert_eq!(driven(&[("wheel_slip", &slip(7.5e-5))]), rotor, "the same inertia, told by the other effect");
+    assert_eq!(driven(&[("rotor_inertia", &[7.5e-5]), ("wheel_slip", &slip(3e-4))]), rotor, "the rotor's counts");
+    assert_ne!(light, rotor);
 }
 
 /// A hook, and what it was told.

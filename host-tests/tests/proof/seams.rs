@@ -164,13 +164,18 @@ impl Described for Contact<f64> {
             position: [0.089 * sin, -0.089 * cos],
             roller_friction: rng.between(0.0, 0.5),
             roller_damping: rng.between(0.0, 0.5),
+            inertia: rng.between(0.0, 1e-4),
             ..Contact::default()
         }
     }
     fn numbers(&self) -> Vec<f64> {
         let [a, b, c] = self.row;
         let mut all = vec![a, b, c, self.radius, self.load, self.creep, self.grip, self.stiffness, self.shape];
-        all.extend(self.position.into_iter().chain(self.load_shift).chain([self.roller_friction, self.roller_damping]));
+        all.extend(self.position.into_iter().chain(self.load_shift).chain([
+            self.roller_friction,
+            self.roller_damping,
+            self.inertia,
+        ]));
         all
     }
 }

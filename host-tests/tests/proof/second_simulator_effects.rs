@@ -31,7 +31,6 @@ const OWN_LAWS: &[(&str, f64, &str)] = &[
     ("friction_ellipse", 0.06, "friction points against any motion, however slow"),
     ("presliding", 0.3, "an elastic give up to the limit, not Dahl's curve"),
     ("creep", 0.07, "a wheel is read before the voltage changes, not after: without inertia it jumps"),
-    ("wheel_slip", 0.15, "a spring and a limit, not Pacejka's curve, and the wheels weigh something"),
     ("shaft_elasticity", 0.2, "the wheels weigh something"),
     ("backlash", 0.2, "the same"),
 ];

@@ -220,6 +220,9 @@ pub struct Contact<T> {
     pub stiffness: T,
     /// Shape of the slip curve: 1 rises to the limit, above 1 falls after a peak
     pub shape: T,
+    /// J of a wheel that may slip, with all that turns with it on a rigid shaft, where no effect of shaft or gear gives it any:
+    /// its speed would jump with every voltage [kg·m²]
+    pub inertia: T,
     /// Dry friction of the rollers, along the wheel's axle [N]: a budget, spent by the plant
     pub roller_friction: T,
     /// Viscous friction of the rollers, along the wheel's axle [N·s/m]

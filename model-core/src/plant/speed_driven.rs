@@ -81,6 +81,12 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             mean
         };
         state.wheel_speed = drives.map(|drive| drive.after);
+        state.slip = [zero; N];
+        if yields {
+            for (j, c) in contact.iter().enumerate() {
+                state.slip[j] = state.wheel_speed[j] - c.rim_speed(next) * c.per_radius;
+            }
+        }
         // no current is known that would make heat
         let turned = Turned { heat: self.needs.heat.then_some([zero; N]), ..Turned::default() };
         let source = Source::Speed(drives);

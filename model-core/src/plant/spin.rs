@@ -64,7 +64,8 @@ pub(super) fn spin<T: Real>(line: &Line<&T>, floor: &Floor<T>) -> Spun<T> {
     }
 }
 
-/// Has the wheels' speeds at the step's end follow the body, which goes on to the twist `next`, and counts what they slip by.
+/// Has the speeds of wheels with inertia at the step's end follow the body, which goes on to the twist `next`, and counts what
+/// they slip by there.
 pub(super) fn follow<const N: usize, T: Real>(
     state: &mut State<N, T>,
     contact: &[Contact<T>; N],
@@ -72,7 +73,6 @@ pub(super) fn follow<const N: usize, T: Real>(
     next: BodyTwist<T>,
 ) {
     for (j, (c, follows)) in contact.iter().zip(follows).enumerate() {
-        state.slip[j] = T::zero();
         if !follows.is_nothing() {
             let rim_speed = c.rim_speed(next);
             // the floor gains speed evenly over the step

@@ -29,7 +29,7 @@ pub struct State<const N: usize, T> {
     pub twist: BodyTwist<T>,
     /// Speed of each wheel at its shaft as last solved for [rad/s]
     pub wheel_speed: [T; N],
-    /// Slip of each wheel that has inertia, by how much faster it turns than one that rolls [rad/s]; zero of others
+    /// By how much faster each wheel turns than one that rolls, as last solved for [rad/s]
     pub slip: [T; N],
     /// Acceleration of the body's centre in the last step, along the body's axes, the turning of the axes counted in
     /// [m/s², m/s², rad/s²]; this one, the angles and the heat are NaN unless an effect [`Needs`](crate::effects::Needs) them

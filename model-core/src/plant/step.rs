@@ -95,13 +95,15 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         for j in 0..N {
             let c = &contact[j];
             let rim_speed = c.rim_speed(state.twist);
-            self.enter_wheel(&mut at, state, j, (rim_speed * c.per_radius, rim_speed));
+            let rolling = rim_speed * c.per_radius;
+            self.enter_wheel(&mut at, state, j, (rolling, rim_speed));
             let floor = floors.map(|floors| &floors[j]);
             let drive = Drive { source: &source, gain: gain.as_ref(), contact: c, floor, state, memory };
             self.wheel(&mut at, &drive, &mut wheel);
             truth.current[j] = wheel.motor.sampled();
             truth.wheel_speed[j] = wheel.starts;
             state.wheel_speed[j] = wheel.met.speed;
+            state.slip[j] = wheel.met.speed - rolling;
             state.current[j] = wheel.motor.after();
             if self.needs.heat {
                 // R·i²·Δt
@@ -180,6 +182,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             c.add_force(&mut force, torque * c.per_radius);
         }
         (state.current, state.wheel_speed) = (truth.current, truth.wheel_speed);
+        state.slip = [zero; N];
         (truth, force)
     }
 

@@ -98,9 +98,12 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
         let before = drive.state.wheel_speed[at.wheel];
         at.wheel_speed = before;
         self.look(at, drive, wheel);
-        let moves = wheel.inertia > T::zero();
         // an inertia of zero may still have derivatives
-        let inertia = if self.turns { wheel.inertia / at.dt } else { T::zero() };
+        if wheel.inertia <= T::zero() && !self.yields_at(at.wheel) {
+            wheel.inertia += c.inertia;
+        }
+        let moves = wheel.inertia > T::zero();
+        let inertia = if wheel.inertia.is_nothing() { T::zero() } else { wheel.inertia / at.dt };
         for look in 1..LOOKS {
             // the motor as a straight line through the last look: τ(ω) = τ₁ − a·(ω − ω₁)
             let (torque, fall) = wheel.line();

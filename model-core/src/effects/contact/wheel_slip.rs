@@ -8,6 +8,9 @@
 //! wheel spins up, and odometry counts a way that was never gone. The curve is the short form of Pacejka's formula.
 //! With C = 1 it rises to the limit, f = μ·N·B·s/√(1 + (B·s)²); with C above 1 it falls again after a peak.
 //!
+//! While it slips a wheel is held by its own inertia alone, J·dω/dt = τ − r·f: it takes some milliseconds to spin up and
+//! to be caught again.
+//!
 //! symbol  code                    unit     meaning
 //! ------  ----------------------  -------  -----------------------------------------------------
 //! μ       `friction_coefficient`  1        largest force over normal force; 0 stands for no limit
@@ -15,6 +18,10 @@
 //! B       `stiffness`             1/(m/s)  slope at the origin over the limit, at C = 1
 //! C       `shape`                 1        1 rises to the limit, above 1 falls after a peak
 //! s       `slip`                  m/s      rim speed minus speed of the floor below the wheel
+//! J       `inertia_at_wheel`      kg·m²    inertia of rotor, gear and wheel at the wheel shaft
+//!
+//! J is that of `rotor_inertia` where the model has it, else what stands here; on a shaft that yields it is the rotor's,
+//! and the wheel has none.
 //!
 //! A coefficient of zero stands for a contact that holds any force: the nominal model. The way there leads over large
 //! coefficients, not over small ones, so a fit starts from the typical value and says nothing near zero.
@@ -27,7 +34,7 @@
 use crate::effects::card::{Card, LookAlike, Param, Physics, Role, Scope, Seam, Undone};
 use crate::effects::seams::{Contact, EffectContext};
 use crate::effects::shows::{Channel, Parity, Regime, Shows};
-use crate::effects::{Catalogued, Hooks};
+use crate::effects::{Catalogued, Hooks, Needs};
 use crate::number::scalar::Real;
 
 /// The effect's page as data.
@@ -56,7 +63,7 @@ pub const CARD: Card = Card {
             absent: 30.0,
             typical: 30.0,
             within: (5.0, 200.0),
-            role: Role::Fixed,
+            role: Role::Shape,
         },
         Param {
             key: "curve_shape",
@@ -66,6 +73,15 @@ pub const CARD: Card = Card {
             typical: 1.0,
             within: (0.8, 1.4),
             role: Role::Fixed,
+        },
+        Param {
+            key: "inertia_at_wheel_kg_m2",
+            symbol: "J",
+            unit: "kg·m²",
+            absent: 0.0,
+            typical: 7e-5,
+            within: (0.0, 0.02),
+            role: Role::Shape,
         },
     ],
     needs_current: false,
@@ -80,7 +96,7 @@ pub const CARD: Card = Card {
     ],
     code: 8,
     undone: Undone::No("no current makes the floor hold more; lower the largest acceleration"),
-    physics: Physics { corner_at_absent: true, ..Physics::PASSIVE },
+    physics: Physics { corner_at_absent: true, is_limit: true, ..Physics::PASSIVE },
 };
 
 /// Force on the floor [N] and its slope [N/(m/s)], of a contact that holds at most `limit` [N].
@@ -123,25 +139,30 @@ pub struct WheelSlip<T> {
     pub curve_stiffness: T,
     /// C, 1 rises to the limit, above 1 falls after a peak [1]
     pub curve_shape: T,
+    /// J, of rotor, gear and wheel at the wheel shaft, where nothing else says it [kg·m²]
+    pub inertia_at_wheel: T,
 }
 
 impl<T: Copy> Catalogued<T> for WheelSlip<T> {
     fn of(params: &[T]) -> Option<Self> {
-        let &[friction_coefficient, curve_stiffness, curve_shape] = params else { return None };
-        Some(Self { friction_coefficient, curve_stiffness, curve_shape })
+        let &[friction_coefficient, curve_stiffness, curve_shape, inertia_at_wheel] = params else { return None };
+        Some(Self { friction_coefficient, curve_stiffness, curve_shape, inertia_at_wheel })
     }
 }
 
 impl<T: Real> Hooks<T> for WheelSlip<T> {
     type State = ();
     const SETTLES_CONTACT: bool = true;
+    /// A wheel spins up and is caught again within a few milliseconds.
+    const NEEDS: Needs = Needs { steps_per_s: 1000, ..Needs::NOTHING };
 
     fn contact(&self, _: &(), _: &EffectContext<T>, x: &mut Contact<T>) {
-        let Self { friction_coefficient, curve_stiffness, curve_shape } = *self;
+        let Self { friction_coefficient, curve_stiffness, curve_shape, inertia_at_wheel } = *self;
         if friction_coefficient > T::zero() {
             x.grip = friction_coefficient;
             x.stiffness = curve_stiffness;
             x.shape = curve_shape;
+            x.inertia = inertia_at_wheel;
         }
     }
 }
@@ -150,7 +171,7 @@ impl<T: Real> Hooks<T> for WheelSlip<T> {
 mod tests {
     use super::*;
 
-    fn touched(p: [f64; 3]) -> Contact<f64> {
+    fn touched(p: [f64; 4]) -> Contact<f64> {
         let mut x = Contact {
             row: [0.0, 1.0, 0.089],
             radius: 0.0325,
@@ -164,14 +185,14 @@ mod tests {
         x
     }
 
-    fn bits(x: &Contact<f64>) -> [u64; 3] {
-        [x.grip, x.stiffness, x.shape].map(f64::to_bits)
+    fn bits(x: &Contact<f64>) -> [u64; 4] {
+        [x.grip, x.stiffness, x.shape, x.inertia].map(f64::to_bits)
     }
 
     #[test]
     fn without_a_coefficient_the_contact_holds_any_force_bit_for_bit() {
-        assert_eq!(bits(&touched([0.0, 30.0, 1.2])), [0.0, 0.0, 1.0].map(f64::to_bits));
-        assert_eq!(bits(&touched([0.35, 30.0, 1.2])), [0.35, 30.0, 1.2].map(f64::to_bits));
+        assert_eq!(bits(&touched([0.0, 30.0, 1.2, 7e-5])), [0.0, 0.0, 1.0, 0.0].map(f64::to_bits));
+        assert_eq!(bits(&touched([0.35, 30.0, 1.2, 7e-5])), [0.35, 30.0, 1.2, 7e-5].map(f64::to_bits));
     }
 
     #[test]
