@@ -47,7 +47,7 @@ pub const CARD: Card = Card {
         role: Role::Size,
     }],
     needs_current: false,
-    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Current, parity: Parity::Odd, order: None },
+    shows: Shows { channels: &[Channel::WheelSpeed], regime: Regime::Driven, parity: Parity::Odd, order: None },
     signature: "one wheel slips before the others, always the same one",
     look_alikes: &[LookAlike {
         with: "load_transfer",
