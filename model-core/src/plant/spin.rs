@@ -64,8 +64,22 @@ pub(super) fn spin<T: Real>(line: &Line<&T>, floor: &Floor<T>) -> Spun<T> {
     }
 }
 
-/// Has the speeds of wheels with inertia at the step's end follow the body, which goes on to the twist `next`, and counts what
-/// they slip by there.
+/// A wheel without inertia: it turns at once as fast as it then goes on to, and follows its rim's speed all the way.
+///
+/// ```text
+/// ∂ω/∂v = r·k/a,  without a motor that gives way 1/r          k = −∂f/∂v,  a = −∂τ/∂ω
+/// ```
+///
+/// What it follows by is told as of one that follows half the way, as [`follow`] takes it.
+#[inline]
+pub(super) fn at_once<T: Real>(line: &Line<&T>, floor: &Floor<T>) -> Spun<T> {
+    let met = cross(line, floor);
+    let by_rim = if *line.fall > T::zero() { *line.radius * met.rate / *line.fall } else { T::one() / *line.radius };
+    Spun { met, follows: T::lit(2.0) * by_rim }
+}
+
+/// Has the speeds of wheels that slip at the step's end follow the body, which goes on to the twist `next`, and counts what they
+/// slip by there.
 pub(super) fn follow<const N: usize, T: Real>(
     state: &mut State<N, T>,
     contact: &[Contact<T>; N],
@@ -181,6 +195,20 @@ mod tests {
         let at_once = cross(&weighs(0.0).line(), &floor);
         for (a, b) in [(met.force, at_once.force), (met.rate, at_once.rate), (met.speed, at_once.speed)] {
             assert!((a - b).abs() < 1e-5 * b.abs(), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn a_wheel_without_inertia_follows_its_rim_by_the_difference_over_its_speed() {
+        let gives_way = [creep(), slip(1.0), slip(1.3)].map(|floor| (FALL, floor));
+        // a motor of any speed holds its torque: the wheel keeps its slip
+        for (fall, floor) in gives_way.into_iter().chain([(0.0, creep())]) {
+            let at =
+                |rim_speed: f64| at_once(&Case { fall, inertia: 0.0, rim_speed, ..Case::over(1e-3) }.line(), &floor);
+            let (low, here, high) = (at(0.7 - 1e-5), at(0.7), at(0.7 + 1e-5));
+            // of what it follows by half is taken
+            let follows = 2.0 * (high.met.speed - low.met.speed) / 2e-5;
+            assert!((here.follows - follows).abs() < 1e-4 * follows.abs(), "{floor:?}: {} {follows}", here.follows);
         }
     }
 

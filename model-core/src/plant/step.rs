@@ -112,6 +112,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             }
             if !wheel.follows.is_nothing() {
                 turned.follows.get_or_insert([zero; N])[j] = wheel.follows;
+                turned.jumped.get_or_insert([zero; N])[j] = wheel.jumped;
             }
             if self.yields {
                 turned.rotors.get_or_insert([Rotor::default(); N])[j] = wheel.rotor;
@@ -232,7 +233,8 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             let mean_speed = if c.rolls() {
                 c.rim_speed(mean) * c.per_radius
             } else {
-                T::lit(0.5) * (truth.wheel_speed[j] + state.wheel_speed[j])
+                let jumped = done.turned.jumped.as_ref().map_or_else(T::zero, |jumped| jumped[j]);
+                T::lit(0.5) * (truth.wheel_speed[j] + jumped + state.wheel_speed[j])
             };
             state.wheel_angle[j] += dt * mean_speed;
             // a wheel that slips was solved for at the speed that it ends with
@@ -279,8 +281,10 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
 pub(super) struct Turned<const N: usize, T> {
     /// Heat in each winding [J], where an effect looks at it
     pub heat: Option<[T; N]>,
-    /// By how much the speed of a wheel that slips follows that of its rim [rad/m], where it has inertia
+    /// By how much the speed of a wheel that slips follows that of its rim [rad/m]
     pub follows: Option<[T; N]>,
+    /// By how much faster a wheel that slips without inertia turns at once when the command acts [rad/s]
+    pub jumped: Option<[T; N]>,
     /// The rotors, where a shaft yields
     pub rotors: Option<[Rotor<T>; N]>,
     /// −∂(current at the step's end)/∂(speed that the rotor gains in the step) [A·s], where a winding has inductance
@@ -289,7 +293,7 @@ pub(super) struct Turned<const N: usize, T> {
 
 impl<const N: usize, T: Real> Default for Turned<N, T> {
     fn default() -> Self {
-        Self { heat: None, follows: None, rotors: None, late: None }
+        Self { heat: None, follows: None, jumped: None, rotors: None, late: None }
     }
 }
 

@@ -4,8 +4,8 @@ use super::electric::Electric;
 use super::model::Plant;
 use super::shaft::{Before, Rotor};
 use super::source::Drive;
-use super::spin::{Spun, spin};
-use super::traction::{Crossing, Floor, Line, cross};
+use super::spin::{Spun, at_once, spin};
+use super::traction::{Crossing, Floor, Line};
 use crate::effects::EffectSet;
 use crate::effects::card::Seam;
 use crate::effects::seams::{EffectContext, Gear};
@@ -15,8 +15,10 @@ use crate::number::scalar::Real;
 pub(super) struct Wheel<T: Real> {
     /// Where motor and floor meet; the speed of a wheel that rolls is that at the step's beginning
     pub met: Crossing<T>,
-    /// By how much the speed of one that slips follows that of its rim in the step, where it has inertia [rad/m]
+    /// By how much the speed of one that slips follows that of its rim in the step [rad/m]
     pub follows: T,
+    /// By how much faster one without inertia turns at once when the command acts [rad/s]
+    pub jumped: T,
     /// Speed when the reading is taken [rad/s]
     pub starts: T,
     /// Inertia that the body has to accelerate with the wheel [kg·m²]
@@ -40,6 +42,7 @@ impl<T: Real> Wheel<T> {
         Self {
             met: Crossing { force: zero, rate: zero, speed: zero },
             follows: zero,
+            jumped: zero,
             starts: zero,
             inertia: zero,
             budget: zero,
@@ -77,6 +80,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
             wheel.met.rate = rate;
             wheel.met.speed = at.wheel_speed;
             wheel.follows = T::zero();
+            wheel.jumped = T::zero();
             wheel.starts = at.wheel_speed;
         } else {
             self.slip(at, drive, wheel);
@@ -94,6 +98,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 &own
             }
         };
+        let slipped = at.wheel_speed + drive.state.slip[at.wheel];
         // where the wheel was is close to where it will be
         let before = drive.state.wheel_speed[at.wheel];
         at.wheel_speed = before;
@@ -117,7 +122,7 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 rim_speed: &at.rim_speed,
             };
             Spun { met: wheel.met, follows: wheel.follows } =
-                if moves { spin(&line, floor) } else { Spun { met: cross(&line, floor), follows: T::zero() } };
+                if moves { spin(&line, floor) } else { at_once(&line, floor) };
             let gained = wheel.met.speed - at.wheel_speed;
             at.wheel_speed = wheel.met.speed;
             if !self.yields && wheel.motor.go_along(gained) {
@@ -136,11 +141,12 @@ impl<const N: usize, T: Real, E: EffectSet<T>> Plant<N, T, E> {
                 break;
             }
         }
-        if moves && !self.yields {
-            // with inertia the wheel has not moved yet when the reading is taken
-            wheel.motor.sample_at(before - wheel.met.speed);
+        // when the reading is taken the wheel has not moved yet: one without inertia slips by what the command before left it with
+        wheel.starts = if moves { before } else { slipped };
+        wheel.jumped = if moves { T::zero() } else { wheel.met.speed - slipped };
+        if !self.yields {
+            wheel.motor.sample_at(wheel.starts - wheel.met.speed);
         }
-        wheel.starts = if moves { before } else { wheel.met.speed };
         // the wheel's inertia has been accelerated at the crossing
         wheel.inertia = T::zero();
     }
