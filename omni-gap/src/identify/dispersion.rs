@@ -12,7 +12,7 @@ use super::misfit::Misfit;
 use super::prior::Prior;
 use super::settings::FitSettings;
 use super::shoot::Shots;
-use super::starts::{profile, starts_of};
+use super::starts::{profile, starts_after, starts_of};
 use crate::simulate::{EffectInstance, Model, Slot};
 
 /// A step that windows' starts spoiled is taken without these where at least this share of what it promises comes true [1]: what
@@ -55,7 +55,7 @@ pub fn fit_with_dispersion<const N: usize>(
     let options =
         |dispersion| FitOptions { free, prior, dispersion, rounds: settings.rounds, by_window: Some(COMES_TRUE) };
     let starts = match from {
-        Some(fit) => fit.starts.clone(),
+        Some(fit) => starts_after(&model, shots, &fit.starts),
         None => starts_of(&model, shots),
     };
     let slots: Vec<Slot> = free.iter().map(|f| f.slot).collect();

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use model_core::effects::EffectState;
+use model_core::effects::card::Seam;
 use model_core::geometry::frames::{BodyTwist, Pose};
 use model_core::number::scalar::Real;
 use model_core::plant::Plant;
@@ -139,13 +140,21 @@ pub(super) struct Piece {
     pub windows: Range<usize>,
 }
 
-/// Starts from the smoothed measurements, through the inverse of the plant's sensing effects.
+/// Starts from the smoothed measurements, through the inverse of the plant's sensing effects. Where wheels may slip, the plant
+/// is taken from each start to the next: how fast a robot is that stands behind its wheels' speeds depends on their slip.
 pub fn first_starts<const N: usize>(plant: &Plant<N, f64>, run: &AlignedRun<N>, windows: &Windows) -> Starts {
-    let mut before = plant.start(0.0, Pose::default(), BodyTwist::default());
+    let mut on_the_way = FreeRun::new(plant, run);
+    let may_slip = !plant.effects().none_at(Seam::Contact);
     (0..windows.len())
         .map(|k| {
-            let state = start_at(run, windows.rows(k).start).state(plant, &before);
-            before = state;
+            let rows = windows.rows(k);
+            let state = start_at(run, rows.start).state(plant, on_the_way.state());
+            on_the_way.restart(rows.start, state);
+            if may_slip {
+                for row in rows {
+                    on_the_way.pass(row, &run.input(row));
+                }
+            }
             let (p, x) = (state.pose, state.twist);
             [p.x, p.y, p.theta, x.v, x.vn, x.w]
         })
@@ -193,8 +202,12 @@ pub(super) fn run_some_windows<const N: usize, T: Real>(
 mod tests {
     use std::path::Path;
 
+    use model_core::effects::EffectKind;
+
+    use super::super::staged::{Staging, robot, staged};
     use super::*;
     use crate::log::{Catalogue, Channel, Group, RobotFile, Run};
+    use crate::simulate::EffectInstance;
 
     /// A run of three wheels at a hundred rows a second.
     fn lasting(seconds: f64) -> AlignedRun<3> {
@@ -231,5 +244,30 @@ mod tests {
         assert_eq!(seconds(1e3, 1_000_000), [50; 4]);
         // at least a window of each
         assert_eq!(all.shortened(0.1, 20_000).windows.iter().map(Windows::len).collect::<Vec<_>>(), [1; 4]);
+    }
+
+    #[test]
+    fn a_robot_whose_wheels_spin_starts_as_slow_as_it_is() {
+        let mut model = Model::<4>::nominal(&robot(), 12.0);
+        model.add_effect(EffectInstance::typical(EffectKind::WheelSlip.card(), None));
+        let quiet = Staging { runs: 1, scale: [0.0; MAX_CHANNELS], ..Staging::default() };
+        let (plant, run) = (model.plant(), &staged(&model, &quiet)[0]);
+        let windows = Windows::new(run, WINDOW_S);
+        let mut truth = FreeRun::new(&plant, run);
+        // Σ (m/s)² that the starts, and the speeds of the wheels, are off the robot's velocity
+        let (mut starts_off, mut wheels_off) = (0.0, 0.0);
+        let off = |v: f64, vn: f64, is: BodyTwist<f64>| (v - is.v).powi(2) + (vn - is.vn).powi(2);
+        let starts = first_starts(&plant, run, &windows);
+        let mut coming = starts.iter().enumerate().map(|(k, start)| (windows.rows(k).start, start)).peekable();
+        for row in 0..run.rows() {
+            if let Some((_, [.., v, vn, _])) = coming.next_if(|(start, _)| *start == row) {
+                let is = *truth.state();
+                let rolling = plant.twist_of_wheel_speeds(is.wheel_speed);
+                starts_off += off(*v, *vn, is.twist);
+                wheels_off += off(rolling.v, rolling.vn, is.twist);
+            }
+            truth.pass(row, &run.input(row));
+        }
+        assert!(wheels_off > 1.0 && starts_off < 0.1 * wheels_off, "{starts_off} {wheels_off}");
     }
 }

@@ -1,5 +1,6 @@
 //! Starts: from which state each window begins, by the measurements alone and by the model that is tried.
 
+use model_core::effects::card::Seam;
 use nalgebra::DVector;
 
 use super::begun::{Begun, part_of_the_way};
@@ -34,6 +35,17 @@ pub(super) fn starts_of<const N: usize>(model: &Model<N>, shots: Shots<'_, N>) -
     if uncertain { Begun::of(model, shots, at_rest).or(Begun::of(model, shots, measured)).starts } else { measured }
 }
 
+/// From where a fit begins that goes on `from` starts that suited another model: from these, but where wheels may slip each
+/// window takes what suits it better. Behind wheels that spin a robot may be far slower than one whose wheels roll.
+pub(super) fn starts_after<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, from: &[Starts]) -> Vec<Starts> {
+    if model.plant().effects().none_at(Seam::Contact) { from.to_vec() } else { better_starts(model, shots, from) }
+}
+
+/// Starts `from` another model; in each window that measured ones suit better, these.
+fn better_starts<const N: usize>(model: &Model<N>, shots: Shots<'_, N>, from: &[Starts]) -> Vec<Starts> {
+    Begun::of(model, shots, from.to_vec()).or(Begun::of(model, shots, starts_of(model, shots))).starts
+}
+
 /// The best starts for a model as it is, and how far each window is missed: how well whole runs are predicted. `from` are
 /// starts that suited another model, if any; each window takes what suits it better.
 pub fn profile<const N: usize>(
@@ -43,10 +55,7 @@ pub fn profile<const N: usize>(
     settings: &FitSettings,
 ) -> (Vec<Starts>, Vec<Vec<Misfit>>) {
     let none = DVector::zeros(0);
-    let mut starts = starts_of(model, shots);
-    if let Some(from) = from {
-        starts = Begun::of(model, shots, from.to_vec()).or(Begun::of(model, shots, starts)).starts;
-    }
+    let mut starts = from.map_or_else(|| starts_of(model, shots), |from| better_starts(model, shots, from));
     let mut linear = linearise(model, shots, &starts, &[], false);
     let mut part: Vec<Vec<f64>> = starts.iter().map(|run| vec![1.0; run.len()]).collect();
     for _ in 0..settings.start_rounds {
