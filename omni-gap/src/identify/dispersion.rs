@@ -6,7 +6,8 @@
 use model_core::effects::card::Role;
 use model_core::plant::robot::Nominal;
 
-use super::fit::{Fit, FitOptions, Free, fit_on};
+use super::fit::{Fit, FitOptions, fit_on};
+use super::free::Free;
 use super::linear::linearise;
 use super::misfit::Misfit;
 use super::prior::Prior;

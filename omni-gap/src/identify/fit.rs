@@ -8,7 +8,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::begun::Begun;
+use super::bounded_step::step_within;
 use super::chance;
+use super::free::Free;
 use super::linear::{Linearised, Reduced, linearise};
 use super::misfit::Misfit;
 use super::prior::Prior;
@@ -17,28 +19,6 @@ use super::shoot::{Shots, Starts};
 use super::starts::starts_of;
 use crate::simulate::{Model, Slot};
 use model_core::plant::robot::Nominal;
-
-/// A number of the model that the fit may change.
-#[derive(Clone, Copy, Debug)]
-pub struct Free {
-    /// Which.
-    pub slot: Slot,
-    /// The lowest and the highest value allowed.
-    pub within: (f64, f64),
-}
-
-impl Free {
-    /// From the lowest to the highest value allowed.
-    pub(super) fn room(&self) -> f64 {
-        self.within.1 - self.within.0
-    }
-
-    /// Whether recordings that have this information of it tell anything of it: moved through all that is allowed, it moves what
-    /// is predicted by more than one sigma.
-    pub(super) fn moves(&self, information: f64) -> bool {
-        information * self.room() * self.room() > 1.0
-    }
-}
 
 /// A fitted model.
 #[derive(Clone, Debug)]
@@ -94,6 +74,13 @@ impl<const N: usize> Fit<N> {
 /// A step that promises less than this of the cost is not taken [σ²]: no number would move by a thirtieth of its sigma.
 const ARRIVED: f64 = 1e-3;
 
+/// Dampings that a step is tried with, each thirty times the one before [1]: from one that shortens only what the data hardly
+/// determine, along a valley that bends, to one that shortens all of it.
+const TRIES: usize = 7;
+
+/// A step that made things worse is damped by this at least [1].
+const FELT: f64 = 1e-5;
+
 /// Starts creep if they promise more than this share of what they promised in the round before [1].
 const STILL_PROMISED: f64 = 0.2;
 
@@ -144,17 +131,16 @@ pub(super) fn fit_on<const N: usize>(
         let still_promised = reduced.by_starts > STILL_PROMISED * by_starts_before;
         by_starts_before = reduced.by_starts;
         let mut better = None;
-        for _ in 0..5 {
-            let Some(step) = solve(&reduced, damping) else {
+        for _ in 0..TRIES {
+            let Some((trial, taken)) = step_within(&model, free, &reduced, damping) else {
                 damping *= 10.0;
                 continue;
             };
             // Δpᵀ·g + Σ g_zᵀ·H_zz⁻¹·g_z: what a step that is linear all the way would gain
-            let by_numbers = step.dot(&reduced.grad);
+            let by_numbers = taken.dot(&reduced.grad);
             if by_numbers + reduced.by_starts < ARRIVED {
                 break 'rounds;
             }
-            let (trial, taken) = stepped(&model, free, &step);
             let mut begun = Begun::of(&trial, shots, linear.starts_after(&starts, &taken));
             let cost = |begun: &Begun| begun.cost() / dispersion + prior.cost(&trial);
             if let Some(share) = by_window
@@ -174,7 +160,7 @@ pub(super) fn fit_on<const N: usize>(
                 better = Some((trial, begun.starts, cost));
                 break;
             }
-            damping = (damping * 30.0).max(1e-5);
+            damping = (damping * 30.0).max(FELT);
         }
         let Some((trial, moved, cost)) = better else { break };
         let gained = total - cost;
@@ -250,34 +236,6 @@ pub(crate) fn slopes_of<const N: usize>(prior: &Prior, model: &Model<N>, free: &
         };
         terms.iter().map(of).sum()
     })
-}
-
-fn solve(reduced: &Reduced, damping: f64) -> Option<DVector<f64>> {
-    let mut hess = reduced.hess.clone();
-    for k in 0..hess.ncols() {
-        hess[(k, k)] *= 1.0 + damping;
-    }
-    if hess.ncols() == 0 {
-        return Some(DVector::zeros(0));
-    }
-    hess.cholesky().map(|c| c.solve(&reduced.grad))
-}
-
-/// A model whose free numbers are moved by a step, each within its bounds; and the step that was taken.
-pub(crate) fn stepped<const N: usize>(
-    model: &Model<N>,
-    free: &[Free],
-    step: &DVector<f64>,
-) -> (Model<N>, DVector<f64>) {
-    let mut trial = model.clone();
-    let mut taken = step.clone();
-    for (k, f) in free.iter().enumerate() {
-        let from = model.get(f.slot);
-        let to = (from + step[k]).clamp(f.within.0, f.within.1);
-        taken[k] = to - from;
-        trial.set(f.slot, to);
-    }
-    (trial, taken)
 }
 
 /// tr(S⁻¹·Σ g·gᵀ)/tr(S⁻¹·H): the windows' gradients against white noise of one sigma, in the directions that count.

@@ -1,9 +1,12 @@
 use model_core::plant::robot::Nominal;
 
+use super::super::dispersion::nominal_free;
+use super::super::prior::{Extent, FreedPrior};
+use super::super::settings::FitSettings;
 use super::super::shoot::Windows;
 use super::super::staged::{Staging, robot, staged};
 use super::*;
-use crate::simulate::{AlignedRun, MAX_CHANNELS};
+use crate::simulate::{AlignedRun, MAX_CHANNELS, SignalGroup};
 
 /// Free numbers and their true factors.
 const TRUTH: [(Nominal, f64); 4] =
@@ -61,6 +64,25 @@ fn what_the_fit_says_it_cost_is_the_cost_of_its_model_and_starts() {
         assert!((plain / fit.cost - 1.0).abs() < 1e-9 && (linear.cost() / fit.cost - 1.0).abs() < 1e-9);
         assert_eq!(linear.numbers, fit.samples);
     }
+}
+
+#[test]
+fn a_fit_follows_a_valley_that_bends() {
+    let slot = |p| Slot::Nominal(p);
+    let mut truth = Model::nominal(&robot(), 12.0);
+    truth.set(slot(Nominal::Resistance), 1.5);
+    // F = K_t·(u − K_v·ω)/R: where no current is seen, what is stated of R says how much of the force is K_t's
+    let currents = AlignedRun::<4>::channels().of(SignalGroup::Current).fold(0_u16, |mask, c| mask | 1 << c);
+    let runs = staged(&truth, &Staging { runs: 2, channels: !currents, ..Staging::default() });
+    let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, 0.5)).collect();
+    let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
+    let shots = Shots { runs: &runs, windows: &windows };
+    let prior = Prior::stated(&robot()).without(FreedPrior { cause: "kt_over_kv", extent: Extent::Each }, 1.0);
+    let free = nominal_free(&FitSettings::default());
+    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: None };
+    let found = fit(Model::nominal(&robot(), 12.0), shots, None, options).model;
+    let [kt, r] = [Nominal::KtOverKv, Nominal::Resistance].map(|p| found.get(slot(p)));
+    assert!((1.5 * kt / r - 1.0).abs() < 0.02 && (r - 1.0).abs() < 0.02, "K_t {kt}, R {r}");
 }
 
 #[test]

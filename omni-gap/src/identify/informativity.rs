@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::dispersion::effect_free;
-use super::fit::Free;
+use super::free::Free;
 use super::identifiability::TRACELESS;
 use super::information::invert;
 use super::linear::linearise;

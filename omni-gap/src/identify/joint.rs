@@ -16,7 +16,8 @@ use model_core::plant::robot::Nominal;
 use nalgebra::DMatrix;
 
 use super::driven::by_input;
-use super::fit::{Fit, FitOptions, Free, fit};
+use super::fit::{Fit, FitOptions, fit};
+use super::free::Free;
 use super::identifiability::{Identifiability, KNOWN, TradeOff, identifiability_of, trade_offs};
 use super::information::invert;
 use super::linear::linearise;

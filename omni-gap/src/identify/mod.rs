@@ -8,6 +8,7 @@
 mod answer;
 mod begun;
 mod block;
+mod bounded_step;
 mod chance;
 mod common_factor;
 mod disagree;
@@ -15,6 +16,7 @@ mod dispersion;
 mod driven;
 pub mod experiments;
 mod fit;
+mod free;
 mod guess;
 mod gyro_scale;
 mod identifiability;
@@ -41,10 +43,12 @@ pub use answer::model::{
     Answer, Apart, Asked, Counted, LeftOut, Moved, Number, Power, Product, SCHEMA, SensorNoise, Side, Together, Value,
 };
 pub use answer::{answer, number_key};
+pub(crate) use bounded_step::stepped;
 pub use disagree::{Disagreement, IndependentEstimate, disagreements};
 pub use dispersion::{effect_free, fit_with_dispersion, nominal_free, told};
-pub use fit::{Fit, FitOptions, Free, fit};
-pub(crate) use fit::{held_by, slopes_of, stepped};
+pub use fit::{Fit, FitOptions, fit};
+pub(crate) use fit::{held_by, slopes_of};
+pub use free::Free;
 pub use guess::Guessed;
 pub use gyro_scale::{GyroScale, HandTurned, MOST_TURNS, gyro_scale};
 pub use identifiability::{Identifiability, TradeOff};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use model_core::effects::EffectKind;
 use model_core::effects::active::Effects;
-use model_core::effects::card::Card;
+use model_core::effects::card::{Card, Role};
 use model_core::geometry::kinematics::{Wheel, Wheels};
 use model_core::number::scalar::Real;
 use model_core::plant::Plant;
@@ -151,6 +151,13 @@ impl<const N: usize> Model<N> {
             Slot::Nominal(p) => self.factor[p as usize] = value,
             Slot::Param(effect, param) => self.effects[effect].params[param] = value,
         }
+    }
+
+    /// True if the number in a slot is a limit, of which zero stands for none.
+    pub fn is_limit(&self, slot: Slot) -> bool {
+        let Slot::Param(effect, param) = slot else { return false };
+        let card = self.effects[effect].card();
+        card.physics.is_limit && card.params[param].role == Role::Size
     }
 
     /// The plant, in plain numbers.
