@@ -47,6 +47,11 @@ impl EffectInstance {
         Self { id: card.id, wheel, params: card.params.iter().map(|p| p.typical).collect() }
     }
 
+    /// The effect at a size at which it does nothing.
+    pub fn absent(card: &'static Card, wheel: Option<usize>) -> Self {
+        Self { id: card.id, wheel, params: card.params.iter().map(|p| p.absent).collect() }
+    }
+
     /// Its page.
     pub fn card(&self) -> &'static Card {
         EffectKind::find(self.id).expect("the id of a carried effect is one of the catalogue").card()

@@ -178,14 +178,19 @@ pub(super) fn trials(card: &'static Card, wheel: Option<usize>, knobs: &ScreenKn
     all
 }
 
-/// The same for a closer look: each size at multiples of its typical departure, and with each shape at a few values.
+/// The same for a closer look: each size at multiples of its typical departure, and with each shape at a few values; with these
+/// also a limit at its largest multiple, from where one that is hardly reached is not far.
 fn closer(card: &'static Card, wheel: Option<usize>, knobs: &ScreenKnobs) -> Vec<EffectInstance> {
     let mut all = Vec::new();
     for (k, p) in of_role(card, Role::Size) {
-        let scaled = |share: &f64| with(card, wheel, &[(k, p.absent + share * (p.typical - p.absent))]);
-        all.extend(knobs.size_multiples.iter().map(scaled));
-        for (s, shape) in of_role(card, Role::Shape) {
-            all.extend(others(shape, knobs).into_iter().map(|x| with(card, wheel, &[(k, p.typical), (s, x)])));
+        let multiples: Vec<f64> =
+            knobs.size_multiples.iter().map(|share| p.absent + share * (p.typical - p.absent)).collect();
+        all.extend(multiples.iter().map(|x| with(card, wheel, &[(k, *x)])));
+        let hardly_reached = multiples.into_iter().reduce(f64::max).filter(|_| card.physics.is_limit);
+        for size in std::iter::once(p.typical).chain(hardly_reached) {
+            for (s, shape) in of_role(card, Role::Shape) {
+                all.extend(others(shape, knobs).into_iter().map(|x| with(card, wheel, &[(k, size), (s, x)])));
+            }
         }
     }
     all
@@ -203,5 +208,28 @@ fn others(shape: &Param, knobs: &ScreenKnobs) -> Vec<f64> {
         knobs.shape_turns.iter().map(turned).collect()
     } else {
         knobs.shape_multiples.iter().map(|multiple| typical * multiple).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shapes_of_a_limit_are_also_looked_at_where_it_is_hardly_reached() {
+        let knobs = ScreenKnobs::default();
+        let sizes_with_other_shapes = |kind: EffectKind| {
+            let card = kind.card();
+            let mut sizes: Vec<f64> = closer(card, None, &knobs)
+                .iter()
+                .filter(|trial| of_role(card, Role::Shape).any(|(k, p)| trial.params[k] != p.typical))
+                .flat_map(|trial| of_role(card, Role::Size).map(|(k, p)| trial.params[k] / p.typical))
+                .collect();
+            sizes.sort_by(f64::total_cmp);
+            sizes.dedup();
+            sizes
+        };
+        assert_eq!(sizes_with_other_shapes(EffectKind::WheelSlip), [1.0, 2.0]);
+        assert_eq!(sizes_with_other_shapes(EffectKind::FrictionWarmup), [1.0]);
     }
 }

@@ -7,7 +7,10 @@
 //!
 //! The gain is the drop of Σ error²/φ that the best multiple of s would bring.
 
-use model_core::effects::card::{Card, Role};
+use std::collections::BTreeMap;
+
+use model_core::effects::card::{Card, Param, Role};
+use model_core::plant::Plant;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -16,7 +19,7 @@ use crate::engine::findings::EstimatedNumber;
 use crate::engine::knobs::ScreenKnobs;
 use crate::engine::predictions::predictions;
 use crate::identify::{Fit, Linearised, Prior, Shots};
-use crate::simulate::EffectInstance;
+use crate::simulate::{EffectInstance, Model};
 
 /// A candidate and what the screen says of it.
 #[derive(Clone, Debug)]
@@ -59,12 +62,12 @@ pub fn screen<const N: usize>(
     let reduced = fit.stated(linear.reduced(), prior);
     let Some(hess) = reduced.hess.clone().cholesky() else { return Vec::new() };
     let toward: DVector<f64> = hess.solve(&reduced.grad);
-    let plain = predictions(&fit.model.plant(), shots, &fit.starts, linear);
+    let predicted = |plant: &Plant<N, f64>| predictions(plant, shots, &fit.starts, linear);
+    let plain = plain_by_steps(&fit.model, &candidates, predicted);
     let look = |trial: &EffectInstance| {
-        let mut model = fit.model.clone();
-        model.add_effect(trial.clone());
-        let mut signature = predictions(&model.plant(), shots, &fit.starts, linear);
-        for (with, without) in signature.iter_mut().flatten().zip(plain.iter().flatten()) {
+        let plant = carrying(&fit.model, trial.clone());
+        let mut signature = predicted(&plant);
+        for (with, without) in signature.iter_mut().flatten().zip(plain[&steps_per_s(&plant)].iter().flatten()) {
             *with -= without;
         }
         let (overlap, size, shared) = linear.project(&signature);
@@ -84,6 +87,33 @@ pub fn screen<const N: usize>(
     let least = knobs.closer_look * knobs.promising.max(knobs.worth_a_fit * most);
     looked.par_iter_mut().filter(|looked| looked.gain() >= least).for_each(|looked| looked.closer(look));
     looked.into_iter().map(|looked| looked.screened(knobs)).collect()
+}
+
+/// A model's plant with one effect more.
+fn carrying<const N: usize>(model: &Model<N>, effect: EffectInstance) -> Plant<N, f64> {
+    let mut model = model.clone();
+    model.add_effect(effect);
+    model.plant()
+}
+
+/// Steps a second that a plant asks for, at least [1/s]
+fn steps_per_s<const N: usize>(plant: &Plant<N, f64>) -> u32 {
+    plant.needs().steps_per_s
+}
+
+/// What is predicted without any candidate, for each number of steps that a plant with a candidate asks for: what finer steps
+/// alone change is no signature.
+fn plain_by_steps<const N: usize, P: Send>(
+    model: &Model<N>,
+    candidates: &[Candidate],
+    predicted: impl Fn(&Plant<N, f64>) -> P + Sync,
+) -> BTreeMap<u32, P> {
+    let absent = candidates.iter().map(|c| carrying(model, EffectInstance::absent(c.card, c.wheel)));
+    let mut plants = BTreeMap::new();
+    for plant in std::iter::once(model.plant()).chain(absent) {
+        plants.entry(steps_per_s(&plant)).or_insert(plant);
+    }
+    plants.into_par_iter().map(|(steps, plant)| (steps, predicted(&plant))).collect()
 }
 
 /// A candidate with what was seen of its parameter sets.
@@ -124,7 +154,7 @@ impl Looked {
         let near =
             |trial: &Trial| if gain(trial) > 0.0 { trial.gain_within(knobs.start_between) } else { f64::NEG_INFINITY };
         let start = first_best(&self.tried, near).unwrap_or(best);
-        let from = scaled(&self.candidate, &start.effect, start.amplitude, knobs.start_between);
+        let from = scaled(self.candidate.card, &start.effect, start.amplitude, knobs.start_between);
         let projections =
             self.tried[..self.candidate.trials.len()].iter().map(|trial| trial.projection.clone()).collect();
         Screened { gain: gain(best), candidate: self.candidate, visible, from, numbers, projections }
@@ -163,6 +193,7 @@ fn first_best<'a>(tried: impl IntoIterator<Item = &'a Trial>, gain: impl Fn(&Tri
 ///
 /// ```text
 /// p = p₀ + a·(p_trial − p₀) ± |p_trial − p₀|/√(s⊥·s⊥)        p₀: absent, a: amplitude
+/// p = p_trial/a ± p_trial/(a²·√(s⊥·s⊥))                       of a limit
 /// ```
 fn one_step(card: &Card, tried: &[Trial], best: &Trial, gain: impl Fn(&Trial) -> f64) -> Vec<EstimatedNumber> {
     let free = card.params.iter().enumerate().filter(|(_, p)| p.role != Role::Fixed);
@@ -176,14 +207,22 @@ fn one_step(card: &Card, tried: &[Trial], best: &Trial, gain: impl Fn(&Trial) ->
         let (value, std) = match own {
             Some(trial) if trial.determined => {
                 let change = trial.effect.params[k] - p.absent;
+                if card.physics.is_limit && p.role == Role::Size {
+                    let limit = change / trial.amplitude;
+                    return number(p, Some(limit), Some((limit / (trial.amplitude * trial.size)).abs()));
+                }
                 (Some(p.absent + trial.amplitude * change), Some(change.abs() / trial.size))
             }
             Some(_) => (None, None),
             None => (Some(best.effect.params[k]), None),
         };
-        EstimatedNumber { key: p.key.to_owned(), unit: p.unit.to_owned(), absent: p.absent, value, std }
+        number(p, value, std)
     })
     .collect()
+}
+
+fn number(p: &Param, value: Option<f64>, std: Option<f64>) -> EstimatedNumber {
+    EstimatedNumber { key: p.key.to_owned(), unit: p.unit.to_owned(), absent: p.absent, value, std }
 }
 
 /// True if the trial's own change may also go the other way: past "absent" within the bounds.
@@ -196,14 +235,54 @@ fn both_ways(candidate: &Candidate, trial: &EffectInstance) -> bool {
         .any(|(p, x)| *x != p.absent && p.within.0 < p.absent && p.absent < p.within.1)
 }
 
-/// The trial with its departure from absent scaled, by no less and no more than `between`.
-fn scaled(candidate: &Candidate, trial: &EffectInstance, amplitude: f64, between: (f64, f64)) -> EffectInstance {
+/// The trial with its departure from absent scaled, by no less and no more than `between`; a limit is the smaller the more of
+/// it there shall be.
+fn scaled(card: &Card, trial: &EffectInstance, amplitude: f64, between: (f64, f64)) -> EffectInstance {
     let by = amplitude.signum() * amplitude.abs().clamp(between.0, between.1);
     let mut from = trial.clone();
-    for (p, x) in candidate.card.params.iter().zip(&mut from.params) {
+    for (p, x) in card.params.iter().zip(&mut from.params) {
         if p.role == Role::Size && (by > 0.0 || p.within.0 < p.absent) {
-            *x = (p.absent + by * (*x - p.absent)).clamp(p.within.0, p.within.1);
+            let scaled = if card.physics.is_limit { *x / by } else { p.absent + by * (*x - p.absent) };
+            *x = scaled.clamp(p.within.0, p.within.1);
         }
     }
     from
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use model_core::effects::EffectKind;
+
+    use super::super::candidate::candidates;
+    use super::*;
+    use crate::log::{Catalogue, RobotFile};
+    use crate::simulate::Chain;
+
+    #[test]
+    fn a_signature_is_none_of_what_finer_steps_alone_change() {
+        let text = include_str!("../../../robots/feup-4w/robot.toml");
+        let robot = RobotFile::parse(text, Path::new("robot.toml"), &Catalogue::default()).unwrap();
+        let model = Model::<4>::nominal(&robot, 12.0);
+        let candidates = candidates::<4>(&[], Chain::Voltage, &ScreenKnobs::default());
+        let plain = plain_by_steps(&model, &candidates, steps_per_s);
+        assert!(plain.len() > 1 && plain.iter().all(|(asked, run)| asked == run), "{plain:?}");
+        for trial in candidates.iter().flat_map(|c| c.trials.iter().chain(&c.closer)) {
+            assert!(plain.contains_key(&steps_per_s(&carrying(&model, trial.clone()))), "{trial:?}");
+        }
+    }
+
+    #[test]
+    fn a_fit_starts_from_more_of_an_effect_where_more_of_it_is_needed() {
+        let start = |kind: EffectKind, amplitude: f64| {
+            let trial = EffectInstance::typical(kind.card(), None);
+            scaled(kind.card(), &trial, amplitude, (0.5, 1.5)).params[0] / trial.params[0]
+        };
+        assert_eq!(start(EffectKind::DeadTime, 1.25), 1.25);
+        assert_eq!(start(EffectKind::DeadTime, 7.0), 1.5);
+        // wheels slip more where the floor holds less
+        assert!((start(EffectKind::WheelSlip, 1.25) - 0.8).abs() < 1e-12);
+        assert!((start(EffectKind::CurrentLimit, 7.0) - 1.0 / 1.5).abs() < 1e-12);
+    }
 }
