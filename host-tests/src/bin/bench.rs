@@ -6,7 +6,9 @@ use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use clap::builder::PossibleValuesParser;
 use clap::{Parser, Subcommand, ValueEnum};
+use ground_truth::causes::CAUSES;
 use host_tests::golden;
 use host_tests::withheld::calibrated::calibrated;
 use host_tests::withheld::classes::class;
@@ -47,9 +49,12 @@ enum Errand {
         /// Which split
         #[arg(long, value_enum, default_value = "tuning")]
         split: SplitName,
-        /// Only every so many-th session
+        /// Only every so many-th session: an odd number, since every second one is logged in another way
         #[arg(long, default_value_t = 1)]
         every: usize,
+        /// Only sessions that hide this cause
+        #[arg(long, value_parser = PossibleValuesParser::new(CAUSES.iter().map(|cause| cause.id)))]
+        hiding: Option<String>,
     },
     /// Let a contestant answer what it has not answered yet
     Run {
@@ -132,7 +137,7 @@ enum SplitName {
 fn main() -> ExitCode {
     let done = match Arguments::parse().errand {
         Errand::Check => return golden::exit(check()),
-        Errand::Make { set, split, every } => make(&SetFolder(set), split, every),
+        Errand::Make { set, split, every, hiding } => make(&SetFolder(set), split, every, hiding.as_deref()),
         Errand::Run { set, name, seconds, every, command } => {
             run(&SetFolder(set), &Contestant { name, command, most: Duration::from_secs(seconds) }, every)
         }
@@ -149,7 +154,7 @@ fn main() -> ExitCode {
     golden::exit(done.map(|()| true))
 }
 
-fn make(set: &SetFolder, split: SplitName, every: usize) -> Result<()> {
+fn make(set: &SetFolder, split: SplitName, every: usize, hiding: Option<&str>) -> Result<()> {
     let commit = golden::commit();
     let (name, seed, sizes) = match split {
         SplitName::Tuning => ("tuning", TUNING_SEED, WHOLE),
@@ -159,8 +164,9 @@ fn make(set: &SetFolder, split: SplitName, every: usize) -> Result<()> {
     set.begin(&About { split: name.to_owned(), seed, commit })?;
     let start = Instant::now();
     let all = cases(&sizes, seed, matches!(split, SplitName::Fresh));
-    let asked = all.iter().step_by(every.max(1));
-    let missing: Vec<&Case> = asked.clone().filter(|case| set.label(&case.name()).is_none()).collect();
+    let hides = |case: &&Case| hiding.is_none_or(|cause| case.hides(cause));
+    let asked: Vec<&Case> = all.iter().step_by(every.max(1)).filter(hides).collect();
+    let missing: Vec<&Case> = asked.iter().copied().filter(|case| set.label(&case.name()).is_none()).collect();
     missing.par_iter().try_for_each(|case| {
         let (session, mut label) = case.made();
         let folder = set.session(&case.name());

@@ -82,6 +82,11 @@ impl Case {
         format!("{}-{:03}", self.suite.name(), self.number)
     }
 
+    /// Whether a cause is among what it hides.
+    pub fn hides(&self, cause: &str) -> bool {
+        self.causes(&mut Drawn::new(mixed(self.seed))).iter().any(|hidden| hidden.id == cause)
+    }
+
     /// Recordings and label.
     pub fn made(&self) -> (Session, Label) {
         let mut drawn = Drawn::new(mixed(self.seed));
@@ -236,6 +241,7 @@ mod tests {
         let (session, label) = case.made();
         assert_eq!(case.made(), (session.clone(), label.clone()), "the same bits from the same seed");
         assert_eq!((label.hidden[0].cause.as_str(), label.severity()), ("coriolis", Some(Severity::Medium)));
+        assert!(case.hides("coriolis") && !case.hides("creep"));
         assert_eq!(session.runs.len(), 6);
         let (_, nothing) = Case { suite: Suite::NoGap, number: 3, seed: 6, fresh: false }.made();
         assert!(nothing.nothing());
