@@ -66,7 +66,7 @@ enum Errand {
         /// The most that a session may take, in seconds
         #[arg(long, default_value_t = MOST_SECONDS)]
         seconds: u64,
-        /// Only every so many-th session
+        /// Only every so many-th session: an odd number, since every second one is logged in another way
         #[arg(long, default_value_t = 1)]
         every: usize,
         /// Its command; {session} and {out} stand for the folders
@@ -95,7 +95,7 @@ enum Errand {
         set: PathBuf,
         /// Its commit
         commit: String,
-        /// Only every so many-th session
+        /// Only every so many-th session: an odd number, since every second one is logged in another way
         #[arg(long, default_value_t = 1)]
         every: usize,
     },
