@@ -68,11 +68,10 @@ fn what_the_fit_says_it_cost_is_the_cost_of_its_model_and_starts() {
 
 #[test]
 fn a_fit_follows_a_valley_that_bends() {
-    let slot = |p| Slot::Nominal(p);
     let mut truth = Model::nominal(&robot(), 12.0);
-    truth.set(slot(Nominal::Resistance), 1.5);
+    truth.set(Slot::Nominal(Nominal::Resistance), 1.5);
     // F = K_t·(u − K_v·ω)/R: where no current is seen, what is stated of R says how much of the force is K_t's
-    let currents = AlignedRun::<4>::channels().of(SignalGroup::Current).fold(0_u16, |mask, c| mask | 1 << c);
+    let currents = AlignedRun::<4>::channels().mask(SignalGroup::Current);
     let runs = staged(&truth, &Staging { runs: 2, channels: !currents, ..Staging::default() });
     let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, 0.5)).collect();
     let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
@@ -81,7 +80,7 @@ fn a_fit_follows_a_valley_that_bends() {
     let free = nominal_free(&FitSettings::default());
     let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: None };
     let found = fit(Model::nominal(&robot(), 12.0), shots, None, options).model;
-    let [kt, r] = [Nominal::KtOverKv, Nominal::Resistance].map(|p| found.get(slot(p)));
+    let [kt, r] = [Nominal::KtOverKv, Nominal::Resistance].map(|p| found.get(Slot::Nominal(p)));
     assert!((1.5 * kt / r - 1.0).abs() < 0.02 && (r - 1.0).abs() < 0.02, "K_t {kt}, R {r}");
 }
 

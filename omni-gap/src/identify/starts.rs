@@ -104,8 +104,7 @@ mod tests {
         let sensors = SensorSetup { sensors: file.sensors, ..SensorSetup::default() };
         let run = record(&model.plant(), "step", &t, &[Input::Voltage([6.0, 3.0, -6.0, -3.0]); 250], &sensors, 1);
         let mut run = AlignedRun::<4>::new(&run, &file).unwrap();
-        let channels = AlignedRun::<4>::channels();
-        let wheels = channels.of(SignalGroup::WheelSpeed).fold(0_u16, |mask, c| mask | 1 << c);
+        let wheels = AlignedRun::<4>::channels().mask(SignalGroup::WheelSpeed);
         for (has, t) in run.has.iter_mut().zip(&t) {
             *has &= if *t < FIRST_SEEN { 0 } else { wheels };
         }

@@ -302,7 +302,7 @@ impl<const N: usize> AlignedRun<N> {
 
     /// True if any row has a channel of the group.
     pub fn has_group(&self, group: SignalGroup) -> bool {
-        let mask = Self::channels().of(group).fold(0_u16, |mask, channel| mask | 1 << channel);
+        let mask = Self::channels().mask(group);
         self.has.iter().any(|has| has & mask != 0)
     }
 

@@ -93,6 +93,11 @@ impl Channels {
         first..first + group.width(self.wheels)
     }
 
+    /// The channels of a group, as a bit mask.
+    pub(crate) fn mask(self, group: SignalGroup) -> u16 {
+        self.of(group).fold(0, |mask, channel| mask | 1 << channel)
+    }
+
     /// The group of a channel.
     pub const fn group(self, channel: usize) -> SignalGroup {
         let mut k = 0;

@@ -110,7 +110,7 @@ fn aligned<const N: usize>(file: &RobotFile, runs: &[Run], logged: &[SignalGroup
 
 /// The channels of groups of signals, as a bit mask.
 pub(in crate::engine) fn mask<const N: usize>(groups: &[SignalGroup]) -> u16 {
-    groups.iter().flat_map(|g| AlignedRun::<N>::channels().of(*g)).fold(0_u16, |mask, c| mask | 1 << c)
+    groups.iter().fold(0, |mask, group| mask | AlignedRun::<N>::channels().mask(*group))
 }
 
 /// Recordings, and everybody who is asked whether it could be the cause of a gap on them.
