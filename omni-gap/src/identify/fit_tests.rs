@@ -67,7 +67,7 @@ fn what_the_fit_says_it_cost_is_the_cost_of_its_model_and_starts() {
 }
 
 #[test]
-fn a_fit_follows_a_valley_that_bends() {
+fn without_currents_a_torque_constant_that_is_freed_takes_what_a_resistance_that_is_believed_cannot() {
     let mut truth = Model::nominal(&robot(), 12.0);
     truth.set(Slot::Nominal(Nominal::Resistance), 1.5);
     // F = K_t·(u − K_v·ω)/R: where no current is seen, what is stated of R says how much of the force is K_t's
