@@ -77,7 +77,7 @@ impl FitCase {
         let runs: Vec<&AlignedRun<4>> = self.runs.iter().collect();
         let shots = Shots { runs: &runs, windows: &self.windows };
         let options =
-            FitOptions { free: &self.free, prior: &self.prior, dispersion: 1.0, rounds: ROUNDS, by_window: None };
+            FitOptions { free: &self.free, prior: &self.prior, dispersion: 1.0, rounds: ROUNDS, by_window: 0.0 };
         fit(self.nominal.clone(), shots, None, options)
     }
 }

@@ -53,8 +53,7 @@ pub fn fit_with_dispersion<const N: usize>(
     settings: &FitSettings,
 ) -> Fit<N> {
     let mut dispersion = from.map_or_else(|| settings.caution * misfit(&model, shots, settings), |f| f.spread);
-    let options =
-        |dispersion| FitOptions { free, prior, dispersion, rounds: settings.rounds, by_window: Some(COMES_TRUE) };
+    let options = |dispersion| FitOptions { free, prior, dispersion, rounds: settings.rounds, by_window: COMES_TRUE };
     let starts = match from {
         Some(fit) => starts_after(&model, shots, &fit.starts),
         None => starts_of(&model, shots),

@@ -95,10 +95,10 @@ pub struct FitOptions<'a> {
     pub dispersion: f64,
     /// Rounds, at the most.
     pub rounds: usize,
-    /// A step that makes things worse is tried once more with each window's better start, if at all, and taken where more than
-    /// this share of what it promised comes true [1]: starts that friction bends keep a fit from moving numbers along a line on which
-    /// the data hardly tell them apart.
-    pub by_window: Option<f64>,
+    /// A step that makes things worse is tried once more with each window's better start, and taken where more than this
+    /// share of what it promised comes true [1]: starts that friction bends keep a fit from moving numbers at all, or along a line on
+    /// which the data hardly tell them apart.
+    pub by_window: f64,
 }
 
 /// Fits the free numbers of `model` to the runs; `starts` are where to begin, if known from a fit before.
@@ -143,11 +143,9 @@ pub(super) fn fit_on<const N: usize>(
             }
             let mut begun = Begun::of(&trial, shots, linear.starts_after(&starts, &taken));
             let cost = |begun: &Begun| begun.cost() / dispersion + prior.cost(&trial);
-            if let Some(share) = by_window
-                && (cost(&begun).is_nan() || cost(&begun) >= total)
-            {
+            if cost(&begun).is_nan() || cost(&begun) >= total {
                 let with_some = begun.clone().or(Begun::of(&trial, shots, starts.clone()));
-                if total - cost(&with_some) > share * by_numbers {
+                if total - cost(&with_some) > by_window * by_numbers {
                     begun = with_some;
                 }
             }

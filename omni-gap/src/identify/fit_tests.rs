@@ -25,7 +25,7 @@ fn fitted(runs: &[AlignedRun<4>], windows: impl Fn(&AlignedRun<4>) -> Windows) -
     let free = TRUTH.map(|(p, _)| Free { slot: Slot::Nominal(p), within: (0.1, 4.0) });
     let shots = Shots { runs: &runs, windows: &windows };
     let prior = Prior::stated(&robot());
-    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: None };
+    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: 0.0 };
     fit(Model::nominal(&robot(), 12.0), shots, None, options)
 }
 
@@ -78,7 +78,7 @@ fn without_currents_a_torque_constant_that_is_freed_takes_what_a_resistance_that
     let shots = Shots { runs: &runs, windows: &windows };
     let prior = Prior::stated(&robot()).without(FreedPrior { cause: "kt_over_kv", extent: Extent::Each }, 1.0);
     let free = nominal_free(&FitSettings::default());
-    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: None };
+    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: 0.0 };
     let found = fit(Model::nominal(&robot(), 12.0), shots, None, options).model;
     let [kt, r] = [Nominal::KtOverKv, Nominal::Resistance].map(|p| found.get(Slot::Nominal(p)));
     assert!((1.5 * kt / r - 1.0).abs() < 0.02 && (r - 1.0).abs() < 0.02, "K_t {kt}, R {r}");

@@ -120,7 +120,7 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Aligne
     }
     let free = IDENTIFIED.map(|p| Free { slot: Slot::Nominal(p), within: WITHIN });
     let prior = Prior { rows: Vec::new() };
-    let how = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: ROUNDS.1, by_window: Some(0.0) };
+    let how = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: ROUNDS.1, by_window: 0.0 };
     let short: Vec<Windows> = runs.iter().map(|run| Windows::new(run, WINDOW_S)).collect();
     let whole: Vec<Windows> = runs.iter().map(|run| Windows::whole(run)).collect();
 
@@ -139,7 +139,7 @@ pub fn joint<const N: usize>(model: &Model<N>, file: &RobotFile, runs: &[&Aligne
         again = runs.iter().map(|run| noise.applied(run)).collect::<Vec<_>>();
         noisy = again.iter().collect();
         // it is there already but for the weights
-        let near = FitOptions { rounds: ROUNDS.0, by_window: None, ..how };
+        let near = FitOptions { rounds: ROUNDS.0, ..how };
         best = fit(best.model, Shots { runs: &noisy, windows }, Some(best.starts), near);
     } else {
         best = fit(near.model, Shots { runs: &noisy, windows }, Some(near.starts), how);

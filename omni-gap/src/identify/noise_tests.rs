@@ -19,7 +19,7 @@ fn found(how: &Staging, window: f64) -> Noise {
         model,
         shots,
         None,
-        FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: None },
+        FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: 0.0 },
     );
     noise_of(&fitted, shots)
 }
@@ -41,8 +41,7 @@ fn noise_is_taken_from_where_a_model_that_lacks_something_does_not_show_it() {
     let windows: Vec<Windows> = runs.iter().map(|run| Windows::new(run, 0.5)).collect();
     let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
     let shots = Shots { runs: &runs, windows: &windows };
-    let options =
-        FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: None };
+    let options = FitOptions { free: &[], prior: &Prior::stated(&robot()), dispersion: 1.0, rounds: 5, by_window: 0.0 };
     let fitted = fit(model, shots, None, options);
     let left = LeftOver::of(&fitted, shots);
     let [everywhere, quiet] = [left.noise(), left.noise_where_quiet(0.3)].map(|noise| noise.scale[1]);

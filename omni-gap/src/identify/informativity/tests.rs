@@ -39,7 +39,7 @@ fn the_bound_is_what_a_fit_to_a_true_model_ends_with() {
     let runs: Vec<&AlignedRun<4>> = runs.iter().collect();
     let free: Vec<Free> = Nominal::ALL.map(|p| Free { slot: Slot::Nominal(p), within: (0.1, 4.0) }).to_vec();
     let prior = Prior::stated(&robot());
-    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: None };
+    let options = FitOptions { free: &free, prior: &prior, dispersion: 1.0, rounds: 12, by_window: 0.0 };
     let fitted = fit(Model::nominal(&robot(), 12.0), Shots { runs: &runs, windows: &windows }, None, options);
     assert_eq!(told.numbers.len(), NOMINAL_KEYS.len());
     for (key, number) in NOMINAL_KEYS.iter().zip(&told.numbers) {
