@@ -139,7 +139,7 @@ impl ModernRobot {
             effects.add(kind, wheel, params).expect("parameters of its card");
         };
         add("supply_sag", None, &[SAG, 0.0]);
-        add("wheel_slip", None, &[rng.random_range(0.9..1.1), 30.0, 1.0, 0.0]);
+        add("wheel_slip", None, &[rng.random_range(0.9..1.1), 30.0, 1.0, 0.0, 0.0]);
         for wheel in 0..4 {
             let (size, phase) = (rng.random_range(0.0..0.005), rng.random_range(0.0..TAU));
             add("roller_ripple", Some(wheel), &[size * phase.cos(), size * phase.sin(), 15.0]);

@@ -221,7 +221,7 @@ fn a_blocked_wheel_stands_while_its_motor_pulls() {
 #[test]
 fn a_blocked_wheel_that_can_slip_is_dragged_along() {
     let mut effects = Effects::default();
-    effects.add(EffectKind::WheelSlip, None, &[0.3, 30.0, 1.0, 0.0]).unwrap();
+    effects.add(EffectKind::WheelSlip, None, &[0.3, 30.0, 1.0, 0.0, 0.0]).unwrap();
     // a current alone gives a wheel that spins no speed; its inertia does
     effects.add(EffectKind::RotorInertia, None, &[1.0e-4]).unwrap();
     let mut board = VirtualBoard::new(BoardSetup::new(four_wheels(), effects, 2).ideal());

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use ground_truth::causes::Cause;
-use ground_truth::contact::Grip;
+use ground_truth::contact::{GRAVITY, Grip, Slip};
 use ground_truth::harmonics::Harmonic;
 use ground_truth::robot::{Robot, Wheel};
 use ground_truth::robot_file::RobotFile;
@@ -146,6 +146,18 @@ fn polar(of: Vector2<f64>, [size, direction]: [&'static str; 2]) -> Numbers {
     vec![(size, of.norm()), (direction, libm::atan2(of.y, of.x))]
 }
 
+/// A floor that holds so much: the knee of the recording simulator's law is a corner, so the sharpest of the catalogue's; the
+/// slope below it, B·μ·N, is 1/c.
+fn slip_numbers(slip: &Slip, robot: &Robot, inertia: f64) -> Numbers {
+    let load = robot.chassis.mass * GRAVITY / robot.wheels.len() as f64;
+    vec![
+        ("friction_coefficient", slip.static_friction),
+        ("curve_stiffness", 1.0 / (slip.creep * slip.static_friction * load)),
+        ("inertia_at_wheel_kg_m2", inertia),
+        ("curve_curvature", -2.0),
+    ]
+}
+
 /// What a robot file says of an effect that is in a setup, on a wheel.
 fn numbers(id: &str, truth: &RobotFile, setup: &Setup, on: usize) -> Numbers {
     let wheel = &setup.robot.wheels[on];
@@ -238,10 +250,7 @@ fn wheel_and_floor(id: &str, truth: &RobotFile, setup: &Setup, on: usize) -> Opt
             _ => Vec::new(),
         },
         "wheel_slip" => match wheel.grip {
-            // one of the catalogue's curve has the slope B·μ·N where this one has 1/c
-            Grip::Slips(slip) => {
-                vec![("friction_coefficient", slip.static_friction), ("inertia_at_wheel_kg_m2", rotor)]
-            }
+            Grip::Slips(slip) => slip_numbers(&slip, &setup.robot, rotor),
             _ => Vec::new(),
         },
         "roller_friction" => vec![("friction_N", wheel.roller_friction), ("damping_N_s_per_m", wheel.roller_damping)],

@@ -51,7 +51,7 @@ fn accelerates<const N: usize>(
     senses: [f64; N],
 ) -> [f64; 3] {
     let mut effects = Effects::default();
-    effects.add(effect("wheel_slip"), None, &[MU, 30.0, 1.0, 0.0]).expect("room");
+    effects.add(effect("wheel_slip"), None, &[MU, 30.0, 1.0, 0.0, 0.0]).expect("room");
     effects.add(effect(id), wheel, &[size]).expect("room");
     let mut run = Run::new(Plant::new(robot, effects));
     // so fast that the slip curve is at its limit: 30·s = 10⁵

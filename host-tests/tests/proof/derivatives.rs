@@ -211,7 +211,7 @@ fn an_inertia_of_nothing_has_its_derivative_where_wheels_slip_too() {
     fn plant<T: Real>(inertia: T) -> Plant<4, T> {
         let mut set = Effects::default();
         let slip = EffectKind::find("wheel_slip").expect("an effect of the catalogue");
-        set.add(slip, None, &[0.35, 30.0, 1.0, 0.0].map(T::lit)).expect("it sits on all wheels");
+        set.add(slip, None, &[0.35, 30.0, 1.0, 0.0, 0.0].map(T::lit)).expect("it sits on all wheels");
         let rotor = EffectKind::find("rotor_inertia").expect("an effect of the catalogue");
         set.add(rotor, None, &[inertia]).expect("it sits on all wheels");
         Plant::new(four(), set)

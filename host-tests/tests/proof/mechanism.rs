@@ -262,7 +262,7 @@ fn a_reading_knows_its_wheel_and_its_time() {
 #[test]
 fn a_wheel_with_inertia_that_slips_is_read_before_it_moves() {
     let mut effects = Effects::default();
-    for (id, params) in [("rotor_inertia", &[7.5e-5][..]), ("wheel_slip", &[0.35, 30.0, 1.0, 0.0])] {
+    for (id, params) in [("rotor_inertia", &[7.5e-5][..]), ("wheel_slip", &[0.35, 30.0, 1.0, 0.0, 0.0])] {
         effects.add(effect(id), None, params).expect("room");
     }
     let mut run = Run::new(Plant::new(four::<f64>(), effects));
@@ -288,7 +288,7 @@ fn an_inertia_of_its_own_counts_where_no_rotor_has_any() {
         run.play(&holds, 1, |_, _| {});
         (run.state.wheel_speed, run.twist())
     };
-    let slip = |own: f64| [0.35, 30.0, 1.0, own];
+    let slip = |own: f64| [0.35, 30.0, 1.0, own, 0.0];
     let (rotor, light) =
         (driven(&[("rotor_inertia", &[7.5e-5]), ("wheel_slip", &slip(0.0))]), driven(&[("wheel_slip", &slip(0.0))]));
     assert_eq!(driven(&[("wheel_slip", &slip(7.5e-5))]), rotor, "the same inertia, told by the other effect");

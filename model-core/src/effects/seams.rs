@@ -220,6 +220,8 @@ pub struct Contact<T> {
     pub stiffness: T,
     /// Shape of the slip curve: 1 rises to the limit, above 1 falls after a peak
     pub shape: T,
+    /// Curvature of the slip curve: 0 for a round knee, below 0 for a sharper one
+    pub curvature: T,
     /// J of a wheel that may slip, with all that turns with it on a rigid shaft, where no effect of shaft or gear gives it any:
     /// its speed would jump with every voltage [kg·m²]
     pub inertia: T,

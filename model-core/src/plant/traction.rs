@@ -10,7 +10,7 @@
 //! make one of the model (`spin.rs`).
 //! The shaft's own dry friction is spent with the body's, as if it passed through a rigid contact.
 
-use crate::effects::contact::wheel_slip::{curve, traction};
+use crate::effects::contact::wheel_slip::{CurveShape, curve, traction};
 use crate::effects::seams::Contact;
 use crate::number::scalar::Real;
 
@@ -27,10 +27,8 @@ pub(super) struct Floor<T> {
     limit: T,
     /// Force per slip speed of the creep, which is all there is without a limit [N/(m/s)]
     per_creep: T,
-    /// Stiffness of creep and slip in series [1/(m/s)]
-    stiffness: T,
-    /// Shape of the slip curve
-    shape: T,
+    /// The form of the slip curve, of which the stiffness is that of creep and slip in series
+    form: CurveShape<T>,
 }
 
 impl<T: Real> Floor<T> {
@@ -43,7 +41,7 @@ impl<T: Real> Floor<T> {
         // creep in series with the slip curve: 1/k = 1/k₀ + c,  k₀ = μN·B·C
         let stiffness = c.stiffness / (one + c.creep * limit * c.stiffness * c.shape);
         let per_creep = if limit <= zero { one / c.creep } else { zero };
-        Self { limit, per_creep, stiffness, shape: c.shape }
+        Self { limit, per_creep, form: CurveShape { stiffness, shape: c.shape, curvature: c.curvature } }
     }
 
     /// The force at a slip speed, and its slope [N, N/(m/s)].
@@ -53,7 +51,7 @@ impl<T: Real> Floor<T> {
             // creep alone: f = s/c
             return (slip * self.per_creep, self.per_creep);
         }
-        traction(self.limit, self.stiffness, self.shape, slip)
+        traction(self.limit, &self.form, slip)
     }
 
     /// The same, and by how much the slope changes with the slip speed [N, N/(m/s), N/(m/s)²].
@@ -62,17 +60,18 @@ impl<T: Real> Floor<T> {
         if self.limit <= T::zero() {
             return [slip * self.per_creep, self.per_creep, T::zero()];
         }
-        curve(self.limit, self.stiffness, self.shape, slip)
+        curve(self.limit, &self.form, slip)
     }
 
     /// True if the force rises with the slip wherever it is.
     fn rises(&self) -> bool {
-        self.shape <= T::one()
+        self.form.shape <= T::one()
     }
 
     fn plain(&self) -> Floor<T::Plain> {
-        let Self { limit, per_creep, stiffness, shape } = self;
-        Floor { limit: limit.plain(), per_creep: per_creep.plain(), stiffness: stiffness.plain(), shape: shape.plain() }
+        let Self { limit, per_creep, form: CurveShape { stiffness, shape, curvature } } = self;
+        let form = CurveShape { stiffness: stiffness.plain(), shape: shape.plain(), curvature: curvature.plain() };
+        Floor { limit: limit.plain(), per_creep: per_creep.plain(), form }
     }
 }
 

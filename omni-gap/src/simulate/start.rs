@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn wheels_that_spin_go_on_spinning_and_the_robot_is_as_slow_as_it_was() {
         let mut effects = Effects::default();
-        effects.add(EffectKind::WheelSlip, None, &[0.2, 30.0, 1.0, 7e-5]).expect("parameters of its card");
+        effects.add(EffectKind::WheelSlip, None, &[0.2, 30.0, 1.0, 7e-5, 0.0]).expect("parameters of its card");
         let plant = Plant::new(paper::four_wheels::<f64>(), effects);
         let mut state = plant.start(0.0, Pose::default(), BodyTwist::default());
         for _ in 0..60 {

@@ -15,7 +15,7 @@ use crate::virtual_board::{BoardSetup, VirtualBoard};
 const SEED: u64 = 6;
 
 /// μ, B [s/m], C and the inertia of their own of the wheels: a wheel that is blocked slides, as it does on a floor.
-const SLIP: [f64; 4] = [0.6, 30.0, 1.0, 0.0];
+const SLIP: [f64; 5] = [0.6, 30.0, 1.0, 0.0, 0.0];
 
 /// What turns with a motor's shaft [kg·m²]: a wheel that can slip needs a weight of its own.
 const ROTOR: [f64; 1] = [7.5e-5];

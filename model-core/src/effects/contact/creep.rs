@@ -94,7 +94,7 @@ impl<T: Real> Hooks<T> for Creep<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::contact::wheel_slip;
+    use crate::effects::contact::wheel_slip::{CurveShape, traction};
 
     fn touched(creep: f64, already: f64) -> f64 {
         let mut x = Contact {
@@ -127,7 +127,8 @@ mod tests {
         let s = slip(1.0 / (limit * stiffness), force);
         // the curve bends away by the part ½·(f/μN)²
         let bend = 0.5 * (force / limit) * (force / limit);
-        let short = 1.0 - wheel_slip::traction(limit, stiffness, 1.0, s).0 / force;
+        let form = CurveShape { stiffness, shape: 1.0, curvature: 0.0 };
+        let short = 1.0 - traction(limit, &form, s).0 / force;
         assert!((short - bend).abs() < 1e-3 * bend);
     }
 
