@@ -8,6 +8,9 @@
 //! told apart:  m ≥ m₁/√n        m: hidden size over typical        m₁: what one run asks for        n: runs
 //! ```
 //!
+//! Those are straight lines from where the cause is as large as is typical. Of the rivals that come nearest a fit decides, at the
+//! hidden size ([`super::rival_fits`]): told apart where n·Δ ≥ 8, a likelihood ratio of e⁴.
+//!
 //! One run is looked at, by sensors as good as the robot file says. Of a cause on one wheel it is the wheel where that shows
 //! least.
 
@@ -17,16 +20,23 @@ use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Param, Role};
 use omni_gap::Session;
 use omni_gap::api::{PlannedRuns, SelftestKnobs, confusion};
-use omni_gap::engine::findings::ConfusedCause;
+use omni_gap::engine::findings::{ConfusedCause, Rival};
 use omni_gap::error::Result;
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
 
 use super::label::{Hidden, Label, Severity};
+use super::rival_fits::TrueRecording;
 use super::true_model::number_keys;
 
 /// A number is looked at when it is off by this much [1]: that is once.
 const ONCE: f64 = 0.1;
+
+/// How many rivals are fitted.
+const NEAREST: usize = 5;
+
+/// Δ of all runs from which on two causes are told apart [σ²].
+const TOLD: f64 = 8.0;
 
 /// Effects that show more the smaller their number is.
 const SHOW_BELOW: [&str; 2] = ["wheel_slip", "current_limit"];
@@ -44,14 +54,21 @@ pub fn class(session: &Path, label: &Label) -> Result<Vec<String>> {
     let session = Session::load(session, None, &known_effects())?;
     let with = truth.read()?;
     let Some(times) = times(hidden, &with, &session.robot) else { return Ok(Vec::new()) };
-    let without = RobotFile { effects: Vec::new(), ..with };
+    let without = RobotFile { effects: Vec::new(), ..with.clone() };
     let Some(run) = session.runs.first() else { return Ok(Vec::new()) };
     let plan = PlannedRuns::of_scripts(vec![run.clone()]);
     let told = confusion(&without, &plan, &SelftestKnobs { wrong: ONCE, ..SelftestKnobs::default() })?;
     let more = (session.runs.len() as f64).sqrt();
     let apart = |asked: Option<f64>| asked.is_some_and(|asked| asked / more <= times);
+    let recording = TrueRecording::of(&session.robot, &with, hidden, run)?;
+    let runs = session.runs.len() as f64;
     let alike = |of: &ConfusedCause| -> Vec<String> {
-        of.others.iter().filter(|rival| !apart(rival.told_times)).map(|rival| rival.cause.to_owned()).collect()
+        let (near, far): (Vec<_>, Vec<_>) = of.others.iter().enumerate().partition(|(k, _)| *k < NEAREST);
+        let near: Vec<&Rival> = near.into_iter().map(|(_, rival)| rival).collect();
+        let left = recording.left_by(&near).unwrap_or_default();
+        let by_fit = near.iter().zip(left).filter(|(_, left)| runs * left < TOLD).map(|(rival, _)| rival.cause);
+        let by_lines = far.into_iter().filter(|(_, rival)| !apart(rival.told_times)).map(|(_, rival)| rival.cause);
+        by_fit.chain(by_lines).map(str::to_owned).collect()
     };
     // of friction, which may be wrong along each axis alone: what no axis parts
     let along = told.causes.iter().filter(|of| of.cause == hidden.cause).map(alike);
@@ -107,14 +124,33 @@ mod tests {
         assert!((of_typical(card("coriolis"), &|_| 0.5) - 0.5).abs() < 1e-12);
     }
 
-    /// A session of the laboratory that hides a cause at some size, made anew with its label as it would be smaller.
-    #[test]
-    fn a_class_grows_as_its_cause_gets_smaller_and_never_holds_the_cause() {
+    /// A session of the laboratory that hides a cause, in a folder of its own.
+    fn hiding(cause: &str) -> (tempfile::TempDir, Label) {
         let of = |number: usize| Case { suite: Suite::Laboratory, number, seed: 5, fresh: false };
         let (session, label) =
-            (11..).map(|number| of(number).made()).find(|(_, label)| label.hidden[0].cause == "creep").expect("a turn");
+            (11..).map(|number| of(number).made()).find(|(_, label)| label.hidden[0].cause == cause).expect("a turn");
         let folder = tempfile::tempdir().expect("a folder");
         session.write(folder.path()).expect("room");
+        (folder, label)
+    }
+
+    #[test]
+    fn a_fit_of_the_cause_itself_leaves_nothing_and_one_of_another_leaves_much() {
+        let (folder, label) = hiding("creep");
+        let session = Session::load(folder.path(), None, &known_effects()).expect("a session");
+        let truth = label.truth.as_ref().expect("a model").read().expect("a robot file");
+        let recording =
+            TrueRecording::of(&session.robot, &truth, &label.hidden[0], &session.runs[0]).expect("it is driven");
+        let rival = |cause| Rival { cause, axis: None, angle_rad: 0.0, told_times: None };
+        let (itself, other, number) = (rival("creep"), rival("camera_scale"), rival("mass"));
+        let left = recording.left_by(&[&itself, &other, &number]).expect("three wheels or four");
+        assert!(left[0].abs() < 0.1 && left[1] > 100.0 && left[2] > 100.0, "{left:?}");
+    }
+
+    /// A session that hides a cause at some size, with its label as it would be smaller.
+    #[test]
+    fn a_class_grows_as_its_cause_gets_smaller_and_never_holds_the_cause() {
+        let (folder, label) = hiding("creep");
         let large = class(folder.path(), &label).expect("a session");
         let truth = label.truth.clone().expect("a model");
         let at = truth.robot.find("creep_m_s_per_N = ").expect("its number") + 18;

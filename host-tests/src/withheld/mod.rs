@@ -21,6 +21,7 @@ pub mod ledger;
 mod logged;
 pub mod picture;
 pub mod reduced;
+pub mod rival_fits;
 pub mod scored;
 pub mod selective;
 pub mod set;

@@ -1,0 +1,108 @@
+//! What a rival leaves of what a true model records, fitted as a diagnosis fits it.
+//!
+//! ```text
+//! Δ = C_rival − C_true        C: Σ error²/σ² and the violations of what was stated, at the end of a fit
+//! ```
+//!
+//! The recording has no noise; with noise, Δ is in the mean what a rival scores worse by. Both fits begin at the numbers of the
+//! robot file that everybody is given, with all of them free within what it states.
+
+use model_core::effects::EffectKind;
+use model_core::effects::card::{Role, Scope};
+use omni_gap::api::simulate;
+use omni_gap::engine::findings::Rival;
+use omni_gap::error::Result;
+use omni_gap::identify::{
+    Extent, FitSettings, Free, FreedPrior, Prior, Shots, WINDOW_S, Windows, effect_free, fit_with_dispersion,
+    nominal_free,
+};
+use omni_gap::log::{RobotFile, Run};
+use omni_gap::simulate::{AlignedRun, EffectInstance, Model, supply_seen};
+
+use super::label::Hidden;
+
+/// Shares of its typical size that an effect is tried from [1]: a fit that begins too far off may stop short.
+const BEGUN_AT: [f64; 2] = [1.0, 0.2];
+
+/// What one run of a session would show without noise, were the true model the robot.
+#[derive(Debug)]
+pub struct TrueRecording<'a> {
+    file: &'a RobotFile,
+    truth: &'a RobotFile,
+    hidden: &'a Hidden,
+    run: Run,
+}
+
+impl<'a> TrueRecording<'a> {
+    /// Of a run's commands. `file` is what everybody is given, `truth` has the true numbers and what is hidden.
+    ///
+    /// # Errors
+    /// Where nothing in the run drives the model.
+    pub fn of(file: &'a RobotFile, truth: &'a RobotFile, hidden: &'a Hidden, run: &Run) -> Result<Self> {
+        Ok(Self { file, truth, hidden, run: simulate(truth, run, None)? })
+    }
+
+    /// Δ of rivals, one after another [σ²]; none where the run cannot be laid out.
+    pub fn left_by(&self, rivals: &[&Rival]) -> Option<Vec<f64>> {
+        match self.file.wheel.len() {
+            3 => self.left::<3>(rivals),
+            _ => self.left::<4>(rivals),
+        }
+    }
+
+    fn left<const N: usize>(&self, rivals: &[&Rival]) -> Option<Vec<f64>> {
+        let run = AlignedRun::<N>::new(&self.run, self.file)?;
+        let nominal = Model::<N>::nominal(self.file, supply_seen([&run]));
+        let with = RobotFile { effects: self.truth.effects.clone(), ..self.file.clone() };
+        let own = Model::<N>::nominal(&with, supply_seen([&run]));
+        let own = fitted(own, &self.prior(&self.hidden.cause, Extent::Each), &run);
+        let left = |rival: &&Rival| {
+            let extent = rival.axis.map_or(Extent::Each, |axis| Extent::Axis(axis as usize));
+            let prior = self.prior(rival.cause, extent);
+            let costs = self.models(rival, &nominal).into_iter().map(|model| fitted(model, &prior, &run));
+            costs.fold(f64::INFINITY, f64::min) - own
+        };
+        Some(rivals.iter().map(left).collect())
+    }
+
+    /// What the file states, but for what a cause that is one of its numbers says is wrong.
+    fn prior(&self, cause: &str, extent: Extent) -> Prior {
+        let stated = Prior::stated(self.file);
+        let freed = model_core::plant::robot::Nominal::ALL.iter().map(|number| number.cause()).find(|id| *id == cause);
+        let loose = FitSettings::default().released_sigma;
+        freed.map_or(stated.clone(), |cause| stated.without(FreedPrior { cause, extent }, loose))
+    }
+
+    /// The models that a rival is tried in: an effect where what is hidden sits, or on each wheel.
+    fn models<const N: usize>(&self, rival: &Rival, nominal: &Model<N>) -> Vec<Model<N>> {
+        let Some(card) = EffectKind::find(rival.cause).map(EffectKind::card) else { return vec![nominal.clone()] };
+        let places: Vec<Option<usize>> = match (card.scope, self.hidden.wheel) {
+            (Scope::Robot, _) | (Scope::Wheels, None) => vec![None],
+            (_, Some(wheel)) => vec![Some(wheel)],
+            (Scope::OneWheel, None) => (0..N).map(Some).collect(),
+        };
+        let mut models = Vec::new();
+        for wheel in places {
+            for share in BEGUN_AT {
+                let mut effect = EffectInstance::typical(card, wheel);
+                for (value, param) in effect.params.iter_mut().zip(card.params).filter(|(_, p)| p.role == Role::Size) {
+                    *value = param.absent + share * (param.typical - param.absent);
+                }
+                let mut model = nominal.clone();
+                model.add_effect(effect);
+                models.push(model);
+            }
+        }
+        models
+    }
+}
+
+/// C after a fit of everything that is free in a model.
+fn fitted<const N: usize>(model: Model<N>, prior: &Prior, run: &AlignedRun<N>) -> f64 {
+    let settings = FitSettings::default();
+    let free: Vec<Free> = nominal_free(&settings).into_iter().chain(effect_free(&model)).collect();
+    let (runs, windows) = ([run], [Windows::new(run, WINDOW_S)]);
+    let shots = Shots { runs: &runs, windows: &windows };
+    let fit = fit_with_dispersion(model, shots, None, &free, prior, &settings);
+    fit.cost + fit.prior_cost
+}
