@@ -20,7 +20,7 @@ use model_core::effects::EffectKind;
 use model_core::effects::card::{Card, Param, Role};
 use omni_gap::Session;
 use omni_gap::api::{PlannedRuns, SelftestKnobs, confusion};
-use omni_gap::engine::findings::{ConfusedCause, Rival};
+use omni_gap::engine::findings::ConfusedCause;
 use omni_gap::error::Result;
 use omni_gap::known_effects;
 use omni_gap::log::RobotFile;
@@ -58,22 +58,20 @@ pub fn class(session: &Path, label: &Label) -> Result<Vec<String>> {
     let Some(run) = session.runs.first() else { return Ok(Vec::new()) };
     let plan = PlannedRuns::of_scripts(vec![run.clone()]);
     let told = confusion(&without, &plan, &SelftestKnobs { wrong: ONCE, ..SelftestKnobs::default() })?;
-    let more = (session.runs.len() as f64).sqrt();
-    let apart = |asked: Option<f64>| asked.is_some_and(|asked| asked / more <= times);
-    let recording = TrueRecording::of(&session.robot, &with, hidden, run)?;
     let runs = session.runs.len() as f64;
-    let alike = |of: &ConfusedCause| -> Vec<String> {
-        let (near, far): (Vec<_>, Vec<_>) = of.others.iter().enumerate().partition(|(k, _)| *k < NEAREST);
-        let near: Vec<&Rival> = near.into_iter().map(|(_, rival)| rival).collect();
-        let left = recording.left_by(&near).unwrap_or_default();
-        let by_fit = near.iter().zip(left).filter(|(_, left)| runs * left < TOLD).map(|(rival, _)| rival.cause);
-        let by_lines = far.into_iter().filter(|(_, rival)| !apart(rival.told_times)).map(|(_, rival)| rival.cause);
-        by_fit.chain(by_lines).map(str::to_owned).collect()
+    let apart = |asked: Option<f64>| asked.is_some_and(|asked| asked / runs.sqrt() <= times);
+    let recording = TrueRecording::of(&session.robot, &with, hidden, run)?;
+    let alike = |of: &ConfusedCause| -> Result<Vec<String>> {
+        let (near, far) = of.others.split_at(NEAREST.min(of.others.len()));
+        let left = recording.left_by(near)?;
+        let by_fit = near.iter().zip(left).filter(|(_, left)| runs * left < TOLD).map(|(rival, _)| rival);
+        let by_lines = far.iter().filter(|rival| !apart(rival.told_times));
+        Ok(by_fit.chain(by_lines).map(|rival| rival.cause.to_owned()).collect())
     };
     // of friction, which may be wrong along each axis alone: what no axis parts
-    let along = told.causes.iter().filter(|of| of.cause == hidden.cause).map(alike);
+    let along = told.causes.iter().filter(|of| of.cause == hidden.cause).map(alike).collect::<Result<Vec<_>>>()?;
     let both = |a: Vec<String>, b: Vec<String>| a.into_iter().filter(|id| b.contains(id)).collect();
-    let mut class: Vec<String> = along.reduce(both).unwrap_or_default();
+    let mut class: Vec<String> = along.into_iter().reduce(both).unwrap_or_default();
     class.sort_unstable();
     class.dedup();
     Ok(class)
@@ -107,6 +105,8 @@ fn of_typical(card: &Card, value: &dyn Fn(&Param) -> f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use omni_gap::engine::findings::Rival;
+
     use super::super::label::Suite;
     use super::super::suites::Case;
     use super::*;
@@ -143,7 +143,7 @@ mod tests {
             TrueRecording::of(&session.robot, &truth, &label.hidden[0], &session.runs[0]).expect("it is driven");
         let rival = |cause| Rival { cause, axis: None, angle_rad: 0.0, told_times: None };
         let (itself, other, number) = (rival("creep"), rival("camera_scale"), rival("mass"));
-        let left = recording.left_by(&[&itself, &other, &number]).expect("three wheels or four");
+        let left = recording.left_by(&[itself, other, number]).expect("three wheels or four");
         assert!(left[0].abs() < 0.1 && left[1] > 100.0 && left[2] > 100.0, "{left:?}");
     }
 

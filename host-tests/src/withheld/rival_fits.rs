@@ -9,6 +9,7 @@
 
 use model_core::effects::EffectKind;
 use model_core::effects::card::{Role, Scope};
+use model_core::plant::robot::Nominal;
 use omni_gap::api::simulate;
 use omni_gap::engine::findings::Rival;
 use omni_gap::error::Result;
@@ -17,7 +18,7 @@ use omni_gap::identify::{
     nominal_free,
 };
 use omni_gap::log::{RobotFile, Run};
-use omni_gap::simulate::{AlignedRun, EffectInstance, Model, supply_seen};
+use omni_gap::simulate::{AlignedRun, EffectInstance, Model, drivable, supply_seen};
 
 use super::label::Hidden;
 
@@ -42,33 +43,36 @@ impl<'a> TrueRecording<'a> {
         Ok(Self { file, truth, hidden, run: simulate(truth, run, None)? })
     }
 
-    /// Δ of rivals, one after another [σ²]; none where the run cannot be laid out.
-    pub fn left_by(&self, rivals: &[&Rival]) -> Option<Vec<f64>> {
+    /// Δ of rivals, one after another [σ²].
+    ///
+    /// # Errors
+    /// Where nothing in the run drives the model.
+    pub fn left_by(&self, rivals: &[Rival]) -> Result<Vec<f64>> {
         match self.file.wheel.len() {
             3 => self.left::<3>(rivals),
             _ => self.left::<4>(rivals),
         }
     }
 
-    fn left<const N: usize>(&self, rivals: &[&Rival]) -> Option<Vec<f64>> {
-        let run = AlignedRun::<N>::new(&self.run, self.file)?;
+    fn left<const N: usize>(&self, rivals: &[Rival]) -> Result<Vec<f64>> {
+        let run = drivable::<N>(&self.run, self.file)?;
         let nominal = Model::<N>::nominal(self.file, supply_seen([&run]));
         let with = RobotFile { effects: self.truth.effects.clone(), ..self.file.clone() };
         let own = Model::<N>::nominal(&with, supply_seen([&run]));
         let own = fitted(own, &self.prior(&self.hidden.cause, Extent::Each), &run);
-        let left = |rival: &&Rival| {
+        let left = |rival: &Rival| {
             let extent = rival.axis.map_or(Extent::Each, |axis| Extent::Axis(axis as usize));
             let prior = self.prior(rival.cause, extent);
             let costs = self.models(rival, &nominal).into_iter().map(|model| fitted(model, &prior, &run));
             costs.fold(f64::INFINITY, f64::min) - own
         };
-        Some(rivals.iter().map(left).collect())
+        Ok(rivals.iter().map(left).collect())
     }
 
     /// What the file states, but for what a cause that is one of its numbers says is wrong.
     fn prior(&self, cause: &str, extent: Extent) -> Prior {
         let stated = Prior::stated(self.file);
-        let freed = model_core::plant::robot::Nominal::ALL.iter().map(|number| number.cause()).find(|id| *id == cause);
+        let freed = Nominal::ALL.iter().map(|number| number.cause()).find(|id| *id == cause);
         let loose = FitSettings::default().released_sigma;
         freed.map_or(stated.clone(), |cause| stated.without(FreedPrior { cause, extent }, loose))
     }

@@ -14,7 +14,7 @@ use crate::virtual_board::{BoardSetup, VirtualBoard};
 /// Seed of the boards: zeros of the converters, rotor angles, noise.
 const SEED: u64 = 6;
 
-/// μ, B [s/m], C and the inertia of their own of the wheels: a wheel that is blocked slides, as it does on a floor.
+/// μ, B [s/m], C, the inertia of their own and E of the wheels: a wheel that is blocked slides, as it does on a floor.
 const SLIP: [f64; 5] = [0.6, 30.0, 1.0, 0.0, 0.0];
 
 /// What turns with a motor's shaft [kg·m²]: a wheel that can slip needs a weight of its own.
