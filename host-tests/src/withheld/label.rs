@@ -96,6 +96,9 @@ pub struct Hidden {
     pub gap: f64,
 }
 
+/// In a class: that nothing is to be seen is as right.
+pub const NO_GAP: &str = "no_gap";
+
 /// What is true of one session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Label {
@@ -116,7 +119,7 @@ pub struct Label {
     /// The robot in the words of the catalogue; none where no entry describes what is hidden.
     #[serde(default)]
     pub truth: Option<TrueModel>,
-    /// Causes that no log of these sensors parts from the one that is hidden.
+    /// Causes that no log of these sensors parts from the one that is hidden; [`NO_GAP`] where nothing parts it from none.
     #[serde(default)]
     pub class: Vec<String>,
 }

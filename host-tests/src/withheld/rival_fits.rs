@@ -1,11 +1,13 @@
 //! What a rival leaves of what a true model records, fitted as a diagnosis fits it.
 //!
 //! ```text
-//! Δ = C_rival − C_true        C: Σ error²/σ² and the violations of what was stated, at the end of a fit
+//! Δ = C_rival − C_true        C = n·D + P, at the end of a fit
+//!                             D: Σ error²/σ² of one run        n: runs
+//!                             P: violations of what was stated, which is stated once however many runs there are
 //! ```
 //!
-//! The recording has no noise; with noise, Δ is in the mean what a rival scores worse by. Both fits begin at the numbers of the
-//! robot file that everybody is given, with all of them free within what it states.
+//! The recording has no noise; with noise, Δ is in the mean what a rival scores worse by. All fits begin at the numbers of the
+//! robot file that everybody is given, with all of them free within what it states. D is fitted with P/n.
 
 use model_core::effects::EffectKind;
 use model_core::effects::card::{Role, Scope};
@@ -25,48 +27,62 @@ use super::label::Hidden;
 /// Shares of its typical size that an effect is tried from [1]: a fit that begins too far off may stop short.
 const BEGUN_AT: [f64; 2] = [1.0, 0.2];
 
-/// What one run of a session would show without noise, were the true model the robot.
+/// What the runs of a session would show without noise, were the true model the robot: each as much as the first.
 #[derive(Debug)]
 pub struct TrueRecording<'a> {
     file: &'a RobotFile,
     truth: &'a RobotFile,
     hidden: &'a Hidden,
     run: Run,
+    /// n, above
+    runs: f64,
+}
+
+/// Δ of models that are not the true one [σ²].
+#[derive(Debug)]
+pub struct Left {
+    /// Of the plain model, without any cause.
+    pub plain: f64,
+    /// Of the rivals, one after another.
+    pub rivals: Vec<f64>,
 }
 
 impl<'a> TrueRecording<'a> {
-    /// Of a run's commands. `file` is what everybody is given, `truth` has the true numbers and what is hidden.
+    /// Of the commands of so many runs' first. `file` is what everybody is given, `truth` has the true numbers and what is
+    /// hidden.
     ///
     /// # Errors
     /// Where nothing in the run drives the model.
-    pub fn of(file: &'a RobotFile, truth: &'a RobotFile, hidden: &'a Hidden, run: &Run) -> Result<Self> {
-        Ok(Self { file, truth, hidden, run: simulate(truth, run, None)? })
+    pub fn of(file: &'a RobotFile, truth: &'a RobotFile, hidden: &'a Hidden, runs: &[Run]) -> Result<Self> {
+        Ok(Self { file, truth, hidden, run: simulate(truth, &runs[0], None)?, runs: runs.len() as f64 })
     }
 
-    /// Δ of rivals, one after another [σ²].
+    /// Δ of the plain model and of rivals.
     ///
     /// # Errors
     /// Where nothing in the run drives the model.
-    pub fn left_by(&self, rivals: &[Rival]) -> Result<Vec<f64>> {
+    pub fn left_by(&self, rivals: &[Rival]) -> Result<Left> {
         match self.file.wheel.len() {
             3 => self.left::<3>(rivals),
             _ => self.left::<4>(rivals),
         }
     }
 
-    fn left<const N: usize>(&self, rivals: &[Rival]) -> Result<Vec<f64>> {
+    fn left<const N: usize>(&self, rivals: &[Rival]) -> Result<Left> {
         let run = drivable::<N>(&self.run, self.file)?;
         let nominal = Model::<N>::nominal(self.file, supply_seen([&run]));
         let with = RobotFile { effects: self.truth.effects.clone(), ..self.file.clone() };
         let own = Model::<N>::nominal(&with, supply_seen([&run]));
-        let own = fitted(own, &self.prior(&self.hidden.cause, Extent::Each), &run);
+        let cost = |model, prior: &Prior| self.runs * fitted(model, &self.for_one_run(prior), &run);
+        let own = cost(own, &self.prior(&self.hidden.cause, Extent::Each));
         let left = |rival: &Rival| {
             let extent = rival.axis.map_or(Extent::Each, |axis| Extent::Axis(axis as usize));
             let prior = self.prior(rival.cause, extent);
-            let costs = self.models(rival, &nominal).into_iter().map(|model| fitted(model, &prior, &run));
+            let costs = self.models(rival, &nominal).into_iter().map(|model| cost(model, &prior));
             costs.fold(f64::INFINITY, f64::min) - own
         };
-        Ok(rivals.iter().map(left).collect())
+        let plain = cost(nominal.clone(), &Prior::stated(self.file)) - own;
+        Ok(Left { plain, rivals: rivals.iter().map(left).collect() })
     }
 
     /// What the file states, but for what a cause that is one of its numbers says is wrong.
@@ -75,6 +91,13 @@ impl<'a> TrueRecording<'a> {
         let freed = Nominal::ALL.iter().map(|number| number.cause()).find(|id| *id == cause);
         let loose = FitSettings::default().released_sigma;
         freed.map_or(stated.clone(), |cause| stated.without(FreedPrior { cause, extent }, loose))
+    }
+
+    /// One run's share of what is stated, P/n: every sigma √n times as wide.
+    fn for_one_run(&self, prior: &Prior) -> Prior {
+        let mut prior = prior.clone();
+        prior.rows.iter_mut().for_each(|row| row.sigma *= self.runs.sqrt());
+        prior
     }
 
     /// The models that a rival is tried in: an effect where what is hidden sits, or on each wheel.

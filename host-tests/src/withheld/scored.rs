@@ -7,7 +7,7 @@ use omni_gap::report::Verdict;
 use super::answer::Answer;
 use super::closed::Closed;
 use super::contestant::Ended;
-use super::label::{Label, Severity, Suite};
+use super::label::{Label, NO_GAP, Severity, Suite};
 
 /// A session, what is true of it, and what was answered; an answer that failed is none.
 #[derive(Clone, Debug)]
@@ -70,8 +70,14 @@ impl Scored {
 
     /// The same where causes that no log of these sensors parts count as one.
     pub fn right_by_class(&self) -> bool {
-        let first = self.answer.as_ref().and_then(|answer| answer.causes.first());
-        self.right() || (self.asked().is_some() && first.is_some_and(|first| self.label.class.contains(first)))
+        let Some(answer) = self.answer.as_ref().filter(|_| self.asked().is_some()) else { return self.right() };
+        let first = answer.causes.first().is_some_and(|first| self.label.class.contains(first));
+        self.right() || first || self.none_is_as_right(answer)
+    }
+
+    /// True where no cause is named, and nothing parts the hidden one from none.
+    fn none_is_as_right(&self, answer: &Answer) -> bool {
+        self.label.class.iter().any(|id| id == NO_GAP) && self.says_no_gap(answer)
     }
 
     /// How sure the answer is of what it says first, and whether that is right; one that failed is not sure of anything.
@@ -106,6 +112,16 @@ impl Scored {
     pub fn in_set(&self) -> Option<bool> {
         self.asked()?;
         Some(self.answer.as_ref().is_some_and(|answer| self.hidden().any(|cause| answer.set().contains(&cause))))
+    }
+
+    /// The same where causes that no log of these sensors parts count as one.
+    pub fn in_set_by_class(&self) -> Option<bool> {
+        self.asked()?;
+        let alike = |answer: &Answer| {
+            let class = || self.label.class.iter().map(String::as_str);
+            self.hidden().chain(class()).any(|cause| answer.set().contains(&cause)) || self.none_is_as_right(answer)
+        };
+        Some(self.answer.as_ref().is_some_and(alike))
     }
 
     /// How many causes are named at once, where any is; of single causes.
@@ -174,7 +190,7 @@ impl Scored {
         let best = answer.which.iter().max_by(|a, b| a.probability.total_cmp(&b.probability))?;
         let so = match best.cause.as_str() {
             "unknown" => self.label.foreign.is_some(),
-            "no_gap" => self.label.nothing() || self.label.severity() == Some(Severity::Invisible),
+            NO_GAP => self.label.nothing() || self.label.severity() == Some(Severity::Invisible),
             cause => self.hidden().any(|hidden| hidden == cause) || self.label.far_off.iter().any(|far| far == cause),
         };
         Some((best.probability, so))
@@ -286,10 +302,22 @@ mod tests {
 
     #[test]
     fn causes_that_nothing_parts_count_as_one() {
-        let mut alike = scored(&[("wheel_slip", None, 5.0)], CREEP);
+        let mut alike = scored(&[("stribeck", None, 5.0)], CREEP);
         assert!(!alike.right_by_class());
         alike.label.class = vec!["creep".to_owned()];
         assert!(alike.right_by_class() && !alike.right());
+        assert_eq!((alike.in_set(), alike.in_set_by_class()), (Some(false), Some(true)));
+    }
+
+    #[test]
+    fn a_cause_that_nothing_parts_from_none_may_be_missed_but_not_be_called_another() {
+        let class = |said| Scored {
+            label: Label { class: vec!["no_gap".to_owned()], ..scored(&[("stribeck", None, 5.0)], said).label },
+            ..scored(&[("stribeck", None, 5.0)], said)
+        };
+        let (missed, another) = (class(NO_GAP), class(CREEP));
+        assert!(missed.right_by_class() && !missed.right() && missed.in_set_by_class() == Some(true));
+        assert!(!another.right_by_class() && another.in_set_by_class() == Some(false));
     }
 
     #[test]

@@ -55,12 +55,13 @@ const fn plain(name: &'static str, of: fn(&[Scored]) -> Option<Figure>) -> Colum
     Column { name, of, percent: false }
 }
 
-const COLUMNS: [Column; 16] = [
+const COLUMNS: [Column; 17] = [
     percent("right", |all| share(all, |one| Some(one.right()))),
-    percent("right, classes as one", by_class),
+    percent("right, classes as one", |all| by_class(all, |one| Some(one.right_by_class()))),
     percent("macro recall", macro_recall),
     percent("another named", |all| share(all, |one| Some(one.names_another()))),
     percent("in the set", |all| share(all, Scored::in_set)),
+    percent("in the set, classes as one", |all| by_class(all, Scored::in_set_by_class)),
     plain("causes in it", |all| figure(all, Scored::set_size)),
     percent("among three", |all| share(all, Scored::in_three)),
     percent("of several, named", |all| figure(all, Scored::recall)),
@@ -75,9 +76,9 @@ const COLUMNS: [Column; 16] = [
 ];
 
 /// Where some label has a class.
-fn by_class(all: &[Scored]) -> Option<Figure> {
+fn by_class(all: &[Scored], of: fn(&Scored) -> Option<bool>) -> Option<Figure> {
     let some = all.iter().any(|one| !one.label.class.is_empty());
-    some.then(|| share(all, |one| Some(one.right_by_class())))?
+    some.then(|| share(all, of))?
 }
 
 /// Single causes that can be seen, each cause as much as any other.
