@@ -25,7 +25,7 @@ pub(super) fn exchanged_for_numbers<const N: usize>(
             break;
         }
         let effects = (0..selected.found.len()).filter(|k| !selected.found[*k].is_parameter());
-        let exchanged = effects.map(|k| exchanged(data, &selected, k, progress));
+        let exchanged = effects.filter_map(|k| exchanged(data, &selected, k, progress));
         let earned = exchanged.map(|other| earning_their_place(data, other, refitted));
         let gained = earned.map(|other| (gain(&other.corrected, &selected.corrected), other));
         match gained.max_by(|a, b| a.0.total_cmp(&b.0)) {
@@ -36,18 +36,24 @@ pub(super) fn exchanged_for_numbers<const N: usize>(
     selected
 }
 
-/// Without one of its effects: numbers first, then whatever is left.
+/// Without one of its effects: numbers first, then whatever is left; none where numbers cannot stand in for it.
 fn exchanged<const N: usize>(
     data: &Data<'_, N>,
     selected: &Selection<N>,
     effect: usize,
     progress: Progress<'_>,
-) -> Selection<N> {
+) -> Option<Selection<N>> {
     let mut other = selected.clone();
-    other.corrected = without(data, &selected.found, effect, &selected.corrected);
+    let without = without(data, &selected.found, effect, &selected.corrected);
+    other.corrected = without.clone();
     other.found.remove(effect);
     let numbers = other.forward(data, Tried { effects: false, numbers: true }, progress);
-    numbers.forward(data, Tried { effects: true, numbers: true }, progress)
+    let scale = error_scale([&without, &numbers.corrected, &selected.corrected]);
+    let [without, with_numbers, with_effect] =
+        [&without, &numbers.corrected, &selected.corrected].map(|model| model.score(scale));
+    // where they take back less than they leave, a search for effects beside them would only find the same one again
+    let stand_in = without - with_numbers >= with_numbers - with_effect;
+    stand_in.then(|| numbers.forward(data, Tried { effects: true, numbers: true }, progress))
 }
 
 /// By how much a model is better than another.
