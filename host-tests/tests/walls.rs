@@ -152,6 +152,13 @@ fn nothing_is_skipped_and_nothing_is_left_to_do() {
 }
 
 #[test]
+fn no_test_stands_where_no_test_program_is_built() {
+    for programs in ["host-tests/src/bin/", "host-tests/chip/src/bin/"] {
+        none(in_all(&rust_below(programs), |source| needles::in_code(source, needles::UNTESTED)));
+    }
+}
+
+#[test]
 fn no_file_names_a_folder_of_one_machine() {
     none(in_all(&sources(tree::WRITTEN), needles::machine_paths));
 }

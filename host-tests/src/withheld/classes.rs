@@ -61,7 +61,7 @@ pub fn class(session: &Path, label: &Label) -> Result<Vec<String>> {
     let Some(times) = times(hidden, &with, &session.robot) else { return Ok(Vec::new()) };
     let without = RobotFile { effects: Vec::new(), ..with.clone() };
     let Some(run) = session.runs.first() else { return Ok(Vec::new()) };
-    let recording = TrueRecording::of(&session.robot, &with, hidden, &session.runs)?;
+    let recording = TrueRecording::of(&session.robot, &with, hidden, (run, session.runs.len()))?;
     let plan = PlannedRuns::of_scripts(vec![run.clone()]);
     let told = confusion(&without, &plan, &SelftestKnobs { wrong: ONCE, ..SelftestKnobs::default() })?;
     let runs = session.runs.len() as f64;
@@ -147,13 +147,18 @@ mod tests {
         let (folder, label) = hiding("creep");
         let session = Session::load(folder.path(), None, &known_effects()).expect("a session");
         let truth = label.truth.as_ref().expect("a model").read().expect("a robot file");
-        let recording =
-            TrueRecording::of(&session.robot, &truth, &label.hidden[0], &session.runs).expect("it is driven");
+        let of_runs = |runs| {
+            let run = (&session.runs[0], runs);
+            TrueRecording::of(&session.robot, &truth, &label.hidden[0], run).expect("it is driven")
+        };
         let rival = |cause| Rival { cause, axis: None, angle_rad: 0.0, told_times: None };
-        let (itself, other, number) = (rival("creep"), rival("camera_scale"), rival("mass"));
-        let left = recording.left_by(&[itself, other, number]).expect("three wheels or four");
+        let rivals = [rival("creep"), rival("camera_scale"), rival("mass")];
+        let left = of_runs(session.runs.len()).left_by(&rivals).expect("three wheels or four");
         let [itself, other, number] = left.rivals[..] else { panic!("{left:?}") };
         assert!(itself.abs() < 0.1 && [other, number, left.plain].iter().all(|left| *left > 100.0), "{left:?}");
+        // what was recorded four times counts four times, what was stated of the robot once
+        let [once, four_times] = [1, 4].map(|runs| of_runs(runs).left_by(&[]).expect("four wheels").plain);
+        assert!(once < four_times && four_times < 3.99 * once, "{once} and {four_times}");
     }
 
     /// A session that hides a cause at some size, with its label as it would be smaller.
@@ -169,8 +174,8 @@ mod tests {
         let robot = truth.robot[..at].to_owned() + &(number * 1e-3).to_string() + &truth.robot[end..];
         smaller.truth = Some(super::super::true_model::TrueModel { robot, ..truth });
         let small = class(folder.path(), &smaller).expect("a session");
-        assert!(!large.iter().any(|id| id == "no_gap" || id == "creep"), "{large:?}");
-        assert_eq!(small, ["no_gap"]);
+        assert!(!large.iter().any(|id| id == NO_GAP || id == "creep"), "{large:?}");
+        assert_eq!(small, [NO_GAP]);
         let nothing = Label { hidden: Vec::new(), ..label };
         assert!(class(folder.path(), &nothing).expect("a session").is_empty());
     }

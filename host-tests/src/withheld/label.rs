@@ -96,7 +96,7 @@ pub struct Hidden {
     pub gap: f64,
 }
 
-/// In a class: that nothing is to be seen is as right.
+/// As answers and classes call it that there is nothing to be seen.
 pub const NO_GAP: &str = "no_gap";
 
 /// What is true of one session.

@@ -48,13 +48,18 @@ pub struct Left {
 }
 
 impl<'a> TrueRecording<'a> {
-    /// Of the commands of so many runs' first. `file` is what everybody is given, `truth` has the true numbers and what is
-    /// hidden.
+    /// Of the commands of a run, and how many like it there are. `file` is what everybody is given, `truth` has the true numbers
+    /// and what is hidden.
     ///
     /// # Errors
     /// Where nothing in the run drives the model.
-    pub fn of(file: &'a RobotFile, truth: &'a RobotFile, hidden: &'a Hidden, runs: &[Run]) -> Result<Self> {
-        Ok(Self { file, truth, hidden, run: simulate(truth, &runs[0], None)?, runs: runs.len() as f64 })
+    pub fn of(
+        file: &'a RobotFile,
+        truth: &'a RobotFile,
+        hidden: &'a Hidden,
+        (run, runs): (&Run, usize),
+    ) -> Result<Self> {
+        Ok(Self { file, truth, hidden, run: simulate(truth, run, None)?, runs: runs as f64 })
     }
 
     /// Δ of the plain model and of rivals.

@@ -83,7 +83,7 @@ impl Scored {
     /// How sure the answer is of what it says first, and whether that is right; one that failed is not sure of anything.
     pub fn sure(&self) -> (f64, bool) {
         let says = |answer: &Answer| match answer.verdict {
-            Verdict::NoGap => answer.probability("no_gap"),
+            Verdict::NoGap => answer.probability(NO_GAP),
             Verdict::Unknown => answer.probability("unknown"),
             _ => answer.causes.first().map_or(0.0, |first| answer.probability(first)),
         };
@@ -181,7 +181,7 @@ impl Scored {
         if self.label.foreign.is_some() {
             return answer.probability("unknown");
         }
-        self.hidden().next().map_or_else(|| answer.probability("no_gap"), |cause| answer.probability(cause))
+        self.hidden().next().map_or_else(|| answer.probability(NO_GAP), |cause| answer.probability(cause))
     }
 
     /// What is most likely by the answer, and whether it is so.
@@ -248,7 +248,8 @@ mod tests {
     const CREEP: &str = r#"{"verdict": "effect", "causes": ["creep"], "where": [{"stage": "contact", "share": 1.0}],
         "which": [{"cause": "creep", "probability": 0.8, "wheel": 1, "not_told_apart_from": ["wheel_slip"]},
                   {"cause": "stribeck", "probability": 0.2}]}"#;
-    const NO_GAP: &str = r#"{"verdict": "no_gap", "causes": [], "which": [{"cause": "no_gap", "probability": 1.0}]}"#;
+    const NOTHING_SEEN: &str =
+        r#"{"verdict": "no_gap", "causes": [], "which": [{"cause": "no_gap", "probability": 1.0}]}"#;
     const MASS: &str =
         r#"{"verdict": "parameter", "causes": ["mass"], "which": [{"cause": "mass", "probability": 1.0}]}"#;
 
@@ -267,13 +268,13 @@ mod tests {
 
     #[test]
     fn what_cannot_be_seen_may_be_passed_over_and_what_can_may_not() {
-        assert!(scored(&[("creep", None, 1.0)], NO_GAP).right());
-        assert!(!scored(&[("creep", None, 2.0)], NO_GAP).right());
+        assert!(scored(&[("creep", None, 1.0)], NOTHING_SEEN).right());
+        assert!(!scored(&[("creep", None, 2.0)], NOTHING_SEEN).right());
     }
 
     #[test]
     fn nothing_is_no_gap_or_the_number_that_is_twice_as_far_off_as_stated() {
-        assert!(scored(&[], NO_GAP).right() && scored(&[], MASS).right());
+        assert!(scored(&[], NOTHING_SEEN).right() && scored(&[], MASS).right());
         assert_eq!(scored(&[], MASS).false_alarm(), Some(false));
         let named = scored(&[], CREEP);
         assert!(!named.right() && named.false_alarm() == Some(true) && named.names_another());
@@ -295,7 +296,7 @@ mod tests {
         // (0.8 − 1)² + 0.2², and 0.8² + (0.2 − 1)² where the other one is true
         assert!((right.brier() - 0.08).abs() < 1e-12);
         assert!((scored(&[("stribeck", None, 5.0)], CREEP).brier() - 1.28).abs() < 1e-12);
-        assert_eq!(scored(&[("mass", None, 5.0)], NO_GAP).sure(), (1.0, false));
+        assert_eq!(scored(&[("mass", None, 5.0)], NOTHING_SEEN).sure(), (1.0, false));
         let failed = Scored { answer: None, ..right };
         assert_eq!((failed.sure(), failed.brier()), ((0.0, false), 1.0));
     }
@@ -312,17 +313,17 @@ mod tests {
     #[test]
     fn a_cause_that_nothing_parts_from_none_may_be_missed_but_not_be_called_another() {
         let class = |said| Scored {
-            label: Label { class: vec!["no_gap".to_owned()], ..scored(&[("stribeck", None, 5.0)], said).label },
+            label: Label { class: vec![NO_GAP.to_owned()], ..scored(&[("stribeck", None, 5.0)], said).label },
             ..scored(&[("stribeck", None, 5.0)], said)
         };
-        let (missed, another) = (class(NO_GAP), class(CREEP));
+        let (missed, another) = (class(NOTHING_SEEN), class(CREEP));
         assert!(missed.right_by_class() && !missed.right() && missed.in_set_by_class() == Some(true));
         assert!(!another.right_by_class() && another.in_set_by_class() == Some(false));
     }
 
     #[test]
     fn what_no_entry_describes_is_unknown() {
-        let mut open = scored(&[], NO_GAP);
+        let mut open = scored(&[], NOTHING_SEEN);
         open.label.foreign = Some("gust".to_owned());
         assert!(!open.right() && open.false_alarm().is_none());
         let unknown = r#"{"verdict": "unknown", "causes": [], "which": [{"cause": "unknown", "probability": 0.9},

@@ -51,6 +51,10 @@ pub const UNFINISHED: &[Needle] = &[
     ("unimplemented!", "finish it, or make it impossible to ask for"),
 ];
 
+/// What no program of the host's tests holds.
+pub const UNTESTED: &[Needle] =
+    &[("#[test]", "no test program is built of a program, so it would never run; test what the library does")];
+
 /// Every needle in the code of a source, prose left out.
 pub fn in_code(source: &Source, needles: &[Needle]) -> Vec<Finding> {
     let code = code_of(&source.text);
@@ -102,6 +106,7 @@ fn each_word_is_found_in_code() {
     for line in ["#[ignore]", "#[ignore = \"slow\"]", "todo!()", "std::unimplemented!(\"later\")"] {
         assert_eq!(lines(in_code(&source(line), UNFINISHED)), [1], "{line}");
     }
+    assert_eq!(lines(in_code(&source("#[test]\nfn a() {}"), UNTESTED)), [1]);
 }
 
 #[test]

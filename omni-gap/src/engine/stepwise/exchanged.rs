@@ -44,15 +44,15 @@ fn exchanged<const N: usize>(
     progress: Progress<'_>,
 ) -> Option<Selection<N>> {
     let mut other = selected.clone();
-    let without = without(data, &selected.found, effect, &selected.corrected);
-    other.corrected = without.clone();
+    let bare = without(data, &selected.found, effect, &selected.corrected);
+    other.corrected = bare.clone();
     other.found.remove(effect);
     let numbers = other.forward(data, Tried { effects: false, numbers: true }, progress);
-    let scale = error_scale([&without, &numbers.corrected, &selected.corrected]);
-    let [without, with_numbers, with_effect] =
-        [&without, &numbers.corrected, &selected.corrected].map(|model| model.score(scale));
+    let models = [&bare, &numbers.corrected, &selected.corrected];
+    let scale = error_scale(models);
+    let [bare, by_numbers, by_effect] = models.map(|model| model.score(scale));
     // where they take back less than they leave, a search for effects beside them would only find the same one again
-    let stand_in = without - with_numbers >= with_numbers - with_effect;
+    let stand_in = bare - by_numbers >= by_numbers - by_effect;
     stand_in.then(|| numbers.forward(data, Tried { effects: true, numbers: true }, progress))
 }
 
