@@ -1,50 +1,62 @@
-//! The net under everything that moves: whole reports compared with the frozen ones, and the counts that the engine
-//! reaches on the reduced benchmark. All of it rests on one set of diagnoses.
+//! The net under everything that moves: a third of the frozen reports compared with what is answered now, and what must
+//! hold in all of them. `cargo xtask frozen` compares every one.
 
 use std::sync::LazyLock;
 
 use host_tests::catalogue::outcome::{Judgement, judge};
-use host_tests::catalogue::sessions::{BenchmarkCase, HiddenCause, short_cases};
-use host_tests::frozen::{FILE, answers, compare, recordings::recordings};
+use host_tests::catalogue::sessions::{HiddenCause, short_cases};
+use host_tests::frozen::recordings::{FrozenCase, recordings};
+use host_tests::frozen::{FILE, answers, compare};
 use host_tests::golden;
 use omni_gap::Report;
 use serde_json::Value;
 
-static ANSWERS: LazyLock<Vec<Value>> = LazyLock::new(|| answers(&recordings()).expect("recordings are made here"));
+/// How many recordings there are to one that is diagnosed here: no multiple of two, since kinds of robots alternate.
+const TO_ONE: usize = 3;
+
+static ANSWERS: LazyLock<Vec<Value>> = LazyLock::new(|| answers(&every(TO_ONE)).expect("recordings are made here"));
+
+/// One of so many recordings.
+fn every(to_one: usize) -> Vec<FrozenCase> {
+    recordings().into_iter().step_by(to_one).collect()
+}
+
+/// The frozen answers, one a line.
+fn frozen() -> String {
+    std::fs::read_to_string(golden::path(FILE)).expect("it is kept")
+}
 
 fn report(answer: &Value) -> Report {
     serde_json::from_value(answer["report"].clone()).expect("a report comes back from its file")
 }
 
-/// The reduced benchmark's sessions, each with how good its answer is.
-fn judged() -> Vec<(BenchmarkCase, Judgement)> {
-    let judged = |(case, answer): (BenchmarkCase, &Value)| {
-        let how = judge(&case.hidden, &report(answer));
-        (case, how)
-    };
-    short_cases().into_iter().zip(ANSWERS.iter()).map(judged).collect()
-}
-
 #[test]
-fn every_field_of_every_frozen_report_is_what_it_was() {
-    let written = compare::written(&ANSWERS);
-    let same =
-        golden::check_page(FILE, &written, |frozen| compare::differences(frozen, &ANSWERS)).expect("it can be written");
-    assert!(same, "differences are listed above");
+fn every_field_of_a_third_of_the_frozen_reports_is_what_it_was() {
+    let frozen: String = frozen().lines().step_by(TO_ONE).map(|line| format!("{line}\n")).collect();
+    let differences = compare::differences(&frozen, &ANSWERS);
+    assert!(differences.is_empty(), "(`BLESS=1 cargo xtask frozen` freezes anew)\n{}", differences.join("\n"));
 }
 
 #[test]
 fn one_thread_gives_the_answers_that_two_give() {
-    let every_seventh: Vec<_> = recordings().into_iter().step_by(7).collect();
+    let few = every(9 * TO_ONE);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be had");
-    let alone = pool.install(|| answers(&every_seventh)).expect("recordings are made here");
-    let together: Vec<&Value> = ANSWERS.iter().step_by(7).collect();
+    let alone = pool.install(|| answers(&few)).expect("recordings are made here");
+    let together: Vec<&Value> = ANSWERS.iter().step_by(9).collect();
     assert_eq!(alone.iter().collect::<Vec<_>>(), together);
 }
 
 #[test]
 fn the_reduced_benchmark_is_answered_as_well_as_ever() {
-    let judged = judged();
+    let frozen: Vec<Value> =
+        frozen().lines().map(|line| serde_json::from_str(line).expect("an answer a line")).collect();
+    let all = recordings();
+    assert!(frozen.iter().map(|answer| answer["recording"].as_str()).eq(all.iter().map(|one| Some(one.name.as_str()))));
+    let judged = short_cases().into_iter().zip(&frozen).map(|(case, answer)| {
+        let how = judge(&case.hidden, &report(answer));
+        (case, how)
+    });
+    let judged: Vec<_> = judged.collect();
     let right = |kind: fn(&HiddenCause) -> bool| {
         let of: Vec<_> = judged.iter().filter(|(case, _)| kind(&case.hidden)).collect();
         let wrong: Vec<String> = of

@@ -2,8 +2,8 @@
 //!
 //! While code is moved and answers are not meant to change, every field of `report.json` and the corrected robot file of
 //! many [`recordings`] is held to what it was: one line of `golden/frozen.jsonl` a recording. A field that is new is left
-//! aside ([`compare`]); everything else has to be the same number, bit for bit. `cargo xtask frozen` compares all of
-//! them, and with a folder of real recordings those too (`golden/frozen-real.jsonl`).
+//! aside ([`compare`]); everything else has to be the same number, bit for bit. The tests look at every third of them;
+//! `cargo xtask frozen` compares each, and with a folder of real recordings those too (`golden/frozen-real.jsonl`).
 
 pub mod compare;
 pub mod layouts;
