@@ -14,7 +14,7 @@ use omni_gap::{Options, diagnose, known_effects};
 /// What is planned: runs, length [s], rows a second [1/s], camera frames a second [1/s] and largest voltage [V].
 const RUNS: usize = 6;
 const DURATION: f64 = 6.0;
-const RATE: f64 = 200.0;
+const RATE: f64 = 100.0;
 const CAMERA: f64 = 60.0;
 const VOLTAGE: f64 = 8.0;
 
@@ -55,9 +55,9 @@ fn of<'a>(said: &'a SelfTest, id: &str) -> &'a SeenCause {
     said.causes.iter().find(|cause| cause.cause == id).unwrap_or_else(|| panic!("{id} is not judged"))
 }
 
-/// A script: voltages (u₀, u₁, u₂, u₃) by time, with currents, wheel speeds and poses logged.
+/// A script of ten seconds: voltages (u₀, u₁, u₂, u₃) by time, with currents, wheel speeds and poses logged.
 fn script(u: impl Fn(f64) -> [f64; 4]) -> PlannedRuns {
-    let t: Vec<f64> = (0..2000).map(|row| f64::from(row) / RATE).collect();
+    let t: Vec<f64> = (0..(10.0 * RATE) as u32).map(|row| f64::from(row) / RATE).collect();
     let volts: Vec<Channel> = (0..4).map(|j| Channel::from_values(t.iter().map(|t| u(*t)[j]))).collect();
     let logged = |count: usize| Some(Group::new(vec![Channel::from_values(t.iter().map(|_| 0.0)); count]));
     let run = Run { u: Some(Group::new(volts)), i: logged(4), w: logged(4), pose: logged(3), ..Run::default() };
