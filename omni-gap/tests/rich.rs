@@ -145,10 +145,10 @@ fn named_times(cause: &SeenCause) -> f64 {
 /// Causes named at their typical size by random motion and by a rich one, and the median over the effects of the size that
 /// random motion needs over that which the rich one needs.
 fn compared(file: &RobotFile) -> (usize, usize, f64) {
-    let plan = RichPlan { rate: 100.0, ..PLAN };
-    let RichPlan { rate, voltage, scripts: runs, duration, .. } = plan;
+    let slower = RichPlan { rate: 100.0, ..PLAN };
+    let RichPlan { rate, voltage, scripts: runs, duration, .. } = slower;
     let logged = vec![SignalGroup::Current, SignalGroup::WheelSpeed, SignalGroup::Pose];
-    let scripts = rich(file, &plan).scripts.into_iter().map(|script| script.run).collect();
+    let scripts = rich(file, &slower).scripts.into_iter().map(|script| script.run).collect();
     let [random, rich] = [Driven::Random { runs, duration, rate, voltage }, Driven::Scripts(scripts)].map(|driven| {
         let plan = PlannedRuns { driven, logged: logged.clone(), camera_rate: CAMERA };
         selftest(file, &plan, &SelftestKnobs::default()).unwrap_or_else(|why| panic!("{why}"))

@@ -61,11 +61,11 @@ pub fn class(session: &Path, label: &Label) -> Result<Vec<String>> {
     let Some(times) = times(hidden, &with, &session.robot) else { return Ok(Vec::new()) };
     let without = RobotFile { effects: Vec::new(), ..with.clone() };
     let Some(run) = session.runs.first() else { return Ok(Vec::new()) };
-    let recording = TrueRecording::of(&session.robot, &with, hidden, (run, session.runs.len()))?;
+    let runs = session.runs.len();
+    let recording = TrueRecording::of(&session.robot, &with, hidden, (run, runs))?;
     let plan = PlannedRuns::of_scripts(vec![run.clone()]);
     let told = confusion(&without, &plan, &SelftestKnobs { wrong: ONCE, ..SelftestKnobs::default() })?;
-    let runs = session.runs.len() as f64;
-    let apart = |asked: Option<f64>| asked.is_some_and(|asked| asked / runs.sqrt() <= times);
+    let apart = |asked: Option<f64>| asked.is_some_and(|asked| asked / (runs as f64).sqrt() <= times);
     let alike = |of: &ConfusedCause| -> Result<Vec<String>> {
         let (near, far) = of.others.split_at(NEAREST.min(of.others.len()));
         let left = recording.left_by(near)?;
